@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "agvd/diagram/build_diagram.h"
-#include "agvd/diagram/diagram_on_input.h"
 #include "agvd/propagation/propagate.h"
 #include "remesh/sites/prepared_surface.h"
 

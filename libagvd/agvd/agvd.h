@@ -6,8 +6,6 @@
 #include "agvd/core/error.h"
 #include "agvd/core/version.h"
 #include "agvd/diagram/build_diagram.h"
-#include "agvd/diagram/cells.h"
-#include "agvd/diagram/diagram_on_input.h"
 #include "agvd/intrinsic/intrinsic_triangulation.h"
 #include "agvd/intrinsic/thin.h"
 #include "agvd/mesh/closest_point.h"

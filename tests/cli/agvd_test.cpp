@@ -2,7 +2,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "agvd/diagram/cells.h"
+#include "agvd/diagram/diagram.h"
 #include "remesh/meshfile/read_diagram.h"
 #include "remesh/meshfile/read_mesh.h"
 #include "support/dirty_shapes.h"

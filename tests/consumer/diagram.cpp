@@ -1,5 +1,4 @@
 #include <agvd/agvd.h>
-#include <agvd/diagram/curve_piece.h>
 
 #include <cmath>
 #include <cstdio>

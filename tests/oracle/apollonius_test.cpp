@@ -73,7 +73,7 @@ std::vector<Breakpoint> label_boundary(const ApolloniusCase& c) {
             const Vec2 at = p + intervals[i].end * (q - p);
             const auto name = static_cast<Index>(breakpoints.size());
             breakpoints.push_back({at, nearest(c.relays, at).distance, NodeId::of_crossing(name),
-                                   intervals[i + 1].site, IntervalId::after_crossing(name)});
+                                   intervals[i + 1].site, name});
         }
     }
     return breakpoints;
@@ -142,7 +142,7 @@ bool barely_meets(const std::vector<Vertex>& vertices, const Vertex& v) {
 
 // The distances of the two sites of an arc are the least that CGAL knows.
 void expect_on_bisector(const ApolloniusCase& c, const Graph& graph, const Vec2& p,
-                        const LocalArc& arc) {
+                        const Arc& arc) {
     const auto nearest_site = graph.nearest_neighbor({p.x(), p.y()})->site();
     const double least = (p - Vec2(nearest_site.point().x(), nearest_site.point().y())).norm() -
                          nearest_site.weight();
@@ -159,7 +159,7 @@ TEST(Apollonius, InATriangleIsThatOfCgal) {
         const ApolloniusCase c = make_case(seed);
         const std::vector<Breakpoint> breakpoints = label_boundary(c);
         const Graph graph = graph_of(c);
-        LocalDiagram local;
+        Arcs local;
         TriangleSolver solver(0.01, local);
         std::vector<Index> sites;
         for (const PlanarRelay& relay : c.relays) sites.push_back(relay.site);
@@ -167,7 +167,7 @@ TEST(Apollonius, InATriangleIsThatOfCgal) {
         if (!breakpoints.empty()) solver.solve(0, c.corners, breakpoints);
 
         std::vector<Vertex> ours;
-        for (const LocalVoronoiVertex& voronoi_vertex : local.voronoi_vertices) {
+        for (const VoronoiVertex& voronoi_vertex : local.voronoi_vertices) {
             ours.push_back({{voronoi_vertex.sites.begin(), voronoi_vertex.sites.end()},
                             voronoi_vertex.position});
         }
@@ -180,7 +180,7 @@ TEST(Apollonius, InATriangleIsThatOfCgal) {
             if (depth(c, v.position) < position_rounding || barely_meets(theirs, v)) continue;
             EXPECT_TRUE(has_near(ours, v)) << "only CGAL's: " << v.position.transpose();
         }
-        for (const LocalArc& arc : local.arcs) {
+        for (const Arc& arc : local.arcs) {
             for (Index i = arc.first_point; i < arc.first_point + arc.num_points; ++i) {
                 expect_on_bisector(c, graph, local.points[i], arc);
             }

@@ -13,7 +13,7 @@
 #include <iostream>
 #include <sstream>
 
-#include "agvd/diagram/point_label.h"
+#include "agvd/diagram/face_relays.h"
 #include "agvd/mesh/point_faces.h"
 #include "agvd/propagation/propagate.h"
 #include "paper/oracle.h"
@@ -120,13 +120,12 @@ EngineCase make_case(const TriangleMesh& mesh, std::vector<SurfacePoint> sites,
 // What an engine says of the targets.
 std::vector<PointLabel> answers(const EngineCase& c, const Propagation& propagation) {
     std::vector<PointLabel> all;
-    PointLabels labels(c.surface, propagation);
     for (std::size_t i = 0; i < c.targets.size(); ++i) {
         if (i < c.vertices.size()) {
             const Index v = c.vertices[i];
             all.push_back({propagation.vertex_site[v], propagation.vertex_distance[v]});
         } else {
-            all.push_back(labels(c.targets[i]));
+            all.push_back(point_label(c.surface, propagation, c.targets[i]));
         }
     }
     return all;

@@ -4,7 +4,7 @@
 // face to face; within a face no two of their segments may cross by more than rounding.
 #include "support/checks.h"
 
-#include "agvd/diagram/curve_piece.h"
+#include "agvd/diagram/diagram.h"
 #include "agvd/mesh/face_area.h"
 #include "agvd/mesh/point_faces.h"
 

@@ -2,7 +2,7 @@
 //! Invariants that hold for every valid result.
 #pragma once
 
-#include "agvd/diagram/cells.h"
+#include "agvd/diagram/diagram.h"
 #include "agvd/propagation/propagate.h"
 
 namespace checks {

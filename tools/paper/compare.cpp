@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-#include "agvd/diagram/point_label.h"
+#include "agvd/diagram/face_relays.h"
 #include "agvd/mesh/uniform_points.h"
 #include "paper/oracle.h"
 
@@ -70,9 +70,10 @@ void ask_labels(const Surface& surface, const Approximation& approximation,
                 std::span<const SurfacePoint> samples, const NearestSites& exact,
                 Questions& questions, Open& open) {
     const IntrinsicTriangulation* base = approximation.base;
-    PointLabels labels(base ? base->surface() : surface, approximation.propagation);
+    const Surface& asked = base ? base->surface() : surface;
     for (std::size_t i = 0; i < samples.size(); ++i) {
-        const SiteId ours = labels(base ? base->to_intrinsic(samples[i]) : samples[i]).site;
+        const SurfacePoint point = base ? base->to_intrinsic(samples[i]) : samples[i];
+        const SiteId ours = point_label(asked, approximation.propagation, point).site;
         if (ours == exact.site[i]) continue;
         if (ours.is_valid() && exact.site[i].is_valid()) {
             open.doubtful_labels.push_back({questions.ask(ours, samples[i]), exact.distance[i]});

@@ -13,7 +13,7 @@
 
 #include "agvd/core/error.h"
 #include "agvd/core/parallel.h"
-#include "agvd/diagram/cells.h"
+#include "agvd/diagram/diagram.h"
 #include "agvd/mesh/closest_point.h"
 #include "agvd/mesh/uniform_points.h"
 #include "paper/cell_at.h"

@@ -1,56 +1,324 @@
-#include "agvd/diagram/absorb_islands.h"
-
+// Points and stretches of one label that touch are united by union-find; nodes are numbered as in
+// EdgeLabels. What is not united with its cell's site is an island. It gets the label of a
+// neighbouring cell that is connected to its own site, on edges and cuts alike, and the faces
+// around it are traced again.
 #include <algorithm>
+#include <map>
+#include <utility>
 
-#include "agvd/diagram/join.h"
-#include "agvd/diagram/loops.h"
-#include "agvd/diagram/trace.h"
+#include "agvd/core/union_find.h"
+#include "agvd/diagram/stages.h"
 #include "agvd/mesh/one_ring.h"
+#include "agvd/mesh/point_faces.h"
 
 namespace agvd {
 namespace {
 
-void trace_again(const StageInput& input, std::span<const Index> faces, DiagramParts& parts) {
-    for (const Index face : faces) remove_arcs(face, parts);
-    trace_faces(input, positions_of(parts.labels, faces), parts);
-    join_arcs(parts.labels, parts.arcs, faces, Ticker(input.poller), parts.joined);
+// By site. A site that is no_index has no cell.
+using CellSet = std::vector<std::uint8_t>;
+
+bool has(const CellSet& cells, Index site) { return site != no_index && cells[site] != 0; }
+
+// --- Where sites lie ---------------------------------------------------------------------------
+
+// The interval of an edge that holds a site on it.
+Index interval_of(const StageInput& in, const EdgeLabels& labels, Index site, Index half_edge) {
+    const Surface& surface = in.surface;
+    const Index e = surface.edge[half_edge];
+    const bool forward = surface.edge_half[e] == half_edge;
+    const double at = in.sites[site].barycentric[(half_edge + (forward ? 1 : 0)) % 3];
+    const Index tail = surface.tail(surface.edge_half[e]);
+    const Index head = surface.head(surface.edge_half[e]);
+    Index holder = tail;
+    Index label = labels.point_site[tail];
+    for_each_crossing(labels, labels.edge_rows[e], tail, head,
+                      [&](Index c, Index, Index, Index after, Index site_after) {
+                          if (labels.crossings[c].at > at) return;
+                          holder = after;
+                          label = site_after;
+                      });
+    return label == site ? holder : no_index;
+}
+
+// The node of the site's cell that holds the site; no_index: its place belongs to another cell, or
+// is an inner point.
+Index holder_of(const StageInput& input, const EdgeLabels& labels, Index site) {
+    const SurfacePoint& place = input.sites[site];
+    if (const auto vertex = vertex_of(input.surface, place)) {
+        return labels.point_site[*vertex] == site ? *vertex : no_index;
+    }
+    const auto half_edge = half_edge_of(place);
+    if (half_edge) return interval_of(input, labels, site, *half_edge);
+    // A site inside an unlisted face owns the face.
+    const Index face = place.face.value();
+    const Index v = input.surface.mesh.triangles[face][0];
+    return labels.mixed_index[face] == no_index && labels.point_site[v] == site ? v : no_index;
+}
+
+// The sites whose place belongs to another cell. Islands that are absorbed change nothing of it.
+CellSet find_displaced(const StageInput& input, const EdgeLabels& labels) {
+    CellSet displaced(input.sites.size());
+    for (Index s = 0; s < displaced.size(); ++s) {
+        displaced[s] = holder_of(input, labels, s) == no_index ? 1 : 0;
+    }
+    for (const InnerPoint& point : labels.inner_points) displaced[point.site] = 0;
+    return displaced;
+}
+
+// --- Islands -----------------------------------------------------------------------------------
+
+// The cells that may have islands: all others are bounded by one loop, which each part would need
+// for itself, and own the place of their site.
+CellSet find_cells_in_doubt(const Diagram& complex, const CellSet& displaced, Ticker ticker) {
+    Cells cells;
+    collect_loops(complex, ticker, cells);
+    CellSet in_doubt(displaced.size());
+    for (Index s = 0; s < in_doubt.size(); ++s) {
+        const Index num_loops = cells.cell_loops[s + 1] - cells.cell_loops[s];
+        in_doubt[s] = num_loops > 1 || (num_loops == 1 && has(displaced, s)) ? 1 : 0;
+    }
+    return in_doubt;
+}
+
+// The label changes on an edge or a cut, and the points at its ends.
+struct Row {
+    Block* crossings;
+    Index from, to;
+};
+
+struct IslandSearch {
+    const StageInput& in;
+    const CellSet& in_doubt;
+    std::span<const Index> faces;  // All that the cells in doubt reach into.
+    DiagramParts& parts;
+    UnionFind sets;                   // Of nodes.
+    std::vector<Index> mainland;      // By site: the root of the set that holds it.
+    std::map<Index, Index> new_site;  // By root of an island.
+    std::vector<Row> island_rows;     // With an interval on an island.
+};
+
+// Ascending: the faces that any of these cells reaches into, as far as they are connected to an
+// edge between cells.
+std::vector<Index> faces_of_cells(const Surface& surface, const DiagramParts& parts,
+                                  const CellSet& cells) {
+    const auto is_reached = [&](Index face) {
+        if (parts.labels.mixed_index[face] == no_index) {
+            return has(cells, parts.labels.point_site[surface.mesh.triangles[face][0]]);
+        }
+        const auto in_face =
+            elements_of(parts.arcs.parts, parts.arcs.faces[parts.labels.mixed_index[face]].parts);
+        return std::any_of(in_face.begin(), in_face.end(),
+                           [&](const CellPart& part) { return has(cells, part.site); });
+    };
+    std::vector<Index> faces;
+    std::vector<std::uint8_t> is_seen(surface.num_faces(), 0);
+    const auto visit = [&](Index face) {
+        if (std::exchange(is_seen[face], 1) == 0 && is_reached(face)) faces.push_back(face);
+    };
+    for (const JoinedEdges::Edge& edge : parts.joined.edges) {
+        if (has(cells, edge.left) || has(cells, edge.right)) {
+            visit(parts.arcs.arcs[edge.first.arc()].face);
+        }
+    }
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+        for (Index h = 3 * faces[i]; h < 3 * faces[i] + 3; ++h) {
+            if (surface.twin[h] != no_index) visit(Surface::face(surface.twin[h]));
+        }
+    }
+    std::sort(faces.begin(), faces.end());
+    return faces;
+}
+
+// Along edges and cuts of one label.
+void unite_points(IslandSearch& search) {
+    const Surface& surface = search.in.surface;
+    const EdgeLabels& labels = search.parts.labels;
+    for (const Index f : search.faces) {
+        const Triangle& t = surface.mesh.triangles[f];
+        if (labels.mixed_index[f] == no_index) {
+            if (!has(search.in_doubt, labels.point_site[t[0]])) continue;
+            search.sets.unite(t[0], t[1]);
+            search.sets.unite(t[1], t[2]);
+            continue;
+        }
+        for (Index k = 0; k < 3; ++k) {
+            const Index twin = surface.twin[3 * f + k];
+            if (twin < 3 * f + k || !has(search.in_doubt, labels.point_site[t[k]])) continue;
+            if (labels.edge_rows[surface.edge[3 * f + k]].count > 0) continue;
+            search.sets.unite(t[k], t[k == 2 ? 0 : k + 1]);
+        }
+    }
+    for (const Cut& cut : labels.cuts) {
+        if (cut.row.count == 0) search.sets.unite(cut.from.point, cut.to.point);
+    }
+}
+
+// Through faces.
+void unite_connected(IslandSearch& search) {
+    const Arcs& arcs = search.parts.arcs;
+    for (const Index face : search.faces) {
+        const Index position = search.parts.labels.mixed_index[face];
+        if (position == no_index) continue;
+        for (const Connection& c :
+             elements_of(arcs.connections, arcs.faces[position].connections)) {
+            if (has(search.in_doubt, c.site)) search.sets.unite(c.a, c.b);
+        }
+    }
+}
+
+void find_mainland(IslandSearch& search) {
+    const EdgeLabels& labels = search.parts.labels;
+    search.mainland.assign(search.in.sites.size(), no_index);
+    for (Index i = 0; i < labels.inner_points.size(); ++i) {
+        const Index site = labels.inner_points[i].site;
+        if (!has(search.in_doubt, site)) continue;
+        search.mainland[site] = search.sets.root(search.in.surface.num_vertices() + i);
+    }
+    for (Index s = 0; s < search.mainland.size(); ++s) {
+        if (!has(search.in_doubt, s)) continue;
+        const Index node = holder_of(search.in, labels, s);
+        if (node != no_index) search.mainland[s] = search.sets.root(node);
+    }
+}
+
+bool is_island(IslandSearch& search, Index node, Index site) {
+    return has(search.in_doubt, site) && search.sets.root(node) != search.mainland[site];
+}
+
+// Calls back for each row of these faces that has crossings.
+template <typename Callback>
+void for_each_row(IslandSearch& search, const Callback& callback) {
+    const Surface& surface = search.in.surface;
+    EdgeLabels& labels = search.parts.labels;
+    for (const Index f : search.faces) {
+        if (labels.mixed_index[f] == no_index) continue;
+        for (Index h = 3 * f; h < 3 * f + 3; ++h) {
+            const Index e = surface.edge[h];
+            if (surface.edge_half[e] != h || labels.edge_rows[e].count == 0) continue;
+            callback(Row{&labels.edge_rows[e], surface.tail(h), surface.head(h)});
+        }
+    }
+    for (Cut& cut : labels.cuts) {
+        if (cut.row.count > 0) callback(Row{&cut.row, cut.from.point, cut.to.point});
+    }
+}
+
+// Islands border on other cells at crossings. Each goes to the lowest-numbered cell that it borders
+// on and that is connected to its site there.
+void choose_new_sites(IslandSearch& search) {
+    const auto give = [&](Index island, Index site) {
+        const auto [found, is_new] = search.new_site.try_emplace(search.sets.root(island), site);
+        if (!is_new) found->second = std::min(found->second, site);
+    };
+    for_each_row(search, [&](const Row& row) {
+        bool has_island = false;
+        for_each_crossing(search.parts.labels, *row.crossings, row.from, row.to,
+                          [&](Index, Index a, Index site_a, Index b, Index site_b) {
+                              const bool is_a = is_island(search, a, site_a);
+                              const bool is_b = is_island(search, b, site_b);
+                              has_island = has_island || is_a || is_b;
+                              if (is_a && !is_b) give(a, site_b);
+                              if (is_b && !is_a) give(b, site_a);
+                          });
+        if (has_island) search.island_rows.push_back(row);
+    });
+}
+
+Index new_site_of(IslandSearch& search, Index node, Index site) {
+    const auto found = search.new_site.find(search.sets.root(node));
+    return found == search.new_site.end() ? site : found->second;
+}
+
+void add_faces_of_line(const IslandSearch& search, LineId line, std::vector<Index>& faces) {
+    if (line.is_cut()) {
+        faces.push_back(search.parts.labels.cuts[line.cut()].face);
+        return;
+    }
+    faces.push_back(Surface::face(line.half_edge()));
+    const Index twin = search.in.surface.twin[line.half_edge()];
+    if (twin != no_index) faces.push_back(Surface::face(twin));
+}
+
+// Keeps the crossings between different sites.
+void relabel_row(IslandSearch& search, const Row& row, std::vector<Index>& stale_faces) {
+    EdgeLabels& labels = search.parts.labels;
+    std::vector<Crossing> kept;
+    bool is_changed = false;
+    for_each_crossing(labels, *row.crossings, row.from, row.to,
+                      [&](Index c, Index before, Index old_before, Index after, Index old_after) {
+                          Crossing crossing = labels.crossings[c];
+                          crossing.site_before = new_site_of(search, before, old_before);
+                          crossing.site_after = new_site_of(search, after, old_after);
+                          is_changed = is_changed || crossing.site_before != old_before ||
+                                       crossing.site_after != old_after;
+                          if (crossing.site_before != crossing.site_after) kept.push_back(crossing);
+                      });
+    if (!is_changed) return;
+    const LineId line = labels.crossings[row.crossings->begin].line;
+    *row.crossings = {static_cast<Index>(labels.crossings.size()), static_cast<Index>(kept.size())};
+    labels.crossings.insert(labels.crossings.end(), kept.begin(), kept.end());
+    add_faces_of_line(search, line, stale_faces);
+}
+
+// An inner point is the place of its site, so only mesh vertices get other labels.
+void relabel_points(IslandSearch& search, std::vector<Index>& stale_faces) {
+    const Surface& surface = search.in.surface;
+    EdgeLabels& labels = search.parts.labels;
+    for (const Index face : search.faces) {
+        for (const Index v : surface.mesh.triangles[face]) {
+            const Index old_site = labels.point_site[v];
+            if (!is_island(search, v, old_site)) continue;
+            const Index site = new_site_of(search, v, old_site);
+            if (site == old_site) continue;
+            labels.point_site[v] = site;
+            for_each_outgoing(surface, v,
+                              [&](Index h) { stale_faces.push_back(Surface::face(h)); });
+        }
+    }
+}
+
+// Changes the labels of islands.
+// \return ascending: the positions of the mixed faces around changed labels.
+// Cost: nearly linear in the points and crossings of the faces that the cells in doubt reach into,
+// and O(#V + crossings) quick steps.
+std::vector<Index> relabel_islands(const StageInput& input, const CellSet& in_doubt,
+                                   DiagramParts& parts) {
+    const EdgeLabels& labels = parts.labels;
+    const std::vector<Index> faces = faces_of_cells(input.surface, parts, in_doubt);
+    UnionFind sets(labels.point_site.size() + labels.crossings.size());
+    IslandSearch search{input, in_doubt, faces, parts, std::move(sets), {}, {}, {}};
+    unite_points(search);
+    unite_connected(search);
+    find_mainland(search);
+    choose_new_sites(search);
+    if (search.new_site.empty()) return {};
+    std::vector<Index> stale_faces;
+    for (const Row& row : search.island_rows) relabel_row(search, row, stale_faces);
+    relabel_points(search, stale_faces);
+    std::vector<Index> positions;
+    for (const Index face : stale_faces) {
+        if (labels.mixed_index[face] != no_index) positions.push_back(labels.mixed_index[face]);
+    }
+    std::sort(positions.begin(), positions.end());
+    positions.erase(std::unique(positions.begin(), positions.end()), positions.end());
+    return positions;
 }
 
 }  // namespace
 
-AbsorbedIslands absorb_islands(const StageInput& input, const CellSet& displaced,
-                               const CellSet& in_doubt, DiagramParts& parts) {
-    AbsorbedIslands absorbed{{}, {}, in_doubt};
+Diagram absorb_islands(const StageInput& input, DiagramParts& parts) {
+    const CellSet displaced = find_displaced(input, parts.labels);
     while (true) {
         input.poller.poll();
-        CellSet asked = parts.tally.take_changed();
-        asked.insert(absorbed.in_doubt);
-        absorbed.in_doubt = cells_in_doubt(displaced, count_loops(input.surface, parts, asked));
-        if (absorbed.in_doubt.is_empty()) return absorbed;
-        const RelabelledIslands relabelled = relabel_islands(input, absorbed.in_doubt, parts);
-        if (relabelled.faces.empty()) return absorbed;
-        for (const OldLabel& old : relabelled.points) {
-            recount_vertex(input.surface, old.point, old.site, parts);
-        }
-        trace_again(input, relabelled.faces, parts);
-        absorbed.points.insert(absorbed.points.end(), relabelled.points.begin(),
-                               relabelled.points.end());
-        absorbed.faces.insert(absorbed.faces.end(), relabelled.faces.begin(),
-                              relabelled.faces.end());
+        Ticker ticker(input.poller);
+        Diagram complex = draw_complex(input.surface, parts, ticker);
+        const CellSet in_doubt = find_cells_in_doubt(complex, displaced, ticker);
+        if (std::find(in_doubt.begin(), in_doubt.end(), 1) == in_doubt.end()) return complex;
+        const std::vector<Index> positions = relabel_islands(input, in_doubt, parts);
+        if (positions.empty()) return complex;
+        trace_faces(input, positions, parts);
+        parts.joined = join_arcs(parts.labels, parts.arcs, ticker);
     }
-}
-
-void recount_vertex(const Surface& surface, Index vertex, Index old_site, DiagramParts& parts) {
-    const Index site = parts.labels.point_site[vertex];
-    parts.tally.count_vertex(vertex, old_site, -1);
-    parts.tally.count_vertex(vertex, site, 1);
-    for_each_outgoing(surface, vertex, [&](Index h) {
-        const Index face = Surface::face(h);
-        // An unlisted face has the label of its first corner.
-        if (parts.labels.mixed_index[face] != no_index || h % 3 != 0) return;
-        parts.tally.count_face(face, old_site, -1);
-        parts.tally.count_face(face, site, 1);
-    });
 }
 
 }  // namespace agvd

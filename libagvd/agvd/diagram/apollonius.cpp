@@ -8,9 +8,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <limits>
-
-#include "agvd/diagram/bisector.h"
 
 namespace agvd {
 namespace {
@@ -77,9 +74,49 @@ void TriangleSolver::redraw_straight(std::span<const Breakpoint> breakpoints) {
     draw(breakpoints);
 }
 
+// Whether the ends of each segment lie on different sides of the other.
+bool TriangleSolver::do_cross(const Segment& s, const Segment& t) {
+    const Vec2 along_s = s.to - s.from;
+    const double at_t_from = cross(along_s, t.from - s.from);
+    const double at_t_to = cross(along_s, t.to - s.from);
+    if (!((at_t_from < 0 && at_t_to > 0) || (at_t_from > 0 && at_t_to < 0))) return false;
+    const Vec2 along_t = t.to - t.from;
+    const double at_s_from = cross(along_t, s.from - t.from);
+    const double at_s_to = cross(along_t, s.to - t.from);
+    return (at_s_from < 0 && at_s_to > 0) || (at_s_from > 0 && at_s_to < 0);
+}
+
+void TriangleSolver::collect_segments() {
+    segments_.clear();
+    for (Index i = start_.arcs; i < out_.arcs.size(); ++i) {
+        const Arc& arc = out_.arcs[i];
+        const ArcPlace& place = places_[i - start_.arcs];
+        Vec2 last = place.tail;
+        for (Index j = arc.first_point; j < arc.first_point + arc.num_points; ++j) {
+            segments_.push_back({i, last, out_.points[j]});
+            last = out_.points[j];
+        }
+        segments_.push_back({i, last, place.head});
+    }
+}
+
+// Takes the inner points away from arcs that cross others, or themselves. O(n^2) for n pieces.
 // False: no arcs cross.
 bool TriangleSolver::straighten() {
-    return straighten_crossing_arcs(start_, places_, segments_, out_);
+    assert(places_.size() == out_.arcs.size() - start_.arcs);
+    // Two segments that share an end do not cross.
+    if (places_.size() + out_.points.size() - start_.points < 3) return false;
+    collect_segments();
+    bool is_any = false;
+    for (std::size_t i = 0; i < segments_.size(); ++i) {
+        for (std::size_t j = i + 1; j < segments_.size(); ++j) {
+            if (!do_cross(segments_[i], segments_[j])) continue;
+            out_.arcs[segments_[i].arc].num_points = 0;
+            out_.arcs[segments_[j].arc].num_points = 0;
+            is_any = true;
+        }
+    }
+    return is_any;
 }
 
 void TriangleSolver::draw(std::span<const Breakpoint> breakpoints) {
@@ -94,7 +131,7 @@ void TriangleSolver::draw(std::span<const Breakpoint> breakpoints) {
     } else {
         assert(breakpoints_.size() == 2);
         const Breakpoint& to = breakpoints_[1];
-        add_arc(breakpoints_[0], {to.position, to.node}, to.site_after, true);
+        add_arc(breakpoints_[0], {to.position, to.node, to.is_across}, to.site_after, true);
     }
     assert(open_vertices_.empty());
 }
@@ -245,7 +282,7 @@ void TriangleSolver::close_lens(std::size_t i, double violation) {
     const std::size_t n = breakpoints_.size();
     const Breakpoint from = breakpoints_[i];
     const Breakpoint to = breakpoints_[after(i, n)];
-    add_arc(from, {to.position, to.node}, to.site_after, is_sound);
+    add_arc(from, {to.position, to.node, to.is_across}, to.site_after, is_sound);
     out_.connections.push_back({breakpoints_[before(i, n)].interval, to.interval, to.site_after});
     // The interval before the ear now reaches to the end of the one after it.
     erase_both(breakpoints_, i);
@@ -285,8 +322,8 @@ void TriangleSolver::close_with_vertex(std::size_t i, VertexPlace voronoi_vertex
     out_.voronoi_vertices.push_back({face_,
                                      voronoi_vertex.position,
                                      voronoi_vertex.distance,
-                                     {first_arc, first_arc + 1, first_arc + 2},
-                                     {false, false, false},
+                                     {ArcEnd::head_of(first_arc), ArcEnd::head_of(first_arc + 1),
+                                      ArcEnd::head_of(first_arc + 2)},
                                      {site, site_after, site_before}});
     const ArcHead to{voronoi_vertex.position, NodeId::of_voronoi_vertex(name)};
     add_arc(breakpoints_[i], to, site_before, is_sound);
@@ -312,20 +349,20 @@ void TriangleSolver::add_arc(const Breakpoint& from, const ArcHead& to, Index le
                         chord_tolerance_, out_);
     }
     out_.arcs.push_back({face_, from.node, to.node, left, from.site_after, first_point,
-                         static_cast<Index>(out_.points.size()) - first_point});
+                         static_cast<Index>(out_.points.size()) - first_point, from.is_across,
+                         to.is_across});
     places_.push_back({from.position, to.position});
-    connect_open_vertex(from.node, arc, true);
-    connect_open_vertex(to.node, arc, false);
+    connect_open_vertex(from.node, ArcEnd::tail_of(arc));
+    connect_open_vertex(to.node, ArcEnd::head_of(arc));
 }
 
 // A Voronoi vertex that became a breakpoint gets its third arc when that breakpoint is used.
-void TriangleSolver::connect_open_vertex(NodeId node, Index arc, bool at_tail) {
+void TriangleSolver::connect_open_vertex(NodeId node, ArcEnd end) {
     if (!node.is_voronoi_vertex()) return;
     const auto found =
         std::find(open_vertices_.begin(), open_vertices_.end(), node.voronoi_vertex());
     if (found == open_vertices_.end()) return;
-    out_.voronoi_vertices[*found].arcs[2] = arc;
-    out_.voronoi_vertices[*found].at_tail[2] = at_tail;
+    out_.voronoi_vertices[*found].ends[2] = end;
     open_vertices_.erase(found);
 }
 

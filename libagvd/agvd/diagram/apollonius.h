@@ -3,20 +3,15 @@
 //! Sec. 4.2): which arcs join the label changes on the boundary, and where three arcs meet.
 #pragma once
 
-#include "agvd/diagram/crossing_arcs.h"
-#include "agvd/diagram/voronoi_vertex.h"
+#include "agvd/diagram/bisectors.h"
 
 namespace agvd {
-
-//! Distances at a breakpoint that differ by more (share of the triangle's longest side) are not
-//! those of its labels.
-inline constexpr double largest_disagreement = 1e-2;
 
 //! Draws diagrams into `out`. Scratch memory is kept from triangle to triangle.
 class TriangleSolver {
 public:
     //! \param chord_tolerance  arcs are sampled until they stray less than this share of a chord.
-    TriangleSolver(double chord_tolerance, LocalDiagram& out)
+    TriangleSolver(double chord_tolerance, Arcs& out)
         : chord_tolerance_(chord_tolerance), out_(out) {}
 
     //! \param relays  by ascending site; kept by reference until the next call.
@@ -57,10 +52,22 @@ private:
     struct ArcHead {
         Vec2 position;
         NodeId node;
+        bool is_across = false;
+    };
+    // Where an arc begins and ends.
+    struct ArcPlace {
+        Vec2 tail, head;
+    };
+    // A piece of an arc.
+    struct Segment {
+        Index arc;
+        Vec2 from, to;
     };
 
     void begin(Index face, const std::array<Vec2, 3>& corners);
     void draw(std::span<const Breakpoint> breakpoints);
+    void collect_segments();
+    [[nodiscard]] static bool do_cross(const Segment& s, const Segment& t);
     [[nodiscard]] bool straighten();
 
     [[nodiscard]] bool agrees(const Breakpoint& at, Index site_before) const;
@@ -75,23 +82,23 @@ private:
     void close_with_vertex(std::size_t i, VertexPlace voronoi_vertex);
     [[nodiscard]] VertexPlace place_on_chord(std::size_t i) const;
     void add_arc(const Breakpoint& from, const ArcHead& to, Index left, bool is_curved);
-    void connect_open_vertex(NodeId node, Index arc, bool at_tail);
+    void connect_open_vertex(NodeId node, ArcEnd end);
 
     double chord_tolerance_;
-    LocalDiagram& out_;
+    Arcs& out_;
     TriangleSites triangle_;
 
     // The triangle at hand.
     Index face_ = 0;
-    LocalDiagram::Mark start_{};  // Before it.
-    bool is_safe_ = false;        // Draw all straight.
-    bool is_sound_ = true;        // Nothing drawn contradicts the distances.
+    Arcs::Mark start_{};    // Before it.
+    bool is_safe_ = false;  // Draw all straight.
+    bool is_sound_ = true;  // Nothing drawn contradicts the distances.
     std::vector<Breakpoint> breakpoints_;
     std::vector<Ear> ears_;  // By interval.
     // Voronoi vertices that became breakpoints and have no third arc so far.
     std::vector<Index> open_vertices_;
     std::vector<ArcPlace> places_;  // Of the arcs drawn.
-    std::vector<ArcSegment> segments_;
+    std::vector<Segment> segments_;
 };
 
 }  // namespace agvd

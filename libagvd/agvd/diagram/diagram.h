@@ -1,10 +1,13 @@
 //! \file
-//! The approximate geodesic Voronoi diagram as a cell complex on the surface.
+//! The approximate geodesic Voronoi diagram as a cell complex on the surface, with the boundary of
+//! each cell and the pieces of each edge within faces. Cells are connected, and their Euler
+//! characteristics add up to that of the surface.
+//! Held by Complex.IsValid in tests/agvd/diagram.
 #pragma once
 
 #include <span>
 
-#include "agvd/core/progress.h"
+#include "agvd/core/poller.h"
 #include "agvd/propagation/propagate.h"
 
 namespace agvd {
@@ -67,11 +70,39 @@ struct Diagram {
     std::vector<int> cell_euler;  //!< #sites: Euler characteristic of each cell (a disc has 1).
 };
 
-//! `{}` gives the defaults.
-struct DiagramOptions {
-    double chord_tolerance = 0.01;  //!< Arcs are sampled to this share of their chord's length.
-    int num_threads = 0;            //!< >= 0; 0: all cores. Same bytes for any number.
-    Progress progress = {};         //!< Polled during the call; see agvd::poll.
+//! A straight piece of a curve, both ends as points of the face that it crosses.
+struct CurvePiece {
+    SurfacePoint from;  //!< First end.
+    SurfacePoint to;    //!< Other end; in the same face.
 };
+
+//! The piece of a Voronoi edge, or of an arc of the boundary, from one of its points to the next.
+//! \param point  index in diagram.points, not the last one of an edge that is open.
+[[nodiscard]] CurvePiece curve_piece(const Surface& surface, const Diagram& diagram, Index edge,
+                                     Index point);
+
+//! Mesh units, within the faces; of a closed curve without its last piece.
+//! Cost: O(points of the edge).
+[[nodiscard]] double curve_length(const Surface& surface, const Diagram& diagram, Index edge);
+
+//! A directed edge of the complex with the cell on its left.
+struct DirectedEdge {
+    Index edge = no_index;  //!< Of Diagram::edges.
+    bool reversed = false;  //!< True: walked from head to tail.
+};
+
+//! Cell s has the loops [cell_loops[s], cell_loops[s + 1]); loop l has the directed edges
+//! [loop_edges[l], loop_edges[l + 1]) of `edges`, head to tail, the cell on their left. A cell that
+//! covers a whole closed component has no loop.
+struct Cells {
+    std::vector<Index> cell_loops;         //!< #sites + 1 offsets into loops.
+    std::vector<Index> loop_edges;         //!< #loops + 1 offsets into edges.
+    std::vector<DirectedEdge> edges;       //!< Loop by loop.
+    std::vector<Index> neighbour_offsets;  //!< #sites + 1 offsets into neighbours.
+    std::vector<SiteId> neighbours;        //!< Ascending, without repetition.
+};
+
+//! The diagram seen cell by cell. Cost: O(size of the complex).
+[[nodiscard]] Cells build_cells(const Diagram& diagram, Ticker ticker = {});
 
 }  // namespace agvd

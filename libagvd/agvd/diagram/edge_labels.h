@@ -1,35 +1,38 @@
 //! \file
-//! The labels on mesh vertices and edges. They are computed once for the faces on both sides, so
-//! that these cannot disagree.
+//! The labels on mesh vertices, on mesh edges, and on the cuts inside faces. They are computed once
+//! for the faces or triangles on both sides, so that these cannot disagree.
 #pragma once
 
-#include "agvd/core/block_pool.h"
 #include "agvd/core/either_index.h"
 #include "agvd/propagation/propagate.h"
 
 namespace agvd {
 
+//! Some consecutive elements of a list.
+struct Block {
+    Index begin = 0;
+    Index count = 0;
+
+    [[nodiscard]] Index end() const { return begin + count; }
+};
+
+template <typename T>
+[[nodiscard]] std::span<const T> elements_of(const std::vector<T>& list, const Block& block) {
+    return std::span(list).subspan(block.begin, block.count);
+}
+
 //! A line on which labels change: a mesh edge, named by one of its half-edges, or a cut.
-class LineId {
-public:
-    constexpr LineId() = default;
+struct LineId {
+    EitherIndex id;
+
     [[nodiscard]] static constexpr LineId of_edge(Index half_edge) {
-        return LineId(EitherIndex::first(half_edge));
+        return {EitherIndex::first(half_edge)};
     }
-    [[nodiscard]] static constexpr LineId of_cut(Index cut) {
-        return LineId(EitherIndex::second(cut));
-    }
+    [[nodiscard]] static constexpr LineId of_cut(Index cut) { return {EitherIndex::second(cut)}; }
 
-    [[nodiscard]] constexpr bool is_cut() const { return id_.is_second(); }
-    [[nodiscard]] constexpr Index half_edge() const { return id_.first(); }
-    [[nodiscard]] constexpr Index cut() const { return id_.second(); }
-
-    friend constexpr bool operator==(const LineId&, const LineId&) = default;
-
-private:
-    explicit constexpr LineId(EitherIndex id) : id_(id) {}
-
-    EitherIndex id_;
+    [[nodiscard]] constexpr bool is_cut() const { return id.is_second(); }
+    [[nodiscard]] constexpr Index half_edge() const { return id.first(); }
+    [[nodiscard]] constexpr Index cut() const { return id.second(); }
 };
 
 //! A change of label on a mesh edge or a cut.
@@ -39,15 +42,12 @@ struct Crossing {
     Index site_before;
     Index site_after;
     LineId line;  //!< A mesh edge is known by its edge_half.
-
-    friend bool operator==(const Crossing&, const Crossing&) = default;
 };
 
 //! A site inside a face that owns its place: a point of the complex like a mesh vertex.
 struct InnerPoint {
-    Index face;
     Vec2 position;  //!< In the face's own frame.
-    Index site;     //!< no_index: the point was removed.
+    Index site;
 };
 
 //! An end of a cut: a corner of the face, which may have the same vertex at several, or a point
@@ -71,48 +71,55 @@ struct CutTriangle {
     std::array<LineId, 3> sides;  //!< From point k to k + 1; a mesh edge by the face's half-edge.
 };
 
-//! What belongs to one face.
 struct CutFace {
     Index face;
-    Block inner_points, cuts, triangles;
+    Block triangles;
 };
 
 //! Points are the mesh vertices, then the inner points. Crossings stand in rows, one for each edge
 //! or cut; where a row is empty there is one label, that of both ends.
+//!
+//! The stretches of one label are nodes of a graph, by number: a stretch that ends at a point is
+//! that point; then come the others, by the crossing that they follow along the edge_half or cut.
 struct EdgeLabels {
     std::vector<Index> point_site;        //!< By point; no_index where no site reaches.
     std::vector<double> vertex_distance;  //!< #V.
     std::vector<Index> mixed_index;       //!< #F: position in mixed_faces; no_index: unlisted.
 
-    std::vector<Block> edge_rows;  //!< #E.
-    BlockPool<Crossing> crossings;
+    std::vector<Block> edge_rows;     //!< #E.
+    std::vector<Crossing> crossings;  //!< Some may be in no row any more.
 
-    BlockPool<InnerPoint> inner_points;
-    BlockPool<Cut> cuts;
-    BlockPool<CutTriangle> cut_triangles;
+    std::vector<InnerPoint> inner_points;
+    std::vector<Cut> cuts;
+    std::vector<CutTriangle> cut_triangles;
     std::vector<CutFace> cut_faces;  //!< By face.
 
     [[nodiscard]] std::span<const Crossing> on_edge(Index edge) const {
-        return crossings[edge_rows[edge]];
+        return elements_of(crossings, edge_rows[edge]);
+    }
+    [[nodiscard]] Index node_after(Index crossing) const {
+        return static_cast<Index>(point_site.size()) + crossing;
+    }
+    //! \param corners  of the face, in its own frame.
+    [[nodiscard]] Vec2 position_of(const CutEnd& end, const std::array<Vec2, 3>& corners) const {
+        return end.corner < 3 ? corners[end.corner]
+                              : inner_points[end.point - vertex_distance.size()].position;
     }
 };
 
-//! The positions in mixed_faces of those of these faces that are mixed.
-[[nodiscard]] inline std::vector<Index> positions_of(const EdgeLabels& labels,
-                                                     std::span<const Index> faces) {
-    std::vector<Index> positions;
-    for (const Index face : faces) {
-        if (labels.mixed_index[face] != no_index) positions.push_back(labels.mixed_index[face]);
+//! Calls callback(crossing, before, site_before, after, site_after) for each crossing of a row with
+//! the nodes on its two sides.
+//! \param from, to  the points at the row's ends.
+template <typename Callback>
+void for_each_crossing(const EdgeLabels& labels, const Block& row, Index from, Index to,
+                       const Callback& callback) {
+    Index before = from;
+    for (Index c = row.begin; c < row.end(); ++c) {
+        const Index after = c + 1 == row.end() ? to : labels.node_after(c);
+        const Crossing& crossing = labels.crossings[c];
+        callback(c, before, crossing.site_before, after, crossing.site_after);
+        before = after;
     }
-    return positions;
-}
-
-//! \param corners  of the face, in its own frame.
-[[nodiscard]] inline Vec2 position_of(const EdgeLabels& labels, const std::array<Vec2, 3>& corners,
-                                      const CutEnd& end) {
-    if (end.corner < 3) return corners[end.corner];
-    const auto num_vertices = static_cast<Index>(labels.vertex_distance.size());
-    return labels.inner_points[end.point - num_vertices].position;
 }
 
 }  // namespace agvd

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
 namespace agvd {
 namespace {
@@ -15,6 +16,117 @@ constexpr double same_relay = 1e-6;
 // this many for each relay, the ends of a piece decide.
 constexpr std::size_t max_splits = 200;
 constexpr std::size_t max_splits_each = 8;
+
+// Distances that differ by less are tied.
+double tie_at(double distance, double length) { return tie_tolerance * (distance + length); }
+
+// Turns a sample at x into one from the left. The segment may pass through the source itself: then
+// the slope changes there.
+LineSample from_left(const LineRelay& relay, double x, LineSample s) {
+    const auto k = static_cast<std::size_t>(s.source);
+    if (relay.y[k] == 0 && relay.x[k] == x) s.slope = -1;
+    return s;
+}
+
+// Seen from x, two images differ in direction by at most their distance from each other over the
+// distance of either. Distances from images that are near each other are thus nearly parallel:
+// this decides without bisecting whether one is above the other.
+bool is_parallel_above(const Candidate& c, const Candidate& b, double width, double slack) {
+    if (c.lo.source != c.hi.source || b.lo.source != b.hi.source) return false;
+    const auto i = static_cast<std::size_t>(c.lo.source);
+    const auto j = static_cast<std::size_t>(b.lo.source);
+    const double dx = c.relay->x[i] - b.relay->x[j];
+    // Along the segment only the distance from its line matters, not the side.
+    const double dy = std::abs(c.relay->y[i]) - std::abs(b.relay->y[j]);
+    if (dx == 0 && dy == 0) return true;
+    const double range = b.lo.value - b.relay->weight[j] - width;
+    if (!(range > 0)) return false;
+    const double gap = std::min(c.lo.value - b.lo.value, c.hi.value - b.hi.value) + slack;
+    return gap >= 0 && gap * gap * range * range >= width * width * (dx * dx + dy * dy);
+}
+
+// True if c cannot be below b anywhere on the stretch by more than the slack: distances are
+// convex, so c lies above its tangents at the ends and b below its chord.
+bool is_above(const Candidate& c, const Candidate& b, double width, double slack) {
+    if (c.lo.value < b.lo.value - slack || c.hi.value < b.hi.value - slack) return false;
+    const double rise = b.hi.value - b.lo.value;
+    // A tangent that leaves the chord upwards stays above it.
+    if (c.lo.slope * width >= rise || c.hi.slope * width <= rise) return true;
+    // Else the tangents meet at lo + t; above the chord there means above it everywhere.
+    const double t = (c.lo.value - c.hi.value + c.hi.slope * width) / (c.hi.slope - c.lo.slope);
+    return c.lo.value + c.lo.slope * t >= b.lo.value + rise * (t / width) - slack ||
+           is_parallel_above(c, b, width, slack);
+}
+
+constexpr int max_root_steps = 60;
+
+// The relays of two sites that are the nearest at x.
+struct Pair {
+    const LineRelay *a, *b;
+    double at_a, at_b;
+};
+
+Pair nearest_of(std::span<const Candidate> candidates, Index site_a, Index site_b, double x) {
+    Pair pair{nullptr, nullptr, infinity, infinity};
+    for (const Candidate& candidate : candidates) {
+        const LineRelay* const relay = candidate.relay;
+        if (relay->site != site_a && relay->site != site_b) continue;
+        const double value = sample(*relay, x).value;
+        if (relay->site == site_a && value < pair.at_a) {
+            pair.a = relay;
+            pair.at_a = value;
+        } else if (relay->site == site_b && value < pair.at_b) {
+            pair.b = relay;
+            pair.at_b = value;
+        }
+    }
+    return pair;
+}
+
+double newton_step(const LineSample& a, const LineSample& b) {
+    return (a.value - b.value) / (a.slope - b.slope);
+}
+
+// Notation: f_a and f_b are the distances from two sites, each the least over the site's relays.
+// Where the distances from the sites of a and b are equal on the stretch: a is nearer at lo, b at
+// hi. Newton, relay against relay, until no other relay of the two sites is nearer at the root.
+double find_equal(std::span<const Candidate> candidates, const Candidate& a, const Candidate& b,
+                  const std::array<double, 2>& stretch, double length) {
+    assert(a.relay->site != b.relay->site);
+    auto [lo, hi] = stretch;
+    const LineRelay* on_a = a.relay;
+    const LineRelay* on_b = b.relay;
+    const double gap_lo = a.lo.value - b.lo.value;
+    const double gap_hi = a.hi.value - b.hi.value;
+    double x = lo + (hi - lo) * gap_lo / (gap_lo - gap_hi);
+    const bool is_pair = candidates.size() == 2;
+    for (int i = 0; i < max_root_steps && hi - lo > shortest_interval * length; ++i) {
+        if (!(x > lo && x < hi)) x = (lo + hi) / 2;
+        const LineSample at_a = sample(*on_a, x);
+        const LineSample at_b = sample(*on_b, x);
+        const double gap = at_a.value - at_b.value;
+        const bool is_root = std::abs(gap) <= equal_distances * length + tie_at(at_a.value, length);
+        const bool halves = i % 4 == 3;  // Now and then, so that it ends.
+        if (!is_pair && (is_root || halves)) {
+            const Pair nearest = nearest_of(candidates, a.relay->site, b.relay->site, x);
+            if (nearest.a != on_a || nearest.b != on_b) {
+                on_a = nearest.a;
+                on_b = nearest.b;
+                const double true_gap = nearest.at_a - nearest.at_b;
+                if (std::abs(true_gap) <= equal_distances * length) return x;
+                (true_gap < 0 ? lo : hi) = x;
+                // From here with the new pair.
+                if (halves) x = (lo + hi) / 2;
+                x -= newton_step(sample(*on_a, x), sample(*on_b, x));
+                continue;
+            }
+        }
+        if (is_root) return x;
+        if (is_pair || halves) (gap < 0 ? lo : hi) = x;
+        x = halves ? (lo + hi) / 2 : x - newton_step(at_a, at_b);
+    }
+    return (lo + hi) / 2;
+}
 
 struct Envelope {
     double length;

@@ -1,8 +1,10 @@
 //! \file
-//! The lower envelope of relays along a segment: which site is nearest where.
+//! The lower envelope of relays along a segment (a mesh edge or a cut): which site is nearest
+//! where.
 #pragma once
 
-#include "agvd/diagram/envelope_candidates.h"
+#include "agvd/diagram/edge_labels.h"
+#include "agvd/diagram/face_relays.h"
 
 namespace agvd {
 
@@ -18,9 +20,16 @@ struct LabelledSegment {
     Index site_at_start, site_at_end;
 };
 
+//! A relay with its distances at both ends of a stretch [lo, hi].
+struct Candidate {
+    const LineRelay* relay;
+    LineSample lo, hi;
+};
+
 //! Scratch memory, so that a loop over many segments allocates once.
 struct EnvelopeScratch {
     std::vector<Candidate> candidates, left, right;
+    std::vector<LabelInterval> intervals;  //!< Of label_line().
 };
 
 //! Replaces `out` by the intervals of a segment, in order: neighbours differ, the last end is 1.
@@ -33,5 +42,25 @@ struct EnvelopeScratch {
 //! \param relays  not empty.
 void label_envelope(std::span<const LineRelay> relays, const LabelledSegment& segment,
                     EnvelopeScratch& scratch, std::vector<LabelInterval>& out);
+
+//! A point of a segment where two sites are equally near.
+struct SingleCrossing {
+    double at;        //!< Length from the start.
+    double distance;  //!< From both sites.
+};
+
+//! Where the label changes from site a, at the start of a segment, to site b. Distances through one
+//! relay along a segment are convex: tangents at the change that stay above the chords of the
+//! nearer site's relay prove that there is no other change and no third site between.
+//! \return none if that is not certain: see envelope.h.
+//! Cost: O(relays) and a few square roots each.
+[[nodiscard]] std::optional<SingleCrossing> find_single_crossing(std::span<const LineRelay> relays,
+                                                                 double length, Index a, Index b);
+
+//! Appends the label changes on a line, in their order.
+//! \param relays  all that are the nearest somewhere on it.
+//! Cost: O(relays) and a few square roots a label change, most often.
+void label_line(std::span<const LineRelay> relays, LineId line, const LabelledSegment& segment,
+                EnvelopeScratch& scratch, std::vector<Crossing>& out);
 
 }  // namespace agvd

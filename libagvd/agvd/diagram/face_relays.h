@@ -1,8 +1,9 @@
 //! \file
-//! The relays of one face in one plane, and distances through them.
+//! The relays of one face in one plane or seen from one line, and distances through them.
 #pragma once
 
 #include <cmath>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -73,9 +74,8 @@ struct Motion {
 //! nearest edge.
 [[nodiscard]] SurfacePoint to_surface(const Surface& surface, Index face, const Vec2& p);
 
-//! From the frame of a half-edge into the frame of its face's first half-edge, and back.
+//! From the frame of a half-edge into the frame of its face's first half-edge.
 [[nodiscard]] Motion to_face_frame(const Surface& surface, Index half_edge);
-[[nodiscard]] Motion from_face_frame(const Surface& surface, Index half_edge);
 
 //! A relay, moved from its half-edge's frame.
 [[nodiscard]] inline PlanarRelay to_planar(const Relay& relay, const Motion& motion) {
@@ -99,8 +99,8 @@ struct CornerDistances {
 //! \param length, apex  of the relay's half-edge.
 [[nodiscard]] CornerDistances corner_distances(const Relay& relay, double length, const Vec2& apex);
 
-//! Appends relays, moved from their half-edges' frames by to_face_frame and then by `motion`.
-void append_planar(const Surface& surface, std::span<const Relay> relays, const Motion& motion,
+//! Appends relays, moved from their half-edges' frames by to_face_frame.
+void append_planar(const Surface& surface, std::span<const Relay> relays,
                    std::vector<PlanarRelay>& out);
 
 //! Those of one site among relays by ascending site.
@@ -116,5 +116,75 @@ struct Nearest {
 
 //! The nearest site of a point of the face.
 [[nodiscard]] Nearest nearest(std::span<const PlanarRelay> relays, const Vec2& p);
+
+struct PointLabel {
+    SiteId site;                     //!< Nearest site; invalid where none reaches.
+    std::optional<double> distance;  //!< Through the relays; unknown in faces of one label.
+};
+
+//! What a propagation says at any point of the surface: by the relays of its face, or by its one
+//! label.
+[[nodiscard]] PointLabel point_label(const Surface& surface, const Propagation& propagation,
+                                     const SurfacePoint& point);
+
+// --- Seen from a segment -----------------------------------------------------------------------
+//
+// The segment lies on the x axis and begins at the origin. The distance from a site through a relay
+// is f(x) = w + sqrt((x - a)^2 + b^2), with the source (a, b) of the last straight piece of the
+// path at distance w from the site: the image, or the end of the interval where paths bend.
+
+// Tolerances of label changes on a segment, as shares of its length. Changes nearer to each other
+// are not told apart.
+inline constexpr double shortest_interval = 1e-9;
+// At a change the two distances are equal up to this: below it lies rounding.
+inline constexpr double equal_distances = 1e-11;
+
+//! Up to x = `first` paths bend at one end of the interval (source 0), from `last` on at the other
+//! end (source 2), and between they come straight from the image (source 1).
+struct LineRelay {
+    std::array<double, 3> x, y, weight;  //!< Of the three sources.
+    double first, last;
+    Index site;
+};
+
+//! Distance at a point of the segment, its derivative (at a source itself: that to the right), and
+//! the source of the last straight piece.
+struct LineSample {
+    double value, slope;
+    int source;
+};
+
+[[nodiscard]] inline LineSample sample(const LineRelay& relay, double x) {
+    const int i = x < relay.first ? 0 : x > relay.last ? 2 : 1;
+    const auto k = static_cast<std::size_t>(i);
+    const double dx = x - relay.x[k];
+    const double norm = std::sqrt(dx * dx + relay.y[k] * relay.y[k]);
+    return {relay.weight[k] + norm, norm > 0 ? dx / norm : 1.0, i};
+}
+
+//! A relay on a segment from `start` in a direction of length 1.
+[[nodiscard]] LineRelay on_line(const PlanarRelay& relay, const Vec2& start, const Vec2& along,
+                                double length);
+
+//! A point at (x, 0).
+[[nodiscard]] inline LineRelay point_on_line(double x, double weight, Index site) {
+    return {{x, x, x}, {0, 0, 0}, {weight, weight, weight}, -infinity, infinity, site};
+}
+
+//! Least distance over the relays of one site; infinity if it has none.
+[[nodiscard]] double distance_on_line(std::span<const LineRelay> relays, Index site, double x);
+
+//! From `begin` to `end` (lengths along the segment) a site is reached straight from `from`, itself
+//! at distance `weight` from it.
+struct StraightPiece {
+    Vec2 from;
+    double weight;
+    double begin, end;
+    Index site;
+};
+
+//! Appends what the relays of one site say about a stretch of the segment.
+void append_pieces(std::span<const LineRelay> relays, Index site, double begin, double end,
+                   std::vector<StraightPiece>& out);
 
 }  // namespace agvd

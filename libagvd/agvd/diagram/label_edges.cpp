@@ -2,16 +2,25 @@
 // Edges are labelled in chunks in parallel, by the lower envelope of their relays (envelope.h), and
 // stored in their order. Reads of the face across an edge miss the cache, so they are prefetched
 // some edges ahead.
-#include "agvd/diagram/label_edges.h"
-
 #include <algorithm>
 
 #include "agvd/core/parallel.h"
-#include "agvd/diagram/edge_relays.h"
-#include "agvd/diagram/label_line.h"
+#include "agvd/diagram/envelope.h"
+#include "agvd/diagram/gather_relays.h"
+#include "agvd/diagram/stages.h"
 
 namespace agvd {
 namespace {
+
+// The label changes on the edges of one chunk.
+struct FoundRows {
+    struct Row {
+        Index edge;
+        Block crossings;  // Not empty.
+    };
+    std::vector<Row> rows;
+    std::vector<Crossing> crossings;
+};
 
 // Fetches what labelling an edge reads of the face across it: first where its relays are, then,
 // with `relays_too`, the relays. Always inline: g++ drops calls of functions that do nothing but
@@ -36,12 +45,12 @@ public:
     EdgeLabeller(const StageInput& in, const EdgeLabels& labels, FoundRows& out)
         : surface_(in.surface),
           labels_(labels),
-          edge_relays_(in.surface, in.propagation, labels),
+          gatherer_(in.surface, in.propagation, labels),
           out_(out) {}
 
     void label(Index half_edge) {
         const Index edge = surface_.edge[half_edge];
-        if (!edge_relays_.may_change(edge, relays_)) return;
+        if (!gatherer_.may_change(edge, relays_)) return;
         const auto begin = static_cast<Index>(out_.crossings.size());
         label_line(relays_, LineId::of_edge(half_edge),
                    {surface_.length[edge], labels_.point_site[surface_.tail(half_edge)],
@@ -54,33 +63,30 @@ public:
 private:
     const Surface& surface_;
     const EdgeLabels& labels_;
-    EdgeRelays edge_relays_;
+    RelayGatherer gatherer_;
     FoundRows& out_;
     std::vector<LineRelay> relays_;  // Of the edge at hand.
-    LineScratch scratch_;
+    EnvelopeScratch scratch_;
 };
 
-// Of all mixed faces.
+// The lower half-edge of each edge all of whose faces are mixed.
 std::vector<Index> labelled_edges(const StageInput& in, const EdgeLabels& labels) {
     std::vector<Index> half_edges;
     Ticker ticker(in.poller);
     for (const Index face : in.propagation.mixed_faces) {
         ticker.tick();
         for (Index h = 3 * face; h < 3 * face + 3; ++h) {
-            if (is_labelled(in.surface, labels, h)) half_edges.push_back(h);
+            const Index twin = in.surface.twin[h];
+            if (twin == no_index ||
+                (h < twin && labels.mixed_index[Surface::face(twin)] != no_index)) {
+                half_edges.push_back(h);
+            }
         }
     }
     return half_edges;
 }
 
-}  // namespace
-
-bool is_labelled(const Surface& surface, const EdgeLabels& labels, Index half_edge) {
-    const Index twin = surface.twin[half_edge];
-    return twin == no_index ||
-           (half_edge < twin && labels.mixed_index[Surface::face(twin)] != no_index);
-}
-
+// Chunk after chunk of the half-edges.
 std::vector<FoundRows> find_rows(const StageInput& input, std::span<const Index> half_edges,
                                  const EdgeLabels& labels) {
     constexpr Index grain = 512;
@@ -104,8 +110,9 @@ std::vector<FoundRows> find_rows(const StageInput& input, std::span<const Index>
     return found;
 }
 
-void label_edges(const StageInput& input, DiagramParts& parts) {
-    EdgeLabels& labels = parts.labels;
+}  // namespace
+
+void label_edges(const StageInput& input, EdgeLabels& labels) {
     labels.edge_rows.assign(input.surface.num_edges(), {});
     const std::vector<FoundRows> found = find_rows(input, labelled_edges(input, labels), labels);
     std::size_t num_crossings = 0;
@@ -113,10 +120,12 @@ void label_edges(const StageInput& input, DiagramParts& parts) {
     labels.crossings.reserve(num_crossings + num_crossings / 8);  // And those of cuts.
     for (const FoundRows& chunk : found) {
         input.poller.poll();
-        for (const FoundRows::Row& row : chunk.rows) {
-            labels.edge_rows[row.edge] = labels.crossings.add(chunk.of(row));
-            parts.tally.count_row(chunk.of(row), 1);
+        const auto begin = static_cast<Index>(labels.crossings.size());
+        for (const auto& [edge, row] : chunk.rows) {
+            labels.edge_rows[edge] = {begin + row.begin, row.count};
         }
+        labels.crossings.insert(labels.crossings.end(), chunk.crossings.begin(),
+                                chunk.crossings.end());
     }
 }
 

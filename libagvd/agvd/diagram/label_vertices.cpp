@@ -1,7 +1,7 @@
-#include "agvd/diagram/label_vertices.h"
-
+// A vertex takes the nearest site over the relays of the faces around it.
 #include "agvd/core/parallel.h"
 #include "agvd/diagram/face_relays.h"
+#include "agvd/diagram/stages.h"
 
 namespace agvd {
 namespace {
@@ -66,30 +66,22 @@ std::vector<std::uint8_t> fixed_vertices(const Surface& surface, const EdgeLabel
 
 }  // namespace
 
-void list_mixed_faces(const Propagation& propagation, Index num_faces, EdgeLabels& labels) {
-    labels.mixed_index.assign(num_faces, no_index);
-    for (Index i = 0; i < propagation.mixed_faces.size(); ++i) {
-        labels.mixed_index[propagation.mixed_faces[i]] = i;
-    }
-}
-
 void label_vertices(const StageInput& input, EdgeLabels& labels) {
+    const Surface& surface = input.surface;
     const Propagation& propagation = input.propagation;
+    const auto count = static_cast<Index>(propagation.mixed_faces.size());
+    labels.mixed_index.assign(surface.num_faces(), no_index);
+    for (Index i = 0; i < count; ++i) labels.mixed_index[propagation.mixed_faces[i]] = i;
     labels.vertex_distance = propagation.vertex_distance;
-    labels.point_site.clear();
-    labels.point_site.reserve(input.surface.num_vertices());
+    labels.point_site.reserve(surface.num_vertices());
     for (const SiteId site : propagation.vertex_site) labels.point_site.push_back(site.value());
-    take_nearer_sites(input, fixed_vertices(input.surface, labels), all_mixed(propagation), labels);
-}
 
-void take_nearer_sites(const StageInput& input, std::span<const std::uint8_t> is_fixed,
-                       std::span<const Index> mixed, EdgeLabels& labels) {
+    const std::vector<std::uint8_t> is_fixed = fixed_vertices(surface, labels);
     constexpr Index grain = 512;
-    const auto count = static_cast<Index>(mixed.size());
     std::vector<std::vector<ShorterPath>> found(num_chunks(count, grain));
     const auto find = [&](Index chunk, Index begin, Index end) {
         for (Index i = begin; i < end; ++i) {
-            find_shorter_paths(input.surface, input.propagation, is_fixed, mixed[i], found[chunk]);
+            find_shorter_paths(surface, propagation, is_fixed, i, found[chunk]);
         }
     };
     parallel_chunks(count, grain, input.num_threads, find, input.poller);

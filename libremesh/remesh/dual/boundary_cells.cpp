@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "agvd/diagram/curve_piece.h"
+#include "agvd/diagram/diagram.h"
 #include "agvd/mesh/face_distance.h"
 #include "agvd/mesh/point_faces.h"
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "agvd/core/poller.h"
-#include "agvd/diagram/curve_piece.h"
+#include "agvd/diagram/diagram.h"
 #include "remesh/dual/degenerate_edges.h"
 
 namespace remesh {

@@ -2,7 +2,7 @@
 //! The closed-ball property: when it holds, the dual is homeomorphic to the surface.
 #pragma once
 
-#include "agvd/diagram/cells.h"
+#include "agvd/diagram/diagram.h"
 #include "remesh/dual/site_reason.h"
 
 namespace remesh {

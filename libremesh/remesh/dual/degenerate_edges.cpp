@@ -1,6 +1,6 @@
 #include "remesh/dual/degenerate_edges.h"
 
-#include "agvd/diagram/curve_piece.h"
+#include "agvd/diagram/diagram.h"
 
 namespace remesh {
 

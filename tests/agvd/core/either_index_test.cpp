@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "agvd/diagram/edge_labels.h"
-#include "agvd/diagram/local_diagram.h"
+#include "agvd/diagram/arcs.h"
 
 using namespace agvd;
 
@@ -27,15 +26,12 @@ TEST(EitherIndex, TheSameIndexOfAnotherArrayDiffers) {
     EXPECT_EQ(EitherIndex::second(5), EitherIndex::second(5));
 }
 
-// Loops over lines, nodes and intervals read one word each, as they would read a bare index.
+// Loops over lines and nodes read one word each, as they would read a bare index.
 TEST(EitherIndex, TakesOneWordUnderEachName) {
     static_assert(sizeof(LineId) == sizeof(Index));
     static_assert(sizeof(NodeId) == sizeof(Index));
-    static_assert(sizeof(IntervalId) == sizeof(Index));
     EXPECT_EQ(LineId::of_cut(3).cut(), 3u);
     EXPECT_FALSE(LineId::of_edge(3).is_cut());
     EXPECT_EQ(NodeId::of_voronoi_vertex(3).voronoi_vertex(), 3u);
     EXPECT_FALSE(NodeId::of_crossing(3).is_voronoi_vertex());
-    EXPECT_EQ(IntervalId::after_crossing(3).crossing(), 3u);
-    EXPECT_FALSE(IntervalId::to_point(3).follows_crossing());
 }

@@ -1,9 +1,8 @@
-#include "agvd/diagram/diagram_on_input.h"
+#include "agvd/diagram/build_diagram.h"
 
 #include <gtest/gtest.h>
 
-#include "agvd/diagram/build_diagram.h"
-#include "agvd/diagram/curve_piece.h"
+#include "agvd/diagram/diagram.h"
 #include "agvd/mesh/point_faces.h"
 #include "agvd/mesh/uniform_points.h"
 #include "agvd/propagation/propagate.h"

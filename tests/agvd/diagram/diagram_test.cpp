@@ -10,7 +10,7 @@
 
 #include "agvd/core/random.h"
 #include "agvd/diagram/build_diagram.h"
-#include "agvd/diagram/cells.h"
+#include "agvd/diagram/diagram.h"
 #include "agvd/propagation/propagate.h"
 #include "support/checks.h"
 #include "support/shapes.h"

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "agvd/diagram/single_crossing.h"
 #include "support/dice.h"
 
 using namespace agvd;

@@ -1,4 +1,4 @@
-#include "agvd/diagram/voronoi_vertex.h"
+#include "agvd/diagram/bisectors.h"
 
 #include <gtest/gtest.h>
 

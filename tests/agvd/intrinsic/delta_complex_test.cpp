@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "agvd/diagram/build_diagram.h"
-#include "agvd/diagram/point_label.h"
+#include "agvd/diagram/face_relays.h"
 #include "agvd/intrinsic/intrinsic_triangulation.h"
 #include "agvd/mesh/face_area.h"
 #include "agvd/mesh/point_faces.h"
@@ -180,12 +180,11 @@ TEST_P(DeltaComplexOf, RelaysReachEveryCornerNoFartherThanItsVertex) {
             PropagationOptions options{.engine = engine, .num_threads = 1};
             if (engine == Engine::Window) options.max_error = 0;
             const Propagation p = propagate(s, c.on_base, options);
-            PointLabels labels(s, p);
             for (const Index face : p.mixed_faces) {
                 for (Index k = 0; k < 3; ++k) {
                     SurfacePoint corner{FaceId(face), {0, 0, 0}};
                     corner.barycentric[k] = 1;
-                    const PointLabel label = labels(corner);
+                    const PointLabel label = point_label(s, p, corner);
                     ASSERT_TRUE(label.distance.has_value());
                     const double at_vertex = p.vertex_distance[s.tail(3 * face + k)];
                     EXPECT_LE(*label.distance, at_vertex * (1 + 1e-6) + slack) << face << " " << k;
@@ -249,12 +248,11 @@ TEST_P(DeltaComplexOf, CellsHaveTheAreasOfThoseOfTheInput) {
 
         constexpr Index num_samples = 4000;
         std::vector<double> expected(sites.size(), 0);
-        PointLabels labels_here(input, here), labels_there(base.surface(), there);
         for (const SurfacePoint& point : uniform_points(input, num_samples, 99)) {
-            const PointLabel truth = labels_here(point);
+            const PointLabel truth = point_label(input, here, point);
             if (!truth.site.is_valid()) continue;
             expected[truth.site.value()] += area / num_samples;
-            const PointLabel label = labels_there(base.to_intrinsic(point));
+            const PointLabel label = point_label(base.surface(), there, base.to_intrinsic(point));
             if (truth.distance && label.distance) {
                 EXPECT_NEAR(*label.distance, *truth.distance,
                             metric_rounding * shapes::longest_edge(input));
@@ -321,16 +319,15 @@ TEST(DeltaComplex, SitesOnSeamsAreSeenFromBothSides) {
             const PropagationOptions exactly{.max_error = 0, .num_threads = 1};
             const Propagation here = propagate(input, on_input, exactly);
             const Propagation there = propagate(s, sites, exactly);
-            PointLabels labels_here(input, here), labels_there(s, there);
             std::vector<double> area(sites.size(), 0);
             constexpr Index num_samples = 2000;
             const double slack = metric_rounding * shapes::longest_edge(input);
             double whole = 0;
             for (Index f = 0; f < s.num_faces(); ++f) whole += face_area(s, f);
             for (const SurfacePoint& point : uniform_points(input, num_samples, seed)) {
-                const PointLabel truth = labels_here(point);
+                const PointLabel truth = point_label(input, here, point);
                 area[truth.site.value()] += whole / num_samples;
-                const PointLabel label = labels_there(base.to_intrinsic(point));
+                const PointLabel label = point_label(s, there, base.to_intrinsic(point));
                 if (!truth.distance || !label.distance) continue;
                 EXPECT_NEAR(*label.distance, *truth.distance, slack);
             }
@@ -342,7 +339,7 @@ TEST(DeltaComplex, SitesOnSeamsAreSeenFromBothSides) {
             // Label changes on edges lie where both sites are as near as they say.
             for (Index i = 0; i < d.points.size(); ++i) {
                 if (d.passages[i].side == Passage::none || d.passages[i].leaves) continue;
-                const PointLabel label = labels_there(d.points[i]);
+                const PointLabel label = point_label(s, there, d.points[i]);
                 if (!label.distance) continue;
                 EXPECT_NEAR(*label.distance, d.point_distance[i], slack) << i;
             }
@@ -351,9 +348,9 @@ TEST(DeltaComplex, SitesOnSeamsAreSeenFromBothSides) {
             for (Index v = 0; v < s.num_vertices(); ++v) {
                 EXPECT_GE(other.vertex_distance[v], there.vertex_distance[v] - slack);
             }
-            PointLabels labels(s, other);
             for (const SurfacePoint& point : uniform_points(s, 200, seed)) {
-                const PointLabel label = labels(point), truth = labels_there(point);
+                const PointLabel label = point_label(s, other, point);
+                const PointLabel truth = point_label(s, there, point);
                 if (!label.distance || !truth.distance) continue;
                 EXPECT_GE(*label.distance, *truth.distance - slack);
                 // A spacing of the points off at most.

@@ -5,7 +5,6 @@
 #include <map>
 
 #include "agvd/diagram/build_diagram.h"
-#include "agvd/diagram/diagram_on_input.h"
 #include "agvd/intrinsic/face_pieces.h"
 #include "agvd/propagation/propagate.h"
 #include "paper/compare_diagrams.h"

@@ -1,7 +1,7 @@
 // Geodesic Voronoi diagrams and distances on arrays.
 #include <pybind11/stl.h>
 
-#include "agvd/diagram/cells.h"
+#include "agvd/diagram/diagram.h"
 #include "agvd/propagation/propagate.h"
 #include "based_diagram.h"
 #include "binding/arrays.h"

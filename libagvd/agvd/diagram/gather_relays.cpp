@@ -3,7 +3,7 @@
 // a relay whose tangents lie above the chord of the relay that is nearest at an end is dropped.
 //
 // Notation: lo and hi are the tail and head of the edge's edge_half.
-#include "agvd/diagram/edge_relays.h"
+#include "agvd/diagram/gather_relays.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,6 +17,9 @@ constexpr double same_distance = 1e-4;
 // The relays across an edge suffice if they give the distances of its ends up to this share of the
 // edge. Errors below it are accepted for a shorter list of candidates.
 constexpr double enough_at_ends = 1e-2;
+
+// Images nearer to an edge (share of its length) lie on it.
+constexpr double on_edge = 1e-12;
 
 double root(double x, double y) { return std::sqrt(x * x + y * y); }
 
@@ -54,24 +57,15 @@ bool is_inside(const Relay& r) { return r.y >= 0 && !is_corner(r); }
 
 }  // namespace
 
-// Most faces have three or four relays, so that sorting them first would not pay.
-template <typename IsInQuestion, typename Each>
-void EdgeRelays::for_each_relay(Index half_edge, const IsInQuestion& is_in_question,
-                                const Each& each) const {
-    const auto [begin, end] =
-        propagation_.relay_ranges[labels_.mixed_index[Surface::face(half_edge)]];
-    for (Index i = begin; i < end; ++i) {
-        if (is_in_question(propagation_.relays[i])) each(i);
-    }
-}
-
 // The relays of one face whose image lies across the edge, with their slopes, and those in the
-// face. The ends of the edge stand for themselves.
-void EdgeRelays::scan_across(Index edge, Index half_edge) {
+// face. The ends of the edge stand for themselves. Most faces have three or four relays, so that
+// sorting them first would not pay.
+void RelayGatherer::scan_across(Index edge, Index half_edge) {
     const bool forward = surface_.edge_half[edge] == half_edge;
     const double length = surface_.length[edge];
-    const auto add_across = [&](Index i) {
-        const Relay& r = propagation_.relays[i];
+    const auto relays = relays_at(half_edge);
+    for (const Relay& r : relays) {
+        if (!is_across(r, half_edge)) continue;
         const double begin = root(r.begin - r.x, r.y);
         const double end = root(r.end - r.x, r.y);
         const double tail = r.weight + begin + r.begin;
@@ -84,33 +78,33 @@ void EdgeRelays::scan_across(Index edge, Index half_edge) {
         if (r.end >= length && end > 0) slope_head = std::min(1.0, (length - r.x) / end + rounding);
         if (forward) {
             candidates_.push_back(
-                {tail, head, slope_tail, slope_head, i, r.site.value(), half_edge});
+                {tail, head, slope_tail, slope_head, &r, r.site.value(), half_edge});
         } else {
             candidates_.push_back(
-                {head, tail, -slope_head, -slope_tail, i, r.site.value(), half_edge});
+                {head, tail, -slope_head, -slope_tail, &r, r.site.value(), half_edge});
         }
-    };
-    for_each_relay(
-        half_edge, [&](const Relay& r) { return is_across(r, half_edge); }, add_across);
-    for_each_relay(half_edge, is_inside, [&](Index i) { add_distances(edge, half_edge, i); });
+    }
+    for (const Relay& r : relays) {
+        if (is_inside(r)) add_distances(edge, half_edge, r);
+    }
 }
 
 // The others, and the corner opposite.
-void EdgeRelays::scan_others(Index edge, Index half_edge) {
-    const Index next = Surface::next(half_edge);
+void RelayGatherer::scan_others(Index edge, Index half_edge) {
     const Index previous = Surface::previous(half_edge);
-    const auto add = [&](Index i) { add_distances(edge, half_edge, i); };
-    for (const Index other : {next, previous}) {
-        for_each_relay(
-            half_edge, [&](const Relay& r) { return is_across(r, other); }, add);
+    const auto relays = relays_at(half_edge);
+    for (const Index other : {Surface::next(half_edge), previous}) {
+        for (const Relay& r : relays) {
+            if (is_across(r, other)) add_distances(edge, half_edge, r);
+        }
     }
-    for_each_relay(
-        half_edge, [&](const Relay& r) { return is_corner(r) && r.half_edge == previous; }, add);
+    for (const Relay& r : relays) {
+        if (is_corner(r) && r.half_edge == previous) add_distances(edge, half_edge, r);
+    }
 }
 
 // Of a relay of the face that may belong to another half-edge.
-void EdgeRelays::add_distances(Index edge, Index half_edge, Index i) {
-    const Relay& relay = propagation_.relays[i];
+void RelayGatherer::add_distances(Index edge, Index half_edge, const Relay& relay) {
     const CornerDistances to = corner_distances(relay, surface_.length_of(relay.half_edge),
                                                 surface_.apex[relay.half_edge]);
     double tail = to.tail;
@@ -123,11 +117,11 @@ void EdgeRelays::add_distances(Index edge, Index half_edge, Index i) {
         head = to.apex;
     }
     if (surface_.edge_half[edge] != half_edge) std::swap(tail, head);
-    candidates_.push_back({tail, head, -1, 1, i, relay.site.value(), half_edge});
+    candidates_.push_back({tail, head, -1, 1, &relay, relay.site.value(), half_edge});
 }
 
 // Leaves the candidates that could be the nearest somewhere on the edge.
-void EdgeRelays::scan(Index edge) {
+void RelayGatherer::scan(Index edge) {
     const Index h = surface_.edge_half[edge];
     const Index twin = surface_.twin[h];
     const double length = surface_.length[edge];
@@ -138,7 +132,7 @@ void EdgeRelays::scan(Index edge) {
     const double at_head = labels_.vertex_distance[surface_.head(h)];
     Candidate first, last;  // The nearest at the ends.
     const auto find_nearest = [&] {
-        first = last = {infinity, infinity, 0, 0, 0, no_index, no_index};
+        first = last = {infinity, infinity, 0, 0, nullptr, no_index, no_index};
         for (const Candidate& c : candidates_) {
             if (c.lo < first.lo) first = c;
             if (c.hi < last.hi) last = c;
@@ -181,7 +175,7 @@ void EdgeRelays::scan(Index edge) {
     std::erase_if(candidates_, loses);
 }
 
-bool EdgeRelays::may_change(Index edge, std::vector<LineRelay>& relays) {
+bool RelayGatherer::may_change(Index edge, std::vector<LineRelay>& relays) {
     const Index h = surface_.edge_half[edge];
     const Index site = labels_.point_site[surface_.tail(h)];
     scan(edge);
@@ -190,21 +184,16 @@ bool EdgeRelays::may_change(Index edge, std::vector<LineRelay>& relays) {
                     [site](const Candidate& c) { return c.site == site; })) {
         return false;
     }
-    append_all(edge, relays);
+    put_candidates(edge, relays);
     return true;
 }
 
-void EdgeRelays::gather(Index edge, std::vector<LineRelay>& relays) {
-    scan(edge);
-    append_all(edge, relays);
-}
-
-void EdgeRelays::append_all(Index edge, std::vector<LineRelay>& relays) const {
+void RelayGatherer::put_candidates(Index edge, std::vector<LineRelay>& relays) const {
     relays.clear();
     const Index h = surface_.edge_half[edge];
     const double length = surface_.length[edge];
     for (const Candidate& c : candidates_) {
-        const Relay& relay = propagation_.relays[c.relay];
+        const Relay& relay = *c.relay;
         if (relay.y >= 0 || relay.half_edge != c.base) {
             relays.push_back(through_face(c.base, relay));
         } else if (c.base == h) {
@@ -223,7 +212,7 @@ void EdgeRelays::append_all(Index edge, std::vector<LineRelay>& relays) const {
     }
 }
 
-LineRelay EdgeRelays::through_face(Index base, const Relay& relay) const {
+LineRelay RelayGatherer::through_face(Index base, const Relay& relay) const {
     const Index edge = surface_.edge[base];
     const double length = surface_.length[edge];
     const bool is_here = surface_.edge_half[edge] == base;
@@ -232,6 +221,87 @@ LineRelay EdgeRelays::through_face(Index base, const Relay& relay) const {
     const Motion turn{{-1, 0}, {length, 0}};
     return on_line(to_planar(relay, is_here ? motion : compose(turn, motion)), {0, 0}, {1, 0},
                    length);
+}
+
+// --- Inside a face -----------------------------------------------------------------------------
+
+bool RelayGatherer::is_listed(Index half_edge) const {
+    const Index twin = surface_.twin[half_edge];
+    return twin == no_index || labels_.mixed_index[Surface::face(twin)] != no_index;
+}
+
+void RelayGatherer::gather_own(Index mixed_index, std::vector<PlanarRelay>& out) {
+    out.clear();
+    const Index face = propagation_.mixed_faces[mixed_index];
+    std::array<Motion, 3> motions;
+    for (Index k = 0; k < 3; ++k) motions[k] = to_face_frame(surface_, 3 * face + k);
+    const auto own = relays_of(propagation_, mixed_index);
+    order_.clear();
+    for (Index i = 0; i < own.size(); ++i) order_.emplace_back(own[i].site.value(), i);
+    std::sort(order_.begin(), order_.end());
+    for (const auto& [site, i] : order_) {
+        out.push_back(to_planar(own[i], motions[own[i].half_edge - 3 * face]));
+    }
+}
+
+void RelayGatherer::gather_all(Index mixed_index, std::vector<PlanarRelay>& out) {
+    out.clear();
+    const Index face = propagation_.mixed_faces[mixed_index];
+    for (const Relay& relay : relays_of(propagation_, mixed_index)) {
+        if (relay.y >= 0 || !is_listed(relay.half_edge)) {
+            out.push_back(to_planar(relay, to_face_frame(surface_, relay.half_edge)));
+        }
+    }
+    const auto corners = face_corners(surface_, face);
+    for (Index k = 0; k < 3; ++k) {
+        const Index v = surface_.mesh.triangles[face][k];
+        out.push_back(point_relay(corners[k], labels_.vertex_distance[v], labels_.point_site[v]));
+        if (is_listed(3 * face + k)) append_winners(3 * face + k, out);
+        append_crossings(3 * face + k, out);
+    }
+    std::stable_sort(out.begin(), out.end(),
+                     [](const PlanarRelay& a, const PlanarRelay& b) { return a.site < b.site; });
+}
+
+void RelayGatherer::append_winners(Index half_edge, std::vector<PlanarRelay>& out) {
+    const Index edge = surface_.edge[half_edge];
+    const Index along = surface_.edge_half[edge];
+    const double length = surface_.length[edge];
+    scan(edge);
+    put_candidates(edge, on_edge_);
+    pieces_.clear();
+    double from = 0;
+    Index site = labels_.point_site[surface_.tail(along)];
+    for (const Crossing& crossing : labels_.on_edge(edge)) {
+        append_pieces(on_edge_, site, from, crossing.at * length, pieces_);
+        from = crossing.at * length;
+        site = crossing.site_after;
+    }
+    append_pieces(on_edge_, site, from, length, pieces_);
+    const bool forward = along == half_edge;
+    const Motion to = to_face_frame(surface_, half_edge);
+    for (const StraightPiece& won : pieces_) {
+        const Vec2 image = forward ? won.from : Vec2(length - won.from.x(), -won.from.y());
+        const bool is_on_edge = std::abs(image.y()) <= on_edge * length;
+        if (image.y() > 0 && !is_on_edge) continue;  // Comes from this face.
+        const Vec2 begin(forward ? won.begin : length - won.end, 0);
+        const Vec2 end(forward ? won.end : length - won.begin, 0);
+        out.push_back({to(image), to(begin), to(end), won.weight,
+                       won.weight + (begin - image).norm(), won.weight + (end - image).norm(),
+                       won.site, is_on_edge});
+    }
+}
+
+void RelayGatherer::append_crossings(Index half_edge, std::vector<PlanarRelay>& out) const {
+    const Index edge = surface_.edge[half_edge];
+    const double length = surface_.length[edge];
+    const bool forward = surface_.edge_half[edge] == half_edge;
+    const Motion to = to_face_frame(surface_, half_edge);
+    for (const Crossing& c : labels_.on_edge(edge)) {
+        const Vec2 p = to({length * (forward ? c.at : 1 - c.at), 0});
+        out.push_back(point_relay(p, c.distance, c.site_before));
+        out.push_back(point_relay(p, c.distance, c.site_after));
+    }
 }
 
 }  // namespace agvd

@@ -2,21 +2,20 @@
 // edges are the cuts. A cut is labelled as a mesh edge is, by the relays that can reach it. Chunks
 // of faces are cut in parallel into lists of their own; then the lists are copied into the labels
 // in order.
-#include "agvd/diagram/cuts.h"
-
 #include <algorithm>
 
 #include "agvd/core/parallel.h"
+#include "agvd/diagram/envelope.h"
 #include "agvd/diagram/face_triangulation.h"
-#include "agvd/diagram/inside_relays.h"
-#include "agvd/diagram/label_line.h"
+#include "agvd/diagram/gather_relays.h"
 #include "agvd/diagram/relay_tree.h"
+#include "agvd/diagram/stages.h"
 
 namespace agvd {
 namespace {
 
-// What the faces of one chunk add to the labels. Blocks are in these lists; the points and cuts of
-// each face are counted from 0.
+// What the faces of one chunk add to the labels. Inner points, cuts and crossings are counted from
+// 0.
 struct FoundCuts {
     std::vector<InnerPoint> inner_points;
     std::vector<Cut> cuts;
@@ -32,16 +31,14 @@ public:
         : surface_(surface),
           propagation_(propagation),
           labels_(labels),
-          inside_relays_(surface, propagation, labels),
+          gatherer_(surface, propagation, labels),
           out_(out) {}
 
     void cut(Index mixed_index, std::span<const PlacedSite> placed) {
         face_ = propagation_.mixed_faces[mixed_index];
-        inside_relays_.gather_all(mixed_index, relays_);
+        gatherer_.gather_all(mixed_index, relays_);
         tree_.build(relays_);
         points_.clear();
-        cut_ = {face_, block_from(out_.inner_points), block_from(out_.cuts),
-                block_from(out_.triangles)};
         const auto corners = face_corners(surface_, face_);
         triangulation_.reset(corners);
         for (std::size_t k = 0; k < 3; ++k) {
@@ -74,8 +71,8 @@ private:
         find_near(p, distance);
         if (nearest(near_, p).site != placed.site) return;
         points_.push_back(
-            {{surface_.num_vertices() + cut_.inner_points.count++, 3}, p, placed.site, distance});
-        out_.inner_points.push_back({face_, p, placed.site});
+            {{surface_.num_vertices() + size_of(out_.inner_points), 3}, p, placed.site, distance});
+        out_.inner_points.push_back({p, placed.site});
         triangulation_.add(p);
     }
 
@@ -89,7 +86,7 @@ private:
 
     void append_triangles() {
         const auto& pieces = triangulation_.pieces();
-        const Index first = cut_.triangles.begin;
+        const Index first = size_of(out_.triangles);
         for (Index i = 0; i < pieces.size(); ++i) {
             CutTriangle triangle;
             for (std::size_t k = 0; k < 3; ++k) {
@@ -111,12 +108,11 @@ private:
             }
             out_.triangles.push_back(triangle);
         }
-        cut_.triangles.count = static_cast<Index>(pieces.size());
-        out_.faces.push_back(cut_);
+        out_.faces.push_back({face_, {first, size_of(pieces)}});
     }
 
     LineId add_cut(Index from, Index to) {
-        const LineId name = LineId::of_cut(cut_.cuts.count++);
+        const LineId name = LineId::of_cut(size_of(out_.cuts));
         label_cut(name, points_[from], points_[to]);
         return name;
     }
@@ -132,26 +128,24 @@ private:
         for (const PlanarRelay& relay : near_) {
             on_cut_.push_back(on_line(relay, from.position, chord / length, length));
         }
-        Block row = block_from(out_.crossings);
+        const Index begin = size_of(out_.crossings);
         label_line(on_cut_, name, {length, from.site, to.site}, scratch_, out_.crossings);
-        row.count = static_cast<Index>(out_.crossings.size()) - row.begin;
-        out_.cuts.push_back({face_, from.name, to.name, row});
+        out_.cuts.push_back({face_, from.name, to.name, {begin, size_of(out_.crossings) - begin}});
     }
 
     template <typename T>
-    static Block block_from(const std::vector<T>& elements) {
-        return {static_cast<Index>(elements.size()), 0};
+    static Index size_of(const std::vector<T>& list) {
+        return static_cast<Index>(list.size());
     }
 
     const Surface& surface_;
     const Propagation& propagation_;
     const EdgeLabels& labels_;
-    InsideRelays inside_relays_;
+    RelayGatherer gatherer_;
     FoundCuts& out_;
 
     // The face at hand.
     Index face_ = 0;
-    CutFace cut_{};
     std::vector<PlanarRelay> relays_;
     RelayTree tree_;
     std::vector<Index> found_;
@@ -159,87 +153,68 @@ private:
     std::vector<LineRelay> on_cut_;
     std::vector<Point> points_;
     FaceTriangulation triangulation_;
-    LineScratch scratch_;
+    EnvelopeScratch scratch_;
 };
 
-// The elements of a block, to be changed.
-template <typename T>
-std::vector<T> copy_of(const std::vector<T>& elements, const Block& block) {
-    return {elements.begin() + block.begin, elements.begin() + block.end()};
-}
-
-// Adds a face's cuts to the labels, with indices into these.
-CutFace add_cut_face(const FoundCuts& found, const CutFace& cut, Index num_vertices,
-                     EdgeLabels& labels) {
-    const auto inner_points = copy_of(found.inner_points, cut.inner_points);
-    auto cuts = copy_of(found.cuts, cut.cuts);
-    auto triangles = copy_of(found.triangles, cut.triangles);
-    CutFace result{cut.face, labels.inner_points.add(inner_points), labels.cuts.add(cuts), {}};
-    const auto point = [&](Index name) {
-        return name < num_vertices ? name : name + result.inner_points.begin;
+// Adds the cuts of a chunk to the labels, with indices into these.
+void add_cuts(FoundCuts& found, EdgeLabels& labels) {
+    const auto first_point = static_cast<Index>(labels.inner_points.size());
+    const auto first_cut = static_cast<Index>(labels.cuts.size());
+    const auto first_crossing = static_cast<Index>(labels.crossings.size());
+    const auto first_triangle = static_cast<Index>(labels.cut_triangles.size());
+    const auto move_end = [&](CutEnd& end) {
+        if (end.corner == 3) end.point += first_point;
     };
-    const auto side = [&](LineId line) {
-        return line.is_cut() ? LineId::of_cut(line.cut() + result.cuts.begin) : line;
+    const auto move_line = [&](LineId& line) {
+        if (line.is_cut()) line = LineId::of_cut(line.cut() + first_cut);
     };
-    for (Cut& c : labels.cuts[result.cuts]) {
-        c.from.point = point(c.from.point);
-        c.to.point = point(c.to.point);
-        auto crossings = copy_of(found.crossings, c.row);
-        for (Crossing& crossing : crossings) crossing.line = side(crossing.line);
-        c.row = labels.crossings.add(crossings);
+    for (const InnerPoint& point : found.inner_points) {
+        labels.inner_points.push_back(point);
+        labels.point_site.push_back(point.site);
     }
-    for (CutTriangle& triangle : triangles) {
-        for (CutEnd& end : triangle.points) end.point = point(end.point);
-        for (LineId& line : triangle.sides) line = side(line);
+    for (Cut& cut : found.cuts) {
+        move_end(cut.from);
+        move_end(cut.to);
+        cut.row.begin += first_crossing;
+        labels.cuts.push_back(cut);
     }
-    result.triangles = labels.cut_triangles.add(triangles);
-    labels.point_site.resize(num_vertices + labels.inner_points.size(), no_index);
-    for (Index i = 0; i < inner_points.size(); ++i) {
-        labels.point_site[num_vertices + result.inner_points.begin + i] = inner_points[i].site;
+    for (Crossing& crossing : found.crossings) {
+        move_line(crossing.line);
+        labels.crossings.push_back(crossing);
     }
-    return result;
-}
-
-void count_cuts(const CutFace& face, DiagramParts& parts) {
-    const EdgeLabels& labels = parts.labels;
-    for (const InnerPoint& point : labels.inner_points[face.inner_points]) {
-        parts.tally.count_inner_point(point);
+    for (CutTriangle& triangle : found.triangles) {
+        std::for_each(triangle.points.begin(), triangle.points.end(), move_end);
+        std::for_each(triangle.sides.begin(), triangle.sides.end(), move_line);
+        labels.cut_triangles.push_back(triangle);
     }
-    for (const Cut& cut : labels.cuts[face.cuts]) {
-        parts.tally.count_cut(labels.crossings[cut.row], labels.point_site[cut.to.point], 1);
+    for (CutFace& face : found.faces) {
+        face.triangles.begin += first_triangle;
+        labels.cut_faces.push_back(face);
     }
 }
 
 }  // namespace
 
-void cut_faces(const StageInput& input, std::span<const Index> mixed, DiagramParts& parts) {
+void cut_faces(const StageInput& input, EdgeLabels& labels) {
     if (input.placement.is_empty()) return;
     constexpr Index grain = 512;
-    EdgeLabels& labels = parts.labels;
+    const auto& mixed = input.propagation.mixed_faces;
     const auto count = static_cast<Index>(mixed.size());
     std::vector<FoundCuts> found(num_chunks(count, grain));
     const auto cut_chunk = [&](Index chunk, Index begin, Index end) {
         FaceCutter cutter(input.surface, input.propagation, labels, found[chunk]);
         Ticker ticker(input.poller);
         for (Index i = begin; i < end; ++i) {
-            const auto placed = input.placement.in_face(input.propagation.mixed_faces[mixed[i]]);
-            if (!placed.empty()) cutter.cut(mixed[i], placed);
-            ticker.tick(1 + relays_of(input.propagation, mixed[i]).size() * placed.size());
+            const auto placed = input.placement.in_face(mixed[i]);
+            if (!placed.empty()) cutter.cut(i, placed);
+            ticker.tick(1 + relays_of(input.propagation, i).size() * placed.size());
         }
     };
     parallel_chunks(count, grain, input.num_threads, cut_chunk, input.poller);
-    const auto num_before = static_cast<std::ptrdiff_t>(labels.cut_faces.size());
-    for (const FoundCuts& part : found) {
+    for (FoundCuts& part : found) {
         input.poller.poll();
-        for (const CutFace& cut : part.faces) {
-            labels.cut_faces.push_back(
-                add_cut_face(part, cut, input.surface.num_vertices(), labels));
-            count_cuts(labels.cut_faces.back(), parts);
-        }
+        add_cuts(part, labels);
     }
-    std::inplace_merge(labels.cut_faces.begin(), labels.cut_faces.begin() + num_before,
-                       labels.cut_faces.end(),
-                       [](const CutFace& a, const CutFace& b) { return a.face < b.face; });
 }
 
 }  // namespace agvd

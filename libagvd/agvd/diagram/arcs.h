@@ -1,0 +1,161 @@
+//! \file
+//! Arcs of bisectors inside triangles, and Voronoi edges as chains of them.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "agvd/core/poller.h"
+#include "agvd/diagram/edge_labels.h"
+
+namespace agvd {
+
+//! An end of an arc: a crossing on an edge or a cut, or a Voronoi vertex.
+struct NodeId {
+    EitherIndex id;
+
+    [[nodiscard]] static constexpr NodeId of_crossing(Index crossing) {
+        return {EitherIndex::first(crossing)};
+    }
+    [[nodiscard]] static constexpr NodeId of_voronoi_vertex(Index voronoi_vertex) {
+        return {EitherIndex::second(voronoi_vertex)};
+    }
+
+    [[nodiscard]] constexpr bool is_voronoi_vertex() const { return id.is_second(); }
+    [[nodiscard]] constexpr Index crossing() const { return id.first(); }
+    [[nodiscard]] constexpr Index voronoi_vertex() const { return id.second(); }
+
+    friend constexpr bool operator==(const NodeId&, const NodeId&) = default;
+};
+
+//! The tail or the head of an arc, in one word.
+struct ArcEnd {
+    Index word = no_index;  //!< None.
+
+    [[nodiscard]] static constexpr ArcEnd tail_of(Index arc) { return {2 * arc}; }
+    [[nodiscard]] static constexpr ArcEnd head_of(Index arc) { return {2 * arc + 1}; }
+
+    [[nodiscard]] constexpr bool is_valid() const { return word != no_index; }
+    [[nodiscard]] constexpr Index arc() const { return word / 2; }
+    [[nodiscard]] constexpr bool is_tail() const { return word % 2 == 0; }
+    //! Of the same arc.
+    [[nodiscard]] constexpr ArcEnd other() const { return {word ^ 1}; }
+
+    friend constexpr bool operator==(const ArcEnd&, const ArcEnd&) = default;
+};
+
+//! A label change on a triangle's boundary. Breakpoints run counter-clockwise; between breakpoint i
+//! and breakpoint i + 1 (cyclic) the boundary has label breakpoints[i].site_after.
+struct Breakpoint {
+    Vec2 position;
+    double distance;  //!< From both sites.
+    NodeId node;
+    Index site_after;
+    Index interval;          //!< The one after it: a node of EdgeLabels.
+    bool is_across = false;  //!< As in Arc.
+};
+
+//! A piece of bisector between two nodes.
+struct Arc {
+    Index face;
+    NodeId tail, head;
+    Index left, right;  //!< Sites, walking from tail to head.
+    Index first_point;  //!< Its inner polyline points in Arcs::points.
+    Index num_points;
+    //! The node, a crossing, lies on the twin of the half-edge that it names: a face that is glued
+    //! to itself meets one twice.
+    bool tail_is_across = false, head_is_across = false;
+};
+
+//! A point where three cells meet. Counter-clockwise around it: ends[i], then sites[i].
+struct VoronoiVertex {
+    Index face;
+    Vec2 position;  //!< In the face's own frame.
+    double distance;
+    std::array<ArcEnd, 3> ends;
+    std::array<Index, 3> sites;
+};
+
+//! Two boundary intervals of a site that are connected inside the triangle.
+struct Connection {
+    Index a, b;  //!< Nodes of EdgeLabels.
+    Index site;
+};
+
+//! The part of a triangle in a cell: area, and number of connected pieces.
+struct CellPart {
+    Index site;
+    int pieces;
+    double area;
+};
+
+//! What a face has in Arcs.
+struct FaceArcs {
+    Block arcs, voronoi_vertices, connections, parts;
+};
+
+//! What some faces contribute: those of one chunk, or all mixed ones. A face that is traced again
+//! leaves what it had, unused.
+struct Arcs {
+    //! Sizes of the lists.
+    struct Mark {
+        Index points, arcs, voronoi_vertices, connections, parts;
+    };
+
+    std::vector<Vec2> points;  //!< In the own frame of the face concerned.
+    std::vector<double> point_distance;
+    std::vector<Arc> arcs;
+    std::vector<VoronoiVertex> voronoi_vertices;
+    std::vector<Connection> connections;
+    std::vector<CellPart> parts;
+    std::vector<FaceArcs> faces;
+
+    [[nodiscard]] Mark mark() const;
+    //! Drops all that came since.
+    void go_back(const Mark& mark);
+    //! What came since.
+    [[nodiscard]] FaceArcs since(const Mark& mark) const;
+    //! Adds the faces of another list.
+    //! \param positions  of these faces in `faces`.
+    void append(const Arcs& chunk, std::span<const Index> positions);
+    //! Makes room for so many times as much.
+    void reserve_for(double times);
+};
+
+//! The Voronoi edges between cells. An edge runs through crossings from one vertex of the diagram
+//! (a Voronoi vertex, or a crossing on the surface's boundary) to another, or it is closed.
+struct JoinedEdges {
+    struct Edge {
+        ArcEnd first, last;  //!< At its tail and its head.
+        Index left, right;   //!< Sites, walking from tail to head.
+        bool is_closed;
+    };
+    //! Open ones in the order of the first of their ends in the faces, then closed ones in that of
+    //! their first tail.
+    std::vector<Edge> edges;
+    std::vector<Index> edge_of_arc;
+    //! The arcs' ends at each crossing; on the surface's boundary one only.
+    std::vector<std::array<ArcEnd, 2>> crossing_ends;
+};
+
+[[nodiscard]] inline NodeId node_at(const Arcs& arcs, ArcEnd end) {
+    const Arc& arc = arcs.arcs[end.arc()];
+    return end.is_tail() ? arc.tail : arc.head;
+}
+
+//! Whether edges end at a node.
+[[nodiscard]] inline bool ends_edges(const JoinedEdges& joined, NodeId node) {
+    return node.is_voronoi_vertex() || !joined.crossing_ends[node.crossing()][1].is_valid();
+}
+
+//! The end of the other arc at a crossing.
+[[nodiscard]] inline ArcEnd across(const Arcs& arcs, const JoinedEdges& joined, ArcEnd end) {
+    const auto& ends = joined.crossing_ends[node_at(arcs, end).crossing()];
+    return ends[0] == end ? ends[1] : ends[0];
+}
+
+//! Joins the arcs of all faces into Voronoi edges. Cost: O(arcs).
+[[nodiscard]] JoinedEdges join_arcs(const EdgeLabels& labels, const Arcs& arcs, Ticker ticker);
+
+}  // namespace agvd

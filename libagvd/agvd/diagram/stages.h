@@ -1,0 +1,78 @@
+//! \file
+//! The stages of a diagram: what they read, and what they make before it is drawn.
+#pragma once
+
+#include "agvd/diagram/arcs.h"
+#include "agvd/diagram/diagram.h"
+#include "agvd/propagation/site_placement.h"
+
+namespace agvd {
+
+//! Keeps references. Stages name mixed faces by their positions in Propagation::mixed_faces.
+struct StageInput {
+    const Surface& surface;
+    std::span<const SurfacePoint> sites;
+    const SitePlacement& placement;  //!< Of the sites.
+    const Propagation& propagation;
+    double chord_tolerance;  //!< As in DiagramOptions.
+    int num_threads;         //!< As in DiagramOptions.
+    Poller& poller;
+};
+
+struct DiagramParts {
+    Index num_sites = 0;
+    std::vector<std::vector<Index>> boundary_loops;  //!< Of the surface: half-edges.
+    EdgeLabels labels;
+    Arcs arcs;  //!< Faces by position.
+    JoinedEdges joined;
+};
+
+//! Labels the vertices. A vertex all of whose faces are mixed takes the nearest site over the
+//! relays of those faces, which may be nearer than the engine knows.
+//! Cost: O(relays) quick steps.
+void label_vertices(const StageInput& input, EdgeLabels& labels);
+
+//! Labels the edges all of whose faces are mixed, by the lower envelope of the relays of both sides
+//! and of the edge's ends.
+//! Parallel. Cost: O(relays) an edge, O(relays) and a few square roots a crossing.
+void label_edges(const StageInput& input, EdgeLabels& labels);
+
+//! Cuts faces with sites inside into triangles at them. Sites that lie on edges reach the boundary
+//! by themselves; a site that owns nothing at its own place is left out.
+//! Parallel. Cost: the relays near it, a site inside a mixed face, and sorting the face's relays.
+void cut_faces(const StageInput& input, EdgeLabels& labels);
+
+//! Gives mixed faces their arcs, which are not joined yet. Most faces have two or three label
+//! changes, and their own relays suffice. Where these contradict the labels on the edges or each
+//! other, the relays that are the nearest on the edges are used instead.
+//! \param positions  all of them; or those of some faces, to trace them again.
+//! Parallel.
+void trace_faces(const StageInput& input, std::span<const Index> positions, DiagramParts& parts);
+
+//! Makes cells connected. Exact cells are: a geodesic to the nearest site stays in its cell. With
+//! approximate distances they may have several parts where two sites nearly tie.
+//!
+//! Gives every part of a cell that is not connected to its site to a cell that it borders on,
+//! traces the faces around it again and joins all arcs again, until nothing changes. This ends,
+//! since label changes only vanish.
+//! \return draw_complex() of what comes out.
+//! Cost: that of draw_complex() for most diagrams; on the others that of the cells with islands,
+//! and O(#V + arcs) quick steps.
+[[nodiscard]] Diagram absorb_islands(const StageInput& input, DiagramParts& parts);
+
+//! The complex without the points of its edges. Cost: O(arcs + boundary).
+[[nodiscard]] Diagram draw_complex(const Surface& surface, const DiagramParts& parts,
+                                   Ticker ticker);
+
+//! Adds the points of the edges. Cost: that of their number.
+void draw_points(const Surface& surface, const DiagramParts& parts, Ticker ticker,
+                 Diagram& diagram);
+
+//! Sets the loops of cells. Cost: O(edges).
+void collect_loops(const Diagram& diagram, Ticker& ticker, Cells& cells);
+
+//! Sets cell_area and cell_euler. Cost: O(#F + crossings).
+void measure_cells(const Surface& surface, const DiagramParts& parts, Ticker ticker,
+                   Diagram& diagram);
+
+}  // namespace agvd
