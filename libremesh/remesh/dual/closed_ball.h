@@ -3,7 +3,7 @@
 #pragma once
 
 #include "agvd/diagram/cells.h"
-#include "remesh/dual/site_reason.h"
+#include "remesh/dual/build_dual.h"
 
 namespace remesh {
 
