@@ -3,6 +3,7 @@
 // in one of the faces that have it.
 #include "agvd/paths/face_strip.h"
 
+#include <cassert>
 #include <limits>
 #include <optional>
 #include <string>
@@ -43,7 +44,8 @@ public:
     // several places, the strip goes to the nearest. False if there is no such face.
     bool go_to(const SurfacePoint& next, FaceId face) {
         const bool is_found = turn_to([&](const SurfacePoint& view) {
-            return face.is_valid() ? view.face == face : holds(surface_, view.face.value(), next);
+            return face.is_valid() ? view.face == face
+                                   : seen_from(surface_, next, view.face.value()).has_value();
         });
         const auto there =
             is_found ? nearest_view(surface_, next, here_) : std::optional<SurfacePoint>();
@@ -142,13 +144,6 @@ void trim(const Surface& surface, FaceStrip& strip) {
         strip.target = across_edge(surface, strip.target, surface.twin[crossed.back()]);
         crossed.pop_back();
     }
-}
-
-bool holds(const Surface& surface, Index face, const SurfacePoint& point) {
-    if (point.face.value() == face) return true;
-    const auto& b = point.barycentric;
-    if (b[0] != 0 && b[1] != 0 && b[2] != 0) return false;
-    return seen_from(surface, point, face).has_value();
 }
 
 FaceStrip strip_along(const Surface& surface, std::span<const SurfacePoint> points,

@@ -30,9 +30,6 @@ void cross(const Surface& surface, Index half_edge, std::vector<Index>& crossed)
 //! Drops crossings of edges on which the source or the target lies.
 void trim(const Surface& surface, FaceStrip& strip);
 
-//! Whether the point lies in the face, on its edges or at its corners.
-[[nodiscard]] bool holds(const Surface& surface, Index face, const SurfacePoint& point);
-
 //! The locally shortest path that straighten_path finds from a strip.
 [[nodiscard]] GeodesicPath straighten(const Surface& surface, FaceStrip strip, Ticker ticker = {});
 

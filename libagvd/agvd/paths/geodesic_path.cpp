@@ -55,19 +55,6 @@ bool share_face(const Surface& surface, const SurfacePoint& a, const SurfacePoin
     return common_faces(surface, a, b).first != no_index;
 }
 
-// Calls visit(half-edge, vertex) for each neighbour of `vertex` until it returns false. The
-// half-edge joins both and belongs in turn to each face around.
-template <typename Visit>
-void for_each_neighbour(const Surface& surface, Index vertex, const Visit& visit) {
-    Index h = surface.outgoing[vertex];
-    do {
-        if (!visit(h, surface.head(h))) return;
-        const Index in = Surface::previous(h);
-        h = surface.twin[in];
-        if (h == no_index) visit(in, surface.tail(in));
-    } while (h != no_index && h != surface.outgoing[vertex]);
-}
-
 // Goes from a vertex of the cell each time to the neighbour in it over which the site is nearest,
 // until one shares a face with the site. Empty if that ends before.
 Way descend(const Surface& surface, const SiteDistances& distances, const SiteGoal& goal,
@@ -77,13 +64,11 @@ Way descend(const Surface& surface, const SiteDistances& distances, const SiteGo
     for (bool is_there = false;;) {
         const Index here = way.back();
         Start next{infinity, no_index};
-        for_each_neighbour(surface, here, [&](Index h, Index v) {
-            is_there = holds(surface, Surface::face(h), goal.point);
-            if (is_there) return false;
+        for_each_edge_at(surface, here, [&](Index h, Index v) {
+            is_there = is_there || seen_from(surface, goal.point, Surface::face(h));
             if (distances.site[v] == goal.site && distance[v] < distance[here]) {
                 next = std::min(next, {distance[v] + surface.length_of(h), v});
             }
-            return true;
         });
         ticker.tick();
         if (is_there) return way;
@@ -122,10 +107,9 @@ Way search(const Surface& surface, const SurfacePoint& from, const SurfacePoint&
         if (std::exchange(state.is_done, true)) continue;
         const double length = state.length;
         bool is_there = false;
-        for_each_neighbour(surface, here, [&](Index h, Index v) {
-            is_there = holds(surface, Surface::face(h), to);
-            if (!is_there) reach(v, length + surface.length_of(h), here);
-            return !is_there;
+        for_each_edge_at(surface, here, [&](Index h, Index v) {
+            is_there = is_there || seen_from(surface, to, Surface::face(h));
+            reach(v, length + surface.length_of(h), here);
         });
         if (!is_there) continue;
         for (Index v = here; v != no_index; v = reached[v].from) way.push_back(v);
@@ -162,8 +146,7 @@ GeodesicPath path_between(const Surface& surface, const SurfacePoint& from, cons
 }
 
 GeodesicPath path_to_site(const Surface& surface, const SiteDistances& distances,
-                          const SiteGoal& to, const SurfacePoint& from,
-                          const Progress& progress) {
+                          const SiteGoal& to, const SurfacePoint& from, const Progress& progress) {
     Poller poller(progress);
     Ticker ticker(poller);
     const SurfacePoint point = snapped(surface, from);
@@ -176,7 +159,8 @@ GeodesicPath path_to_site(const Surface& surface, const SiteDistances& distances
         if (distances.site[v] == goal.site) starts.push_back({length + distances.distance[v], v});
     }
     std::sort(starts.begin(), starts.end());
-    GeodesicPath shortest{.length = infinity};
+    GeodesicPath shortest;
+    shortest.length = infinity;
     for (const Start& start : starts) {
         if (shortest.length <= goal.distance * (1 + length_tolerance)) break;
         const Way way = descend(surface, distances, goal, start.vertex, ticker);

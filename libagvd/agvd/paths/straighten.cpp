@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "agvd/mesh/point_faces.h"
 #include "agvd/paths/face_strip.h"
@@ -43,28 +44,6 @@ bool is_left_of(const Vec2& a, const Vec2& b, const Vec2& c) {
            side * side > collinear * collinear * (b - a).squaredNorm() * (c - a).squaredNorm();
 }
 
-// A sum of angles, each below pi, that is followed up to pi.
-class AngleSum {
-public:
-    //! \param corner  (cos, sin) times any length; sin < 0 counts as rounding.
-    void add(const Vec2& corner) {
-        if (is_over_) return;
-        const double length = corner.norm();
-        if (!(length > 0)) return;
-        const double cosine = corner.x() / length, sine = std::max(corner.y(), 0.0) / length;
-        const Vec2 sum(cosine_ * cosine - sine_ * sine, cosine_ * sine + sine_ * cosine);
-        // If the sum was below pi, adding an angle below pi gives a negative sine only above pi.
-        is_over_ = sum.y() < 0 || (sum.x() < 0 && sum.y() < angle_tolerance);
-        cosine_ = sum.x();
-        sine_ = sum.y();
-    }
-    [[nodiscard]] bool is_below_pi() const { return !is_over_; }
-
-private:
-    double cosine_ = 1, sine_ = 0;
-    bool is_over_ = false;
-};
-
 class Straightener {
 public:
     Straightener(const Surface& surface, FaceStrip strip, Ticker ticker)
@@ -86,7 +65,7 @@ private:
         Vec2 left, right;
     };
 
-    [[nodiscard]] GeodesicPath traced() const;
+    [[nodiscard]] GeodesicPath traced(double length, bool is_locally_shortest) const;
     [[nodiscard]] double find_shortest();
     void unfold();
     void add_to_funnel(Index node);
@@ -128,10 +107,7 @@ GeodesicPath Straightener::run() {
         const double length = find_shortest();
         const bool is_rerouted = reroute();
         if (!is_rerouted && length <= least * (1 + rounding)) {
-            GeodesicPath path = traced();
-            path.length = length;
-            path.is_locally_shortest = true;
-            return path;
+            return traced(length, true);
         }
         if (length < least) {
             least = length;
@@ -144,16 +120,13 @@ GeodesicPath Straightener::run() {
         strip_.crossed.swap(crossed_);
     }
     strip_ = best_;
-    least = find_shortest();
-    GeodesicPath path = traced();
-    path.length = least;
-    return path;
+    return traced(find_shortest(), false);
 }
 
 // The points of the shortest path in the strip.
-GeodesicPath Straightener::traced() const {
+GeodesicPath Straightener::traced(double length, bool is_locally_shortest) const {
     const std::vector<Index>& crossed = strip_.crossed;
-    GeodesicPath path{{strip_.source}, {strip_.source.face}};
+    GeodesicPath path{{strip_.source}, {strip_.source.face}, length, is_locally_shortest};
     // Enters the face across a half-edge at a point of it: 0 at its tail, 1 at its head.
     const auto enter = [&](Index half_edge, double along) {
         const Index inside = surface_.twin[half_edge];
@@ -324,10 +297,13 @@ Straightener::Detour Straightener::find_detour(Index bend) {
         if (surface_.twin[crossed[k]] == around) return {true, k};
     }
     // Angles at the vertex on the other side: clockwise for a vertex on the left.
-    AngleSum angle;
+    double angle = 0;
+    const auto add_corner = [&](const Vec2& corner) {  // (cos, sin) times any length.
+        angle += std::atan2(std::max(corner.y(), 0.0), corner.x());
+    };
     const auto add = [&](const Vec2& from, const Vec2& to) {
         const Vec2 a = from - node.place, b = to - node.place;
-        angle.add({a.dot(b), node.is_left ? cross_product(b, a) : cross_product(a, b)});
+        add_corner({a.dot(b), node.is_left ? cross_product(b, a) : cross_product(a, b)});
     };
     const Ends& first = ends_[node.first];
     const Ends& last = ends_[node.last];
@@ -335,13 +311,13 @@ Straightener::Detour Straightener::find_detour(Index bend) {
     add(apex_of(out, last.left, last.right), nodes_[path_[bend + 1]].place);
     const Index goal = node.is_left ? Surface::previous(out) : Surface::next(out);
     Index h = node.is_left ? Surface::next(in) : Surface::previous(in);
-    while (angle.is_below_pi()) {
+    while (angle < std::numbers::pi - angle_tolerance) {
         const Index inside = surface_.twin[h];
         if (inside == no_index) break;
         detour_.push_back(h);
         if (inside == goal) return {true, node.last};
         h = node.is_left ? Surface::next(inside) : Surface::previous(inside);
-        angle.add(surface_.apex_of(node.is_left ? h : inside));
+        add_corner(surface_.apex_of(node.is_left ? h : inside));
     }
     return {false, node.last};
 }

@@ -41,41 +41,36 @@ struct DelaunayOptions {
 
 //! Counts of edges, flips and triangles; all 0 with Delaunay::Off.
 struct DelaunayCounts {
-    Index inner_edges = 0;     //!< Edges of two faces.
-    Index failing_before = 0;  //!< Inner edges whose opposite angles sum to more than pi (by
-    Index failing_after = 0;   //!< more than 1e-6), before and after the flips.
-    Index flips = 0;           //!< Edges flipped, each as often as it was.
-    //! Intrinsic, of all edges: those whose path is not proved locally shortest (see GeodesicPath).
-    Index not_locally_shortest = 0;
+    Index inner_edges = 0;           //!< Edges of two faces.
+    Index failing_before = 0;        //!< Inner edges whose opposite angles sum to more than pi (by
+    Index failing_after = 0;         //!< more than 1e-6), before and after the flips.
+    Index flips = 0;                 //!< Edges flipped, each as often as it was.
+    Index not_locally_shortest = 0;  //!< Intrinsic: edges before flips; see GeodesicPath.
     //! Intrinsic: triangles with a side longer than the other two together.
     Index broken_triangles = 0;
-    bool is_finished = true;  //!< False: stopped after 10 flips for each edge.
+    bool is_finished = true;  //!< False: stopped after 100 passes.
 };
 
 //! A mesh after the flips.
 struct DelaunayResult {
     std::vector<Triangle> triangles;  //!< As many as before.
-    //! By triangle, of the sides from corner k to corner k + 1; empty with Delaunay::Off.
-    std::vector<std::array<double, 3>> side_lengths;
-    DelaunayCounts counts;  //!< Before and after.
+    DelaunayCounts counts;            //!< Before and after.
 };
 
 //! Tests the edges of a triangle mesh on a surface and flips those that fail the Delaunay
-//! condition, if the flip is safe: the mesh stays a simplicial complex with the same boundary, no
-//! vertex gets fewer than three edges (two on the boundary), and nothing folds over in space.
+//! condition, if the flip is safe: the new edge meets the condition, the mesh stays a simplicial
+//! complex with the same boundary, no vertex gets fewer than three edges (two on the boundary), and
+//! in space no edge around becomes sharper than 60 degrees, or than the sharpest one there before.
 //!
 //! \param points     places of the vertices on the surface.
 //! \param positions  the same in space; no two are farther apart than on the surface.
-//! \param site       by vertex: its site in the diagram, at the same place; no_index: no site.
-//! \param triangles  vertex indices. Edges need not be dual to Voronoi edges. Edges without exactly
-//!                   two sides in opposite directions are left unchanged. The vertices of a
-//!                   triangle lie on one component.
+//! \param triangles  vertex indices. Edges without exactly two sides in opposite directions are
+//!                   left unchanged. The vertices of a triangle lie on one component.
 //! \throw Cancelled  the progress callback returned false.
-//! Cost: O(size of the complex + faces that the edges cross).
+//! Cost: that of path_between for each edge.
 [[nodiscard]] DelaunayResult make_delaunay(const Surface& surface,
                                            std::span<const SurfacePoint> points,
                                            std::span<const Vec3> positions,
-                                           std::span<const Index> site, const Diagram& diagram,
                                            std::span<const Triangle> triangles,
                                            const DelaunayOptions& options = {});
 

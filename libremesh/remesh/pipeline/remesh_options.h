@@ -12,7 +12,6 @@
 #include "agvd/propagation/propagation_options.h"
 #include "remesh/clean/clean_input.h"
 #include "remesh/curves/find_creases.h"
-#include "remesh/curves/junctions.h"
 #include "remesh/dual/build_dual.h"
 #include "remesh/sites/relax_options.h"
 #include "remesh/sites/sample_sites.h"
