@@ -69,15 +69,15 @@ struct SiteGoal {
     double distance = 0;
 };
 
-//! A path from a point of a site's cell to the site, straightened from paths from vertex to vertex
-//! of the cell by falling distances.
+//! A path from a point of a site's cell to the site.
 //!
-//! It is a shortest path where its length is the distance. Paths through other vertices around the
-//! point are tried until one has that length (up to 1e-9), and the shortest is returned. If no such
-//! path arrives, path_between finds one.
+//! It is a shortest path where its length is the distance. Tried and straightened are the straight
+//! lines to where the distances at the ends of an edge beside the point put the site, and paths
+//! from vertex to vertex by falling distances, until one has the distance's length (up to 1e-9).
+//! The shortest is returned; if none arrives, that of path_between.
 //! \throw InvalidInput  the site lies on another component.
 //! \throw Cancelled     the progress callback returned false.
-//! Cost: that of straightening one path, or one for each vertex around the point.
+//! Cost: that of straightening one path, or a few for each face around the point.
 [[nodiscard]] GeodesicPath path_to_site(const Surface& surface, const SiteDistances& distances,
                                         const SiteGoal& goal, const SurfacePoint& point,
                                         const Progress& progress = {});

@@ -1,8 +1,11 @@
-// Paths from vertex to vertex that are straightened then: descend() goes down the distances from a
-// site, search() is an A* search along edges.
+// Paths that are straightened then: trace() follows the straight line to where a site lies by the
+// distances of an edge, descend() goes down the distances from vertex to vertex, search() is an A*
+// search along edges.
 #include "agvd/paths/geodesic_path.h"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 #include <queue>
 #include <unordered_map>
 #include <utility>
@@ -75,6 +78,58 @@ Way descend(const Surface& surface, const SiteDistances& distances, const SiteGo
         if (next.vertex == no_index) return {};
         way.push_back(next.vertex);
     }
+}
+
+// A straight line, which starts on the left of a half-edge and ends at the image of a site on its
+// right, in the frame of the half-edge.
+struct Ray {
+    Index half_edge;
+    Vec2 from, image;
+};
+
+// The strip that the ray crosses from a point to a face that holds the site.
+std::optional<FaceStrip> trace(const Surface& surface, const SiteGoal& goal,
+                               const SurfacePoint& point, Ray ray, Ticker& ticker) {
+    FaceStrip strip{point, point, {}};
+    while (strip.crossed.size() <= surface.num_faces()) {
+        ticker.tick();
+        strip.crossed.push_back(ray.half_edge);
+        const Index inside = surface.twin[ray.half_edge];
+        if (inside == no_index) break;
+        if (const auto target = seen_from(surface, goal.point, Surface::face(inside))) {
+            strip.target = *target;
+            return strip;
+        }
+        const Vec2 end(surface.length_of(inside), 0), apex = surface.apex_of(inside);
+        ray.from = end - ray.from;
+        ray.image = end - ray.image;
+        const Vec2 way = ray.image - ray.from, to_apex = apex - ray.from;
+        const bool is_left = way.x() * to_apex.y() - way.y() * to_apex.x() > 0;  // The apex.
+        ray.half_edge = is_left ? Surface::next(inside) : Surface::previous(inside);
+        const Vec2 tail = is_left ? end : apex, head = is_left ? apex : Vec2(0, 0);
+        const Vec2 along = (head - tail).normalized();
+        for (Vec2* place : {&ray.from, &ray.image}) {
+            const Vec2 step = *place - tail;
+            *place = {step.dot(along), along.x() * step.y() - along.y() * step.x()};
+        }
+    }
+    return std::nullopt;
+}
+
+// The ray across a half-edge to the image of the site that the distances of both its ends give.
+std::optional<Ray> ray_across(const Surface& surface, const SiteDistances& distances,
+                              const SiteGoal& goal, const SurfacePoint& point, Index half_edge) {
+    const Index a = surface.tail(half_edge), b = surface.head(half_edge);
+    if (distances.site[a] != goal.site || distances.site[b] != goal.site) return std::nullopt;
+    const Vec2 from = position_in_frame(surface, point, half_edge);
+    const double length = surface.length_of(half_edge);
+    const double to_a = distances.distance[a], to_b = distances.distance[b];
+    const double x = ((to_a - to_b) * (to_a + to_b) + length * length) / (2 * length);
+    const double y = std::sqrt(std::max(to_a * to_a - x * x, 0.0));
+    if (!(from.y() > 0 && y > 0)) return std::nullopt;
+    const double at = from.x() + (x - from.x()) * from.y() / (from.y() + y);
+    if (!(at >= 0 && at <= length)) return std::nullopt;
+    return Ray{half_edge, from, {x, -y}};
 }
 
 // A* search along edges from the faces of one point to those of another. Empty if none arrives.
@@ -161,12 +216,22 @@ GeodesicPath path_to_site(const Surface& surface, const SiteDistances& distances
     std::sort(starts.begin(), starts.end());
     GeodesicPath shortest;
     shortest.length = infinity;
-    for (const Start& start : starts) {
-        if (shortest.length <= goal.distance * (1 + length_tolerance)) break;
-        const Way way = descend(surface, distances, goal, start.vertex, ticker);
-        if (way.empty()) continue;
-        GeodesicPath path = straighten_way(surface, point, way, goal.point, ticker);
+    const auto is_found = [&] { return shortest.length <= goal.distance * (1 + length_tolerance); };
+    const auto take = [&](GeodesicPath path) {
         if (path.length < shortest.length) shortest = std::move(path);
+    };
+    for_each_view(surface, point, [&](const SurfacePoint& view) {
+        for (Index k = 0; k < 3 && !is_found(); ++k) {
+            const auto ray = ray_across(surface, distances, goal, view, 3 * view.face.value() + k);
+            if (!ray) continue;
+            const auto strip = trace(surface, goal, view, *ray, ticker);
+            if (strip) take(straighten(surface, *strip, ticker));
+        }
+    });
+    for (const Start& start : starts) {
+        if (is_found()) break;
+        const Way way = descend(surface, distances, goal, start.vertex, ticker);
+        if (!way.empty()) take(straighten_way(surface, point, way, goal.point, ticker));
     }
     if (shortest.points.empty()) return path_between(surface, point, goal.point, progress);
     return shortest;
