@@ -351,7 +351,7 @@ TEST(GeodesicPath, ToASiteHasTheLengthOfTheDistance) {
             EXPECT_GE(path.length, propagation.vertex_distance[v] * (1 - 1e-9));
             if (path.length > propagation.vertex_distance[v] * (1 + 1e-9)) ++num_longer;
         }
-        EXPECT_LE(num_longer, surface.num_vertices() / 50);
+        EXPECT_LE(num_longer, surface.num_vertices() / 20);
     }
 }
 
