@@ -15,4 +15,5 @@
 #include "agvd/mesh/scale.h"
 #include "agvd/mesh/surface.h"
 #include "agvd/mesh/surface_point.h"
+#include "agvd/paths/geodesic_path.h"
 #include "agvd/propagation/propagate.h"

@@ -1,15 +1,12 @@
 // Straightened paths and the edges of the dual against exact distances.
 #include <gtest/gtest.h>
 
-#include <numeric>
-
 #include "agvd/diagram/build_diagram.h"
 #include "agvd/mesh/uniform_points.h"
+#include "agvd/paths/geodesic_path.h"
 #include "agvd/propagation/propagate.h"
 #include "paper/oracle.h"
 #include "remesh/dual/build_dual.h"
-#include "remesh/dual/delaunay.h"
-#include "remesh/dual/straighten.h"
 #include "support/geodesics.h"
 #include "support/points.h"
 #include "support/shapes.h"
@@ -29,8 +26,8 @@ TEST(StraightenAgainstExact, IsNeverShorter) {
                 if (exact[i] == 0) continue;
                 double shortest = std::numeric_limits<double>::infinity();
                 for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-                    const remesh::GeodesicPath path = remesh::straightest_path(
-                        surface, geodesics::random_strip(surface, a, ends[i], seed));
+                    const GeodesicPath start = geodesics::random_path(surface, a, ends[i], seed);
+                    const GeodesicPath path = straighten_path(surface, start.points, start.faces);
                     EXPECT_GE(path.length, exact[i] * (1 - 1e-9));
                     EXPECT_LT(geodesics::largest_bend(surface, path.points), 1e-6);
                     shortest = std::min(shortest, path.length);
@@ -48,24 +45,32 @@ TEST(StraightenAgainstExact, DualEdgesAreShortestPathsUnlessTheSurfaceBends) {
     const Surface surface = build_surface(mesh.view());
     const std::vector<SurfacePoint> sites = uniform_points(surface, 150, 1);
     const Diagram diagram = build_diagram(surface, sites, propagate(surface, sites));
-    std::vector<Index> site(sites.size());
-    std::iota(site.begin(), site.end(), 0U);
-    std::vector<agvd::Vec3> positions;
-    for (const SurfacePoint& point : sites) positions.push_back(position(mesh.view(), point));
-    const remesh::DelaunayResult result = remesh::make_delaunay(
-        surface, sites, positions, site, diagram, remesh::build_dual(surface, diagram));
     Index num_exact = 0, num_sides = 0;
-    for (std::size_t t = 0; t < result.triangles.size(); ++t) {
-        const auto [a, b, c] = result.triangles[t];
+    for (const auto& [a, b, c] : remesh::build_dual(surface, diagram)) {
         const std::array targets{sites[b], sites[c]};
         const std::vector<double> exact = exact_distances(surface, sites[a], targets);
-        const std::array lengths{result.side_lengths[t][0], result.side_lengths[t][2]};
         for (std::size_t k = 0; k < 2; ++k) {
-            EXPECT_GE(lengths[k], exact[k] * (1 - 1e-9));
-            EXPECT_LE(lengths[k], exact[k] * 1.05);
+            const double length = path_between(surface, sites[a], targets[k]).length;
+            EXPECT_GE(length, exact[k] * (1 - 1e-9));
+            EXPECT_LE(length, exact[k] * 1.05);
             ++num_sides;
-            if (lengths[k] <= exact[k] * (1 + 1e-9)) ++num_exact;
+            if (length <= exact[k] * (1 + 1e-9)) ++num_exact;
         }
     }
     EXPECT_GT(num_exact, 0.9 * num_sides);
+}
+
+TEST(StraightenAgainstExact, PathsToSitesAreShortest) {
+    const Surface surface = build_surface(shapes::jitter(shapes::torus(30, 15), 0.03, 2).view());
+    const std::vector<SurfacePoint> sites = uniform_points(surface, 5, 1);
+    const Propagation propagation = propagate(surface, sites, {.max_error = 0});
+    Index num_exact = 0;
+    for (const SurfacePoint& from : points::scattered(surface, 60, 4)) {
+        const GeodesicPath path = path_to_site(surface, sites, propagation, from);
+        const std::vector<double> exact = exact_distances(surface, from, sites);
+        const double nearest = *std::min_element(exact.begin(), exact.end());
+        EXPECT_GE(path.length, nearest * (1 - 1e-9));
+        if (path.length <= nearest * (1 + 1e-9)) ++num_exact;
+    }
+    EXPECT_GE(num_exact, 50u);
 }

@@ -133,7 +133,7 @@ bool is_vertex(const SurfacePoint& point) {
 
 }  // namespace
 
-remesh::FaceStrip random_strip(const Surface& surface, const SurfacePoint& from,
+agvd::GeodesicPath random_path(const Surface& surface, const SurfacePoint& from,
                                const SurfacePoint& to, std::uint64_t seed) {
     Dice dice(seed);
     std::vector<Index> entered(surface.num_faces(), no_index);  // By which half-edge, from outside.
@@ -152,17 +152,26 @@ remesh::FaceStrip random_strip(const Surface& surface, const SurfacePoint& from,
             open.push_back(Surface::face(twin));
         }
     }
-    remesh::FaceStrip strip{from, to, {}};
+    std::vector<Index> crossed;
     for (Index face = to.face.value(); face != from.face.value();) {
         if (entered[face] == no_index) {
             ADD_FAILURE() << "points on different components";
-            return strip;
+            return {};
         }
-        strip.crossed.push_back(entered[face]);
+        crossed.push_back(entered[face]);
         face = Surface::face(entered[face]);
     }
-    std::reverse(strip.crossed.begin(), strip.crossed.end());
-    return strip;
+    agvd::GeodesicPath path;
+    path.points.push_back(from);
+    path.faces.push_back(from.face);
+    for (auto h = crossed.rbegin(); h != crossed.rend(); ++h) {
+        SurfacePoint& middle = path.points.emplace_back();
+        middle = {agvd::FaceId(Surface::face(*h)), {0.5, 0.5, 0.5}};
+        middle.barycentric[(*h + 2) % 3] = 0;
+        path.faces.emplace_back(Surface::face(surface.twin[*h]));
+    }
+    path.points.push_back(to);
+    return path;
 }
 
 double length(const Surface& surface, std::span<const SurfacePoint> points) {

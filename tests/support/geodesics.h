@@ -4,12 +4,13 @@
 
 #include <span>
 
-#include "remesh/dual/face_strip.h"
+#include "agvd/paths/geodesic_path.h"
 
 namespace geodesics {
 
-//! A path from one point to another over faces chosen at random; both must lie on one component.
-[[nodiscard]] remesh::FaceStrip random_strip(const agvd::Surface& surface,
+//! A path from one point to another over faces chosen at random, through the middles of edges; both
+//! points must lie on one component. Its length is not set.
+[[nodiscard]] agvd::GeodesicPath random_path(const agvd::Surface& surface,
                                              const agvd::SurfacePoint& from,
                                              const agvd::SurfacePoint& to, std::uint64_t seed);
 

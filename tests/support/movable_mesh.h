@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "agvd/mesh/surface.h"
-#include "remesh/curves/close_rim.h"
+#include "remesh/curves/glue.h"
 #include "remesh/placement/edited_mesh.h"
 #include "remesh/placement/placed_mesh.h"
 

@@ -1,8 +1,6 @@
 // Gaps are closed by Dijkstra's algorithm along weak edges, from each open end to the first vertex
 // of the set or the boundary that lies ahead of it. The shortest gaps are closed first. The open
 // ends that are left then follow weak edges that turn little.
-#include "remesh/curves/carry_creases.h"
-
 #include <algorithm>
 #include <numbers>
 #include <optional>
@@ -10,6 +8,7 @@
 #include <unordered_map>
 
 #include "agvd/mesh/one_ring.h"
+#include "remesh/curves/crease_chains.h"
 
 namespace remesh::detail {
 namespace {
@@ -17,16 +16,6 @@ namespace {
 // Along a chain, the two ends of a gap are at least this many gap lengths apart.
 constexpr double least_detour = 3;
 constexpr double most_turn_cos = std::numbers::sqrt2 / 2;
-
-// Calls each(edge, vertex at its other end) for the edges at a vertex.
-template <typename Each>
-void for_each_edge_at(const Surface& surface, Index vertex, const Each& each) {
-    for_each_outgoing(surface, vertex, [&](Index h) {
-        each(surface.edge[h], surface.head(h));
-        const Index last = Surface::previous(h);
-        if (surface.twin[last] == no_index) each(surface.edge[last], surface.tail(last));
-    });
-}
 
 // An open end and the chain that ends there.
 struct OpenEnd {
@@ -42,8 +31,8 @@ std::vector<OpenEnd> open_ends(const CreaseSet& set, const std::vector<CreaseCha
         for (const int k : {0, 1}) {
             const Index v = chain.ends[k];
             if (!set.is_open_end(v)) continue;
-            const Index h = surface.edge_half[k == 0 ? chain.edges.front() : chain.edges.back()];
-            const Index before = surface.tail(h) == v ? surface.head(h) : surface.tail(h);
+            const Index before =
+                other_end(surface, k == 0 ? chain.edges.front() : chain.edges.back(), v);
             const auto& p = surface.mesh.positions;
             ends.push_back({v, &chain, (p[v] - p[before]).normalized()});
         }
@@ -79,8 +68,9 @@ public:
                 if (is_ahead(end, v, length)) return path_to(end.vertex, v);
                 continue;
             }
-            for_each_edge_at(surface_, v, [&, v = v, length = length](Index e, Index other) {
+            for_each_edge_at(surface_, v, [&, v = v, length = length](Index h, Index other) {
                 ticker_.tick();
+                const Index e = surface_.edge[h];
                 const double beyond = length + surface_.length[e];
                 if (set_.has(e) || angles_[e] < rules_.least_angle || beyond > most) return;
                 const auto [it, is_new] = reached_.try_emplace(other, Step{beyond, v, e});
@@ -139,7 +129,8 @@ Index next_weak_edge(const CreaseSet& set, const std::vector<double>& angles, do
                      Index vertex, const Vec3& ahead) {
     const auto& p = set.surface().mesh.positions;
     Index best = no_index;
-    for_each_edge_at(set.surface(), vertex, [&](Index e, Index other) {
+    for_each_edge_at(set.surface(), vertex, [&](Index h, Index other) {
+        const Index e = set.surface().edge[h];
         if (set.has(e) || angles[e] < least_angle) return;
         if ((p[other] - p[vertex]).normalized().dot(ahead) < most_turn_cos) return;
         if (best == no_index || angles[e] > angles[best]) best = e;
@@ -182,8 +173,7 @@ void extend_ends(CreaseSet& set, const std::vector<double>& angles, const CarryR
             const Index e = next_weak_edge(set, angles, rules.least_angle, v, ahead);
             if (e == no_index || surface.length[e] > left) break;
             left -= surface.length[e];
-            const Index h = surface.edge_half[e];
-            const Index other = surface.tail(h) == v ? surface.head(h) : surface.tail(h);
+            const Index other = other_end(surface, e, v);
             ahead = (p[other] - p[v]).normalized();
             set.add(e);
             v = other;

@@ -1,8 +1,10 @@
 //! \file
-//! A set of crease edges and the chains that it consists of.
+//! A set of crease edges and the chains that it consists of; the steps of find_creases on it.
+//! Private to remeshing.
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "agvd/core/poller.h"
@@ -56,10 +58,90 @@ private:
     std::vector<Index> degree_;        // #V.
 };
 
-//! The chain that holds the edge.
-[[nodiscard]] CreaseChain chain_of(const CreaseSet& set, Index edge);
-
 //! All chains, ascending by their lowest edge. Cost: O(#E).
 [[nodiscard]] std::vector<CreaseChain> chains_of(const CreaseSet& set, Poller& poller);
 
+//! The angle between the normals on both sides of each edge, radians in [0, pi]; 0 on the boundary.
+//!
+//! A face lower than `thin` has no reliable normal, as rounding of its corners turns it. It is
+//! joined with the neighbour that fits it best until the patch is not thin. All edges of the patch
+//! get the normal of its vector area. That is the vector area of the patch's outline, so the noise
+//! of the faces inside cancels. Edges inside a patch get 0.
+//!
+//! \param thin  mesh units, >= 0: least height over the longest side.
+//! \return #E.
+//! Cost: O(#F + k log k), k = thin faces.
+[[nodiscard]] std::vector<double> edge_angles(const Surface& surface, double thin, int num_threads,
+                                              Poller& poller);
+
+//! For each edge of the set: how much the surface around it turns, radians; 0 for other edges. It
+//! is the root of the sum of angle squared times length over all edges outside the set within
+//! `reach`, on both sides, per length of the set's edge. So the many small turns of round faces and
+//! fillets count little, noise counts about as much as the noisy edge itself, and edges between
+//! coplanar faces do not count. The reach is the length of the set's edges if that is longer, but
+//! at most four times `reach`.
+//!
+//! \param angles  #E, radians.
+//! \return #E.
+//! Cost: O(#V + k log k), k = edges within reach.
+[[nodiscard]] std::vector<double> surrounding_turn(const CreaseSet& set,
+                                                   const std::vector<double>& angles, double reach,
+                                                   Poller& poller);
+
+//! The edges along which a crease may continue.
+struct CarryRules {
+    double least_angle = 0;  //!< Radians.
+    double most_gap = 0;     //!< Mesh units.
+};
+
+//! Joins open ends to vertices ahead of them by the shortest path of weak edges, shortest paths
+//! first. No gap is longer than the chain that ends there.
+//!
+//! \param angles  #E, radians.
+//! Cost: O(#E + k log k), k = weak edges within reach of an end.
+void close_gaps(CreaseSet& set, const std::vector<double>& angles, const CarryRules& rules,
+                Poller& poller);
+
+//! Extends chains at open ends along weak edges that turn by less than 45 degrees, by at most their
+//! own length.
+//!
+//! Cost: O(#E).
+void extend_ends(CreaseSet& set, const std::vector<double>& angles, const CarryRules& rules,
+                 Poller& poller);
+
+//! The least values of what stays, mesh units. The merit of a chain is the sum of length times
+//! weight over its edges.
+struct PruningRules {
+    double least_spur = 0;    //!< Merit of a chain with one open end.
+    double least_island = 0;  //!< Merit of a chain with two open ends.
+    //! Merit of a connected network, which may be a single closed chain. Short chains count in
+    //! proportion to their length.
+    double least_network = 0;
+    double short_chain = 0;    //!< Length below which chains are short.
+    double least_density = 0;  //!< A network's merit, counted in this way, per length.
+};
+
+//! Removes chains with open ends, then networks, that fall short of the rules.
+//!
+//! \param weights  #E, >= 0.
+//! Cost: O(#E + k log k), k = edges of the set.
+void prune(CreaseSet& set, const std::vector<double>& weights, const PruningRules& rules,
+           Poller& poller);
+
 }  // namespace remesh::detail
+
+namespace remesh {
+
+//! Seams part the surface into charts. Those around a chart narrower than 2.5 spacings, as twice
+//! its area over the length of its seams tells, are left out, the narrowest first; then chains with
+//! a free end that are shorter than two spacings.
+//!
+//! \param is_crease  #E: a chain that ends on these, or on the boundary, has no free end there;
+//!                   empty: there are none.
+//! \param spacing    of the sites, mesh units.
+//! \param is_seam    #E; edited in place.
+//! Cost: O(#E).
+void prune_seams(const Surface& surface, std::span<const std::uint8_t> is_crease, double spacing,
+                 std::vector<std::uint8_t>& is_seam, Ticker ticker = {});
+
+}  // namespace remesh

@@ -1,5 +1,6 @@
 //! \file
-//! The curves of a surface that its mesh must reproduce: boundary, creases and junctions.
+//! The curves of a surface that its mesh must reproduce: boundary, creases and junctions, where
+//! sheets met in the input before cleaning cut them apart. Private to remeshing.
 #pragma once
 
 #include <algorithm>
@@ -10,10 +11,50 @@
 
 #include "agvd/mesh/surface.h"
 #include "agvd/mesh/surface_point.h"
-#include "remesh/curves/junctions.h"
-#include "remesh/curves/locked_elements.h"
+#include "remesh/curves/find_creases.h"
 
 namespace remesh {
+
+//! Vertices and edges of a surface that its mesh keeps.
+struct LockedElements {
+    std::vector<Index> vertices;        //!< Ascending; the ends of the edges are among them.
+    std::vector<std::uint8_t> is_edge;  //!< #E: 1 for locked edges; empty: none.
+
+    [[nodiscard]] bool empty() const { return vertices.empty(); }
+    [[nodiscard]] bool has_edge(Index edge) const { return !is_edge.empty() && is_edge[edge] != 0; }
+};
+
+//! Copies: elements of a surface that were one before cleaning cut the sheets apart.
+struct JunctionSet {
+    std::vector<std::vector<Index>> edges;  //!< Two or more each, ascending.
+    //! The same for the ends of such edges. Vertices where sheets met in a single point are left
+    //! out.
+    std::vector<std::vector<Index>> vertices;
+    Junctions in_result = Junctions::Apart;  //!< What becomes of the sheets.
+
+    //! Whether no sheets meet in an edge.
+    [[nodiscard]] bool empty() const { return edges.empty(); }
+};
+
+//! Finds junctions: edges whose ends have the same origins were one edge. Positions do not count.
+//! Edges with the same faces on both sides are left out: they lie inside walls of two bodies.
+//!
+//! \param vertex_origin  #V: see CleanResult; empty: each vertex is its own.
+//! Cost: O(#V + #E + k log k), k = edges at vertices that have copies.
+[[nodiscard]] JunctionSet find_junctions(const Surface& surface,
+                                         std::span<const Index> vertex_origin);
+
+//! Removes connected junctions shorter than least_length (mesh units). Cost: O(#V + k), k = edges
+//! of junctions.
+void drop_short_junctions(const Surface& surface, double least_length, JunctionSet& junctions);
+
+//! Creases and the edges of junctions: the surface is cut along those with two faces.
+//! \param is_crease  #E. Cost: O(#edges of junctions).
+[[nodiscard]] std::vector<std::uint8_t> edges_to_cut(const JunctionSet& junctions,
+                                                     std::vector<std::uint8_t> is_crease);
+
+//! #V: the first copy of a vertex at a junction; any other vertex itself.
+[[nodiscard]] std::vector<Index> first_copies(const JunctionSet& junctions, Index num_vertices);
 
 //! One side of a curve: the half-edges of the faces there.
 struct CurveSide {
@@ -96,5 +137,23 @@ struct CurveNetwork {
 
 //! The unit tangent of a curve at a place.
 [[nodiscard]] Vec3 tangent_of_curve(const Surface& surface, const Curve& curve, double along);
+
+//! A surface cut along a network of curves.
+struct CutSurface {
+    //! Faces and half-edges keep their numbers, so surface points stay valid. A vertex on curves
+    //! has a copy for each wedge between them; the first copy keeps the old number.
+    Surface surface;
+    std::vector<Index> original;  //!< #V: the vertex that each is a copy of.
+    Index num_original = 0;       //!< Vertices before the cut, their own originals.
+};
+
+//! Cuts a surface along edges, which become boundary edges on both sides.
+//!
+//! \param is_cut  #E: 1 for edges to cut; boundary edges may be among them.
+//! \param num_threads  >= 0; 0: all cores. The result is the same for any number.
+//! \throw Cancelled  the progress callback returned false.
+//! Cost: O(n).
+[[nodiscard]] CutSurface cut_surface(const Surface& surface, std::span<const std::uint8_t> is_cut,
+                                     int num_threads = 0, const Progress& progress = {});
 
 }  // namespace remesh

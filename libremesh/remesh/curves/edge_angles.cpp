@@ -1,13 +1,16 @@
-// Joins thin faces with neighbours into patches that are not thin: a union-find over the sides of
-// thin faces, in order of merit. The angle at an edge is that between the vector areas of the two
-// patches. `thin` is a height in mesh units.
-#include "remesh/curves/edge_angles.h"
-
+// Dihedral angles, and how much the surface turns around creases. Joins thin faces with neighbours
+// into patches that are not thin: a union-find over the sides of thin faces, in order of merit. The
+// angle at an edge is that between the vector areas of the two patches. `thin` is a height in mesh
+// units.
 #include <algorithm>
 #include <cmath>
+#include <queue>
 
 #include "agvd/core/parallel.h"
+#include "agvd/core/union_find.h"
 #include "agvd/mesh/face_area.h"
+#include "agvd/mesh/one_ring.h"
+#include "remesh/curves/crease_chains.h"
 
 namespace remesh::detail {
 namespace {
@@ -20,25 +23,16 @@ double angle_between(const Vec3& a, const Vec3& b) {
 
 // Faces joined into patches. A patch is named by its root.
 struct Patches {
-    std::vector<Index> parent;    // #F.
+    UnionFind joined;
     std::vector<Vec3> area;       // #F: twice the vector area; at a root, of its patch.
     std::vector<double> longest;  // #F: longest side; at a root, of its patch.
 
-    [[nodiscard]] Index root(Index f) {
-        while (parent[f] != f) f = parent[f] = parent[parent[f]];
-        return f;
-    }
-    // The same for threads side by side: paths stay as they are.
-    [[nodiscard]] Index root_of(Index f) const {
-        while (parent[f] != f) f = parent[f];
-        return f;
-    }
     [[nodiscard]] bool is_thin(Index root, double thin) const {
         return area[root].norm() < thin * longest[root];
     }
     void join(Index a, Index b) {
-        if (b < a) std::swap(a, b);
-        parent[b] = a;
+        if (b < a) std::swap(a, b);  // The root is the lower one.
+        joined.unite(a, b);
         area[a] += area[b];
         longest[a] = std::max(longest[a], longest[b]);
     }
@@ -46,15 +40,13 @@ struct Patches {
 
 Patches single_faces(const Surface& surface, int num_threads, Poller& poller) {
     const Index count = surface.num_faces();
-    Patches patches{std::vector<Index>(count), std::vector<Vec3>(count),
-                    std::vector<double>(count)};
+    Patches patches{UnionFind(count), std::vector<Vec3>(count), std::vector<double>(count)};
     const auto& p = surface.mesh.positions;
     parallel_chunks(
         count, edges_per_task, num_threads,
         [&](Index, Index begin, Index end) {
             for (Index f = begin; f < end; ++f) {
                 const auto& [a, b, c] = surface.mesh.triangles[f];
-                patches.parent[f] = f;
                 patches.area[f] = (p[b] - p[a]).cross(p[c] - p[a]);
                 patches.longest[f] =
                     std::max({surface.length_of(3 * f), surface.length_of(3 * f + 1),
@@ -119,11 +111,86 @@ void join_thin_faces(const Surface& surface, double thin, int num_threads, Patch
     for (const Seam& seam : seams_of_thin_faces(surface, patches, thin, num_threads, poller)) {
         ticker.tick();
         const Index h = surface.edge_half[seam.edge];
-        const Index a = patches.root(Surface::face(h));
-        const Index b = patches.root(Surface::face(surface.twin[h]));
+        const Index a = patches.joined.root(Surface::face(h));
+        const Index b = patches.joined.root(Surface::face(surface.twin[h]));
         if (a != b && (patches.is_thin(a, thin) || patches.is_thin(b, thin))) patches.join(a, b);
     }
 }
+
+// Each vertex of the set gathers the turn around it, as far as it is the nearest such vertex.
+class Gathering {
+public:
+    Gathering(const CreaseSet& set, const std::vector<double>& angles, double reach, Poller& poller)
+        : set_(set), surface_(set.surface()), angles_(angles), ticker_(poller) {
+        const Index count = surface_.num_vertices();
+        crease_length_.resize(count);
+        turn_.resize(count);
+        left_.resize(count);
+        source_.assign(count, no_index);
+        for (Index e = set.next(0); e < surface_.num_edges(); e = set.next(e + 1)) {
+            const Index h = surface_.edge_half[e];
+            crease_length_[surface_.tail(h)] += surface_.length[e] / 2;
+            crease_length_[surface_.head(h)] += surface_.length[e] / 2;
+        }
+        for (Index v = 0; v < count; ++v) {
+            if (set.degree(v) == 0) continue;
+            source_[v] = v;
+            left_[v] = std::clamp(2 * crease_length_[v] / set.degree(v), reach, 4 * reach);
+            queue_.emplace(left_[v], v);
+        }
+    }
+
+    void spread() {
+        while (!queue_.empty()) {
+            const auto [left, v] = queue_.top();
+            queue_.pop();
+            if (left < left_[v]) continue;
+            for_each_edge_at(surface_, v, [&, v = v, left = left](Index h, Index other) {
+                ticker_.tick();
+                pass(v, left, h, other);
+            });
+        }
+    }
+
+    [[nodiscard]] std::vector<double> of_edges() const {
+        std::vector<double> turns(surface_.num_edges());
+        for (Index e = set_.next(0); e < surface_.num_edges(); e = set_.next(e + 1)) {
+            const Index h = surface_.edge_half[e];
+            for (const Index v : {surface_.tail(h), surface_.head(h)}) {
+                turns[e] += std::sqrt(turn_[v] / crease_length_[v]) / 2;
+            }
+        }
+        return turns;
+    }
+
+private:
+    // Passes along half-edge h from v, which is settled with `left` of its reach remaining, to
+    // `other`.
+    void pass(Index v, double left, Index h, Index other) {
+        const Index e = surface_.edge[h];
+        if (set_.has(e)) return;
+        const double length = surface_.length[e];
+        // An edge between two settled vertices is gathered from both, each up to where they meet.
+        const bool is_met = source_[other] != no_index && left_[other] >= left;
+        const double part = is_met ? (length + left - left_[other]) / 2 : length;
+        turn_[source_[v]] += angles_[e] * angles_[e] * std::clamp(std::min(part, left), 0., length);
+        if (left - length > left_[other]) {
+            left_[other] = left - length;
+            source_[other] = source_[v];
+            queue_.emplace(left_[other], other);
+        }
+    }
+
+    const CreaseSet& set_;
+    const Surface& surface_;
+    const std::vector<double>& angles_;
+    Ticker ticker_;
+    std::vector<double> crease_length_;  // #V: half the length of the edges of the set there.
+    std::vector<double> turn_;           // #V: gathered; radians times length.
+    std::vector<double> left_;           // #V: reach that remains at the vertex.
+    std::vector<Index> source_;          // #V: the vertex of the set that it belongs to.
+    std::priority_queue<std::pair<double, Index>> queue_;
+};
 
 }  // namespace
 
@@ -138,13 +205,20 @@ std::vector<double> edge_angles(const Surface& surface, double thin, int num_thr
             for (Index e = begin; e < end; ++e) {
                 const Index h = surface.edge_half[e];
                 if (surface.twin[h] == no_index) continue;
-                const Index a = patches.root_of(Surface::face(h));
-                const Index b = patches.root_of(Surface::face(surface.twin[h]));
+                const Index a = std::as_const(patches.joined).root(Surface::face(h));
+                const Index b = std::as_const(patches.joined).root(Surface::face(surface.twin[h]));
                 if (a != b) angles[e] = angle_between(patches.area[a], patches.area[b]);
             }
         },
         poller);
     return angles;
+}
+
+std::vector<double> surrounding_turn(const CreaseSet& set, const std::vector<double>& angles,
+                                     double reach, Poller& poller) {
+    Gathering gathering(set, angles, reach, poller);
+    gathering.spread();
+    return gathering.of_edges();
 }
 
 }  // namespace remesh::detail

@@ -10,10 +10,7 @@
 
 #include "agvd/core/error.h"
 #include "agvd/core/parallel.h"
-#include "remesh/curves/carry_creases.h"
-#include "remesh/curves/edge_angles.h"
-#include "remesh/curves/prune_creases.h"
-#include "remesh/curves/surrounding_turn.h"
+#include "remesh/curves/crease_chains.h"
 
 namespace remesh {
 namespace {
@@ -140,6 +137,10 @@ std::vector<std::uint8_t> find_creases(const Surface& surface, const CreaseOptio
     }
     if (options.is_automatic) apply_scale(set, angles, angle, options.spacing, poller);
     return set.take_flags();
+}
+
+const char* junctions_name(Junctions junctions) {
+    return junctions == Junctions::Keep ? "keep" : "apart";
 }
 
 }  // namespace remesh

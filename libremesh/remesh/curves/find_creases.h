@@ -1,5 +1,7 @@
 //! \file
-//! The sharp creases of a surface at the scale of the sites.
+//! The sharp creases of a surface at the scale of the sites: those of a part are found, the noise
+//! of a scan is not, whatever its triangles. And what becomes of junctions. Held by FindCreases.*
+//! in tests/remesh/curves.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +12,15 @@
 #include "remesh/names.h"
 
 namespace remesh {
+
+//! What the result does with edges that have more than two faces in the input.
+enum class Junctions {
+    Apart,  //!< Each sheet has vertices of its own there, at the same points.
+    Keep    //!< The sheets are welded again: the result is non-manifold there, like the input.
+};
+
+//! Lower-case name of a choice: "apart" or "keep".
+[[nodiscard]] const char* junctions_name(Junctions junctions);
 
 //! `{}` gives the defaults.
 struct CreaseOptions {

@@ -112,11 +112,9 @@ private:
     template <typename Each>
     void for_each_edge(Index vertex, const Each& each) const {
         const auto at_copy = [&](Index v) {
-            for_each_outgoing(surface_, v, [&](Index h) {
+            for_each_edge_at(surface_, v, [&](Index h, Index) {
                 const Index e = surface_.edge[h];
                 if (is_outside_[e] == 0) each(first_edge_[e]);
-                const Index last = Surface::previous(h);
-                if (surface_.twin[last] == no_index) each(first_edge_[surface_.edge[last]]);
             });
         };
         at_copy(vertex);

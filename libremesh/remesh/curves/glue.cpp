@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <set>
 
-#include "agvd/core/half_edge.h"
+#include "agvd/core/edge_key.h"
+#include "agvd/mesh/edge_sides.h"
 
 namespace remesh {
 namespace {
@@ -13,66 +14,43 @@ namespace {
 // Most rounds of flips.
 constexpr int most_flip_rounds = 10;
 
-using Ends = std::pair<Index, Index>;
-
-struct HalfEdge {
-    Ends ends;        // Glued vertices, ascending.
-    Ends own;         // Vertices of the patch: tail, head.
-    Index half_edge;  // 3 t + k
-};
-
-std::vector<HalfEdge> sorted_half_edges(std::span<const Triangle> triangles,
-                                        std::span<const Index> vertex) {
-    std::vector<HalfEdge> all;
-    all.reserve(3 * triangles.size());
-    for (Index i = 0; i < triangles.size(); ++i) {
-        for (Index k = 0; k < 3; ++k) {
-            const Index a = triangles[i][k], b = triangles[i][(k + 1) % 3];
-            all.push_back({std::minmax({vertex[a], vertex[b]}), {a, b}, 3 * i + k});
-        }
-    }
-    std::sort(all.begin(), all.end(), [](const HalfEdge& x, const HalfEdge& y) {
-        return std::pair(x.ends, x.half_edge) < std::pair(y.ends, y.half_edge);
-    });
-    return all;
-}
-
 // Flips inner edges of patches that would occur twice in the glued mesh. Returns false if nothing
 // was flipped.
 bool flip_repeated(std::vector<Triangle>& triangles, std::span<const Index> vertex) {
-    const std::vector<HalfEdge> all = sorted_half_edges(triangles, vertex);
-    std::set<Ends> added;
+    const std::vector<EdgeSide> all = sorted_edge_sides(rename_vertices(triangles, vertex));
+    std::set<std::uint64_t> added;
     std::vector<bool> is_changed(triangles.size(), false);
-    const auto exists = [&](const Ends& ends) {
-        const auto found =
-            std::lower_bound(all.begin(), all.end(), ends,
-                             [](const HalfEdge& h, const Ends& value) { return h.ends < value; });
+    const auto exists = [&](std::uint64_t ends) {
+        const auto found = std::lower_bound(
+            all.begin(), all.end(), ends,
+            [](const EdgeSide& side, std::uint64_t value) { return side.ends < value; });
         return (found != all.end() && found->ends == ends) || added.contains(ends);
     };
+    // Tries the flip of the edge between two sides; they may belong to different patches.
+    const auto try_flip = [&](Index h, Index g) {
+        const Index t = h / 3, u = g / 3;
+        const Index a = triangles[t][h % 3], b = triangles[t][(h + 1) % 3];
+        if (triangles[u][g % 3] != b || triangles[u][(g + 1) % 3] != a) return false;
+        const Index c = triangles[t][(h + 2) % 3], d = triangles[u][(g + 2) % 3];
+        const std::uint64_t ends = edge_key(vertex[c], vertex[d]);
+        if (is_changed[t] || is_changed[u] || vertex[c] == vertex[d] || exists(ends)) return false;
+        triangles[t] = {c, d, b};
+        triangles[u] = {d, c, a};
+        is_changed[t] = is_changed[u] = true;
+        added.insert(ends);
+        return true;
+    };
     bool has_flipped = false;
-    for (std::size_t first = 0, last = 0; first < all.size(); first = last) {
-        while (last < all.size() && all[last].ends == all[first].ends) ++last;
-        if (last - first <= 2) continue;
-        for (std::size_t i = first; i < last; ++i) {
-            for (std::size_t j = i + 1; j < last; ++j) {
-                const Ends& own = all[i].own;
-                if (all[j].own != Ends(own.second, own.first)) continue;
-                const Index t = all[i].half_edge / 3, u = all[j].half_edge / 3;
-                const Index c = triangles[t][(all[i].half_edge % 3 + 2) % 3];
-                const Index d = triangles[u][(all[j].half_edge % 3 + 2) % 3];
-                const Ends ends = std::minmax({vertex[c], vertex[d]});
-                if (is_changed[t] || is_changed[u] || vertex[c] == vertex[d] || exists(ends)) {
-                    continue;
-                }
-                triangles[t] = {c, d, own.second};
-                triangles[u] = {d, c, own.first};
-                is_changed[t] = is_changed[u] = true;
-                added.insert(ends);
+    for_each_edge(all, [&](std::span<const EdgeSide> edge) {
+        if (edge.size() <= 2) return;
+        for (std::size_t i = 0; i < edge.size(); ++i) {
+            for (std::size_t j = i + 1; j < edge.size(); ++j) {
+                if (!try_flip(edge[i].half_edge, edge[j].half_edge)) continue;
                 has_flipped = true;
-                i = j = last;  // One flip for each edge and round.
+                return;  // One flip for each edge and round.
             }
         }
-    }
+    });
     return has_flipped;
 }
 
@@ -97,6 +75,41 @@ Numbering number_sets(std::span<const Index> sets) {
     return result;
 }
 
+// Most edges between two sites that are to be joined.
+constexpr std::size_t most_edges_between = 8;
+
+// The site after another one on the rim; no_index unless there is exactly one.
+Index next_on(const std::vector<DirectedEdge>& rim, Index site) {
+    const auto found = std::lower_bound(rim.begin(), rim.end(), DirectedEdge(site, 0));
+    if (found == rim.end() || found->first != site) return no_index;
+    const auto other = found + 1;
+    return other != rim.end() && other->first == site ? no_index : found->second;
+}
+
+bool has(const std::vector<DirectedEdge>& edges, const DirectedEdge& edge) {
+    return std::binary_search(edges.begin(), edges.end(), edge);
+}
+
+// The sites from one along edges to the first that is an end; empty if it is too far or there is
+// none.
+template <typename IsEnd>
+std::vector<Index> way_on(const std::vector<DirectedEdge>& edges, Index from, const IsEnd& is_end) {
+    std::vector<Index> way{from};
+    do {
+        way.push_back(next_on(edges, way.back()));
+        if (way.back() == no_index || way.size() > most_edges_between + 1) return {};
+    } while (!is_end(way.back()));
+    return way;
+}
+
+// The corners of all triangles, ascending.
+std::vector<Index> corners_of(std::span<const Triangle> triangles) {
+    std::vector<Index> corners;
+    for (const Triangle& t : triangles) corners.insert(corners.end(), t.begin(), t.end());
+    std::sort(corners.begin(), corners.end());
+    return corners;
+}
+
 }  // namespace
 
 GluedMesh glue(std::span<const Triangle> triangles, std::span<const Index> group,
@@ -113,10 +126,72 @@ GluedMesh glue(std::span<const Triangle> triangles, std::span<const Index> group
     for (const Index v : result.representative) {
         result.first_of_group.push_back(groups.first[groups.number[v]]);
     }
-    for (Triangle& t : result.triangles) {
-        for (Index& v : t) v = result.vertex[v];
+    result.triangles = rename_vertices(result.triangles, result.vertex);
+    return result;
+}
+
+std::vector<DirectedEdge> rim_of(std::span<const Triangle> triangles) {
+    std::vector<DirectedEdge> edges, rim;
+    edges.reserve(3 * triangles.size());
+    for (const Triangle& t : triangles) {
+        for (std::size_t k = 0; k < 3; ++k) edges.emplace_back(t[k], t[(k + 1) % 3]);
+    }
+    std::sort(edges.begin(), edges.end());
+    for (const auto& [from, to] : edges) {
+        const DirectedEdge back(to, from);
+        if (!std::binary_search(edges.begin(), edges.end(), back)) rim.emplace_back(from, to);
+    }
+    return rim;
+}
+
+void close_rim(std::span<const DirectedEdge> chain, std::vector<Triangle>& triangles) {
+    const std::vector<DirectedEdge> rim = rim_of(triangles);
+    std::vector<DirectedEdge> wanted(chain.begin(), chain.end());
+    std::sort(wanted.begin(), wanted.end());
+    const std::vector<Index> used = corners_of(triangles);
+    for (const DirectedEdge& edge : wanted) {
+        if (has(rim, edge)) continue;
+        const Index from = edge.first, to = edge.second;
+        const std::vector<Index> way = way_on(rim, from, [&](Index site) { return site == to; });
+        for (std::size_t i = way.size(); i-- > 2;) {
+            triangles.push_back({from, way[i], way[i - 1]});
+        }
+        if (!way.empty() || std::binary_search(used.begin(), used.end(), to)) continue;
+        const std::vector<Index> past = way_on(wanted, from, [&](Index site) {
+            return has(rim, {from, site});
+        });
+        for (std::size_t i = 2; i < past.size(); ++i) {
+            triangles.push_back({from, past[i - 1], past[i]});
+        }
+    }
+}
+
+std::vector<Triangle> rename_vertices(std::span<const Triangle> triangles,
+                                      std::span<const Index> first) {
+    std::vector<Triangle> result(triangles.begin(), triangles.end());
+    for (Triangle& t : result) {
+        for (Index& v : t) v = first[v];
     }
     return result;
+}
+
+std::vector<Index> weld_sheets(std::span<const Index> group, TriangleMesh& mesh) {
+    if (group.empty()) return {};
+    Numbering welded = number_sets(group);
+    for (Index v = 0; v < welded.first.size(); ++v) {
+        mesh.positions[v] = mesh.positions[welded.first[v]];
+    }
+    mesh.positions.resize(welded.first.size());
+    mesh.triangles = rename_vertices(mesh.triangles, welded.number);
+    return std::move(welded.first);
+}
+
+Index num_branched_edges(std::span<const Triangle> triangles) {
+    Index count = 0;
+    for_each_edge(sorted_edge_sides(triangles), [&](std::span<const EdgeSide> edge) {
+        if (edge.size() > 2) ++count;
+    });
+    return count;
 }
 
 }  // namespace remesh

@@ -1,11 +1,13 @@
 //! \file
-//! Joins the patches of a mesh that was cut along curves.
+//! Joins the patches of a mesh that was cut along curves: closes their rims, glues them, and welds
+//! sheets. Private to remeshing.
 #pragma once
 
 #include <span>
+#include <utility>
 #include <vector>
 
-#include "agvd/core/types.h"
+#include "agvd/mesh/mesh_view.h"
 #include "remesh/names.h"
 
 namespace remesh {
@@ -28,5 +30,33 @@ struct GluedMesh {
 //! Cost: O(n log n).
 [[nodiscard]] GluedMesh glue(std::span<const Triangle> triangles, std::span<const Index> group,
                              std::span<const Index> vertex = {});
+
+using DirectedEdge = std::pair<Index, Index>;  //!< From, to.
+
+//! The sides without a triangle on their right, ascending. Their own triangle lies on their left.
+//! Cost: O(n log n).
+[[nodiscard]] std::vector<DirectedEdge> rim_of(std::span<const Triangle> triangles);
+
+//! Fills gaps between chain and rim with triangles, without a change of topology. There are two
+//! kinds. If the cell of an inner site meets a curve, no triangle joins the two sites of the curve
+//! next to it, and the rim passes through the inner site. If the cell of a site on the curve has no
+//! Voronoi vertex (at a sharp corner), the site has no triangle, and the rim bypasses it.
+//!
+//! \param chain  edges that the rim is to have.
+//! Cost: O(n log n).
+void close_rim(std::span<const DirectedEdge> chain, std::vector<Triangle>& triangles);
+
+//! The faces with first[v] in place of each vertex v.
+[[nodiscard]] std::vector<Triangle> rename_vertices(std::span<const Triangle> triangles,
+                                                    std::span<const Index> first);
+
+//! Merges the vertices of each group into the first one.
+//!
+//! \param group  #V.
+//! \return the vertices that stay, ascending; these are the new vertices in order. Cost: O(n).
+std::vector<Index> weld_sheets(std::span<const Index> group, TriangleMesh& mesh);
+
+//! The number of edges with more than two faces. Cost: O(n).
+[[nodiscard]] Index num_branched_edges(std::span<const Triangle> triangles);
 
 }  // namespace remesh

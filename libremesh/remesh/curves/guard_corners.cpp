@@ -1,7 +1,7 @@
 // Looks at the first intervals of all curves at each node. Intervals that are much longer than the
 // shortest one there are divided at places in geometric progression, unless they bound a narrow
 // strip.
-#include "remesh/curves/guard_corners.h"
+#include "remesh/curves/curve_sites.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,14 +1,14 @@
-// Edges of a surface with the same origins at both ends were one edge before cleaning. Their ends
-// are joined by a union-find: these are the copies of a vertex at a junction. All other copies met
-// in a point only.
-#include "remesh/curves/junctions.h"
-
+// Where sheets are cut apart: junctions of the input, and cuts along curves. Edges of a surface
+// with the same origins at both ends were one edge before cleaning. Their ends are joined by a
+// union-find: these are the copies of a vertex at a junction. All other copies met in a point only.
 #include <algorithm>
 #include <array>
 #include <numeric>
 #include <tuple>
 
 #include "agvd/core/union_find.h"
+#include "agvd/mesh/one_ring.h"
+#include "remesh/curves/curve_network.h"
 
 namespace remesh {
 namespace {
@@ -80,11 +80,12 @@ std::vector<std::vector<Index>> join_ends(const Surface& surface, std::span<cons
     return sets;
 }
 
-}  // namespace
-
-const char* junctions_name(Junctions junctions) {
-    return junctions == Junctions::Keep ? "keep" : "apart";
+// Whether a walk around a vertex passes from half-edge h to the one before it.
+bool is_open(const Surface& surface, std::span<const std::uint8_t> is_cut, Index half_edge) {
+    return surface.twin[half_edge] != no_index && is_cut[surface.edge[half_edge]] == 0;
 }
+
+}  // namespace
 
 JunctionSet find_junctions(const Surface& surface, std::span<const Index> vertex_origin) {
     if (vertex_origin.empty()) return {};
@@ -146,6 +147,39 @@ std::vector<Index> first_copies(const JunctionSet& junctions, Index num_vertices
         for (const Index v : copies) first[v] = copies.front();
     }
     return first;
+}
+
+CutSurface cut_surface(const Surface& surface, std::span<const std::uint8_t> is_cut,
+                       int num_threads, const Progress& progress) {
+    TriangleMesh mesh = surface.mesh;
+    Connectivity connectivity{surface.twin, surface.outgoing};
+    std::vector<Index> original(surface.num_vertices());
+    for (Index h = 0; h < connectivity.twin.size(); ++h) {
+        if (is_cut[surface.edge[h]] != 0) connectivity.twin[h] = no_index;
+    }
+    for (Index v = 0; v < surface.num_vertices(); ++v) {
+        original[v] = v;
+        std::vector<Index> firsts;  // The first half-edge of each wedge.
+        for_each_outgoing(surface, v, [&](Index h) {
+            if (!is_open(surface, is_cut, h)) firsts.push_back(h);
+        });
+        for (std::size_t i = 0; i < firsts.size(); ++i) {
+            Index copy = v;
+            if (i > 0) {
+                copy = static_cast<Index>(mesh.positions.size());
+                mesh.positions.push_back(mesh.positions[v]);
+                connectivity.outgoing.push_back(no_index);
+                original.push_back(v);
+            }
+            connectivity.outgoing[copy] = firsts[i];
+            for (Index h = firsts[i];; h = surface.twin[Surface::previous(h)]) {
+                mesh.triangles[Surface::face(h)][h % 3] = copy;
+                if (!is_open(surface, is_cut, Surface::previous(h))) break;
+            }
+        }
+    }
+    return {build_surface(std::move(mesh), std::move(connectivity), num_threads, progress),
+            std::move(original), surface.num_vertices()};
 }
 
 }  // namespace remesh

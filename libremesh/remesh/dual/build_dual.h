@@ -1,6 +1,11 @@
 //! \file
-//! The dual of the diagram: a vertex per cell, a triangle per Voronoi vertex.
+//! The dual of the diagram: a vertex per cell, a triangle per Voronoi vertex. What later stages
+//! tell about it: the Delaunay condition, and why sites were added.
+//! Held by BuildDual.GivesATriangulationOnRandomMeshes in tests/remesh/dual.
 #pragma once
+
+#include <cstdint>
+#include <span>
 
 #include "agvd/diagram/diagram.h"
 #include "remesh/names.h"
@@ -16,5 +21,77 @@ namespace remesh {
 //! Cost: O(size of the complex) and a sort.
 [[nodiscard]] std::vector<Triangle> build_dual(const Surface& surface, const Diagram& diagram,
                                                const Progress& progress = {});
+
+//! The lengths by which the Delaunay condition is tested.
+enum class Delaunay : std::uint8_t {
+    Intrinsic,  //!< Geodesic: of locally shortest paths on the surface.
+    Extrinsic,  //!< Straight in space, between the vertices.
+    Off,        //!< No test and no flips.
+};
+
+//! Lower-case name, for command lines and reports.
+[[nodiscard]] const char* delaunay_name(Delaunay delaunay);
+
+//! `{}` gives the defaults.
+struct DelaunayOptions {
+    Delaunay mode = Delaunay::Intrinsic;  //!< Which edges to flip.
+    int num_threads = 0;                  //!< >= 0; 0: all cores. Same bytes for any number.
+    Progress progress = {};               //!< Polled during the call; see poll.
+};
+
+//! Counts of edges, flips and triangles; all 0 with Delaunay::Off.
+struct DelaunayCounts {
+    Index inner_edges = 0;           //!< Edges of two faces.
+    Index failing_before = 0;        //!< Inner edges whose opposite angles sum to more than pi (by
+    Index failing_after = 0;         //!< more than 1e-6), before and after the flips.
+    Index flips = 0;                 //!< Edges flipped, each as often as it was.
+    Index not_locally_shortest = 0;  //!< Intrinsic: edges before flips; see GeodesicPath.
+    //! Intrinsic: triangles with a side longer than the other two together.
+    Index broken_triangles = 0;
+    bool is_finished = true;  //!< False: stopped after 100 passes.
+};
+
+//! A mesh after the flips.
+struct DelaunayResult {
+    std::vector<Triangle> triangles;  //!< As many as before.
+    DelaunayCounts counts;            //!< Before and after.
+};
+
+//! Tests the edges of a triangle mesh on a surface and flips those that fail the Delaunay
+//! condition, if the flip is safe: the new edge meets the condition, the mesh stays a simplicial
+//! complex with the same boundary, no vertex gets fewer than three edges (two on the boundary), and
+//! in space no edge around becomes sharper than 60 degrees, or than the sharpest one there before.
+//!
+//! \param points     places of the vertices on the surface.
+//! \param positions  the same in space; no two are farther apart than on the surface.
+//! \param triangles  vertex indices. Edges without exactly two sides in opposite directions are
+//!                   left unchanged. The vertices of a triangle lie on one component.
+//! \throw Cancelled  the progress callback returned false.
+//! Cost: that of path_between for each edge.
+[[nodiscard]] DelaunayResult make_delaunay(const Surface& surface,
+                                           std::span<const SurfacePoint> points,
+                                           std::span<const Vec3> positions,
+                                           std::span<const Triangle> triangles,
+                                           const DelaunayOptions& options = {});
+
+//! What is wrong with a cell or with the mesh, and is repaired by one more site.
+enum class SiteReason : std::uint8_t {
+    BoundaryCorner,      //!< A corner of the boundary has no site.
+    WholeComponent,      //!< The cell covers a whole component.
+    NoDisc,              //!< The cell is not a disc.
+    ClosedCurve,         //!< It meets another cell along a closed curve.
+    SeveralArcs,         //!< It meets another cell in more than one arc.
+    BoundaryAtBothEnds,  //!< Its arc with another cell cuts the surface apart.
+    BoundaryTwice,       //!< It meets the boundary in more than one arc.
+    SameThirdCell,       //!< Two Voronoi vertices have the same three cells.
+    NoSite,              //!< A component has no site.
+    SelfIntersection,    //!< The mesh self-intersects there.
+};
+
+//! A fixed text: the key in JSON reports.
+[[nodiscard]] const char* to_text(SiteReason reason);
+
+//! Where the site is, for texts: "in cells that are not discs".
+[[nodiscard]] const char* place_text(SiteReason reason);
 
 }  // namespace remesh

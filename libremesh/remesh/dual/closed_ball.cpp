@@ -5,12 +5,22 @@
 
 #include <algorithm>
 
-#include "agvd/core/poller.h"
 #include "agvd/diagram/diagram.h"
-#include "remesh/dual/degenerate_edges.h"
+#include "agvd/mesh/point_faces.h"
 
 namespace remesh {
 namespace {
+
+// Relative to the distance from the sites. Voronoi vertices are Newton solutions with errors of
+// about 1e-12, or more where bisectors meet at a small angle.
+constexpr double relative_length = 1e-8;
+
+bool is_inner_vertex(const Diagram& diagram, Index vertex) {
+    for (Index i = diagram.vertex_offsets[vertex]; i < diagram.vertex_offsets[vertex + 1]; ++i) {
+        if (!diagram.vertex_sites[i].is_valid()) return false;
+    }
+    return true;
+}
 
 class ClosedBallCheck {
 public:
@@ -75,10 +85,7 @@ private:
                 best = v;
             }
         }
-        const Index h = surface_.outgoing[best == no_index ? 0 : best];
-        SurfacePoint point{FaceId(Surface::face(h)), {0, 0, 0}};
-        point.barycentric[h % 3] = 1;
-        return point;
+        return point_at(surface_, best == no_index ? 0 : best);
     }
 
     // A cell that is not a disc surrounds a hole, a handle or other cells. Its front meets itself
@@ -102,8 +109,8 @@ private:
         for (Index e = 0; e < diagram_.edges.size(); ++e) {
             const VoronoiEdge& edge = diagram_.edges[e];
             if (edge.right.is_valid()) {
-                if (edge.tail != no_index && is_on_boundary(edge.tail) &&
-                    is_on_boundary(edge.head)) {
+                if (edge.tail != no_index && !is_inner_vertex(diagram_, edge.tail) &&
+                    !is_inner_vertex(diagram_, edge.head)) {
                     // The sites go to the ends: a new site between them would meet both sides too,
                     // and so would the next.
                     report(edge.left, edge.right, SiteReason::BoundaryAtBothEnds,
@@ -115,14 +122,6 @@ private:
                 found_.back().is_at_boundary = true;
             }
         }
-    }
-
-    [[nodiscard]] bool is_on_boundary(Index vertex) const {
-        for (Index i = diagram_.vertex_offsets[vertex]; i < diagram_.vertex_offsets[vertex + 1];
-             ++i) {
-            if (!diagram_.vertex_sites[i].is_valid()) return true;
-        }
-        return false;
     }
 
     // Reports all arcs between two cells but the longest.
@@ -164,7 +163,8 @@ private:
         for (Index v = 0; v < diagram_.vertices.size(); ++v) {
             ticker_.tick();
             const Index begin = diagram_.vertex_offsets[v];
-            if (diagram_.vertex_offsets[v + 1] - begin != 3 || is_on_boundary(v)) continue;
+            if (diagram_.vertex_offsets[v + 1] - begin != 3 || !is_inner_vertex(diagram_, v))
+                continue;
             if (is_degenerate_[diagram_.vertex_ends[begin].edge] ||
                 is_degenerate_[diagram_.vertex_ends[begin + 1].edge] ||
                 is_degenerate_[diagram_.vertex_ends[begin + 2].edge]) {
@@ -203,6 +203,20 @@ std::vector<ClosedBallViolation> find_closed_ball_violations(const Surface& surf
                                                              const Progress& progress) {
     Poller poller(progress);
     return ClosedBallCheck(surface, diagram, Ticker(poller)).run();
+}
+
+std::vector<bool> find_degenerate_edges(const Surface& surface, const Diagram& diagram,
+                                        Ticker ticker) {
+    std::vector<bool> result(diagram.edges.size(), false);
+    for (Index e = 0; e < diagram.edges.size(); ++e) {
+        const VoronoiEdge& edge = diagram.edges[e];
+        ticker.tick(1 + diagram.edge_points[e + 1] - diagram.edge_points[e]);
+        if (edge.tail == no_index || edge.tail == edge.head || !edge.right.is_valid()) continue;
+        if (!is_inner_vertex(diagram, edge.tail) || !is_inner_vertex(diagram, edge.head)) continue;
+        result[e] = curve_length(surface, diagram, e) <=
+                    relative_length * diagram.vertex_distance[edge.tail];
+    }
+    return result;
 }
 
 }  // namespace remesh

@@ -1,9 +1,10 @@
 //! \file
-//! The closed-ball property: when it holds, the dual is homeomorphic to the surface.
+//! The closed-ball property: when it holds, the dual is homeomorphic to the surface. Where cells
+//! violate it or the boundary, sites are moved or added. Private to remeshing.
 #pragma once
 
 #include "agvd/diagram/diagram.h"
-#include "remesh/dual/site_reason.h"
+#include "remesh/dual/build_dual.h"
 
 namespace remesh {
 
@@ -24,5 +25,38 @@ struct ClosedBallViolation {
 //! Cost: O(#V + size of the complex) and a sort.
 [[nodiscard]] std::vector<ClosedBallViolation> find_closed_ball_violations(
     const Surface& surface, const Diagram& diagram, const Progress& progress = {});
+
+//! #edges: true for an edge between two inner Voronoi vertices that coincide up to rounding. There
+//! the dual may use either diagonal.
+[[nodiscard]] std::vector<bool> find_degenerate_edges(const Surface& surface,
+                                                      const Diagram& diagram, Ticker ticker = {});
+
+//! Moves and new sites. After these fewer cells of inner sites meet the boundary.
+struct BoundaryFixes {
+    std::vector<std::pair<Index, SurfacePoint>> moved;  //!< Site and place, ascending.
+    std::vector<SurfacePoint> added;
+};
+
+//! The boundary vertices of the dual are the sites whose cells meet the boundary. They must lie on
+//! it: an inner site whose cell meets the boundary moves to the middle of its longest arc there.
+//! Corners must stay: the site nearest to a corner moves to it; if that site is at another corner,
+//! a new site is placed at this one. Both lists are empty if nothing is to be done.
+//!
+//! Each move turns an inner site into a boundary site or fills a corner, and neither is undone.
+//! \param corners  boundary vertices.
+//! Cost: O(size of the complex + #sites).
+[[nodiscard]] BoundaryFixes find_boundary_fixes(const Surface& surface, const Diagram& diagram,
+                                                std::span<const SurfacePoint> sites,
+                                                std::span<const Index> corners);
+
+//! #sites: for each cell its Voronoi vertex farthest from the site (the first of equals); no_index
+//! for cells without one. Cost: O(size of the complex).
+[[nodiscard]] std::vector<Index> farthest_voronoi_vertices(const Diagram& diagram);
+
+//! The farthest Voronoi vertices of the largest cells, the largest cell first, each once.
+//!
+//! \param count  at most so many.
+//! Cost: O(size of the complex + #sites log #sites).
+[[nodiscard]] std::vector<Index> places_in_largest_cells(const Diagram& diagram, std::size_t count);
 
 }  // namespace remesh

@@ -1,108 +1,222 @@
-#include "remesh/dual/delaunay.h"
+// Every edge has the length of a locally shortest path between its ends. Edges whose opposite
+// angles, by these lengths, sum to more than pi are flipped in passes, until a pass flips none.
+// Notation: edge (a, b) lies in triangles (a, b, c) and (b, a, d).
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
 
-#include "remesh/dual/delaunay_flips.h"
-#include "remesh/dual/edge_paths.h"
+#include "agvd/core/parallel.h"
+#include "agvd/paths/geodesic_path.h"
+#include "remesh/dual/build_dual.h"
+#include "remesh/dual/flippable_mesh.h"
 
 namespace remesh {
-
 namespace {
 
-Index count_inner(const FlippableMesh& mesh) {
-    Index count = 0;
-    for (Index e = 0; e < mesh.num_edges(); ++e) count += mesh.is_inner(e) ? 1 : 0;
-    return count;
+// Radians. Two right angles opposite an edge are Delaunay.
+constexpr double delaunay_tolerance = 1e-6;
+// A flip may always leave this cosine between the normals of two triangles.
+constexpr double gentle_fold = 0.5;
+constexpr int max_passes = 100;
+// Relative to the longest side, as lengths are sums of a few square roots.
+constexpr double length_tolerance = 1e-12;
+constexpr Index paths_per_task = 128;
+constexpr std::size_t ticks_per_path = 100;
+
+// Whether no side is longer than the other two together, up to rounding.
+bool is_triangle(double a, double b, double c) {
+    const double longest = std::max({a, b, c});
+    return longest <= (a + b + c - longest) + length_tolerance * longest;
 }
 
-void flip(FlippableMesh& mesh, std::vector<double>& length, std::span<const Vec3> positions,
-          const Diagonals& diagonals, Ticker ticker, DelaunayCounts& counts) {
-    counts.inner_edges = count_inner(mesh);
-    const FlipCounts flips = flip_to_delaunay(mesh, length, positions, diagonals, ticker);
-    counts.failing_before = flips.failing_before;
-    counts.failing_after = flips.failing_after;
-    counts.flips = flips.flips;
-    counts.is_finished = flips.is_finished;
+// The angle opposite side a as (cos, sin) times a positive number; 0 or pi if rounding leaves no
+// triangle. The area follows [kahan2014].
+Vec2 corner_opposite(double a, double b, double c) {
+    const double x = std::max({a, b, c}), z = std::min({a, b, c});
+    const double y = std::max(std::min(a, b), std::min(std::max(a, b), c));
+    const double product = (x + (y + z)) * (z - (x - y)) * (z + (x - y)) * (x + (y - z));
+    return {(b - a) * (b + a) + c * c, std::sqrt(std::max(product, 0.0))};
 }
 
-std::vector<double> flip_in_space(FlippableMesh& mesh, std::span<const Vec3> positions,
-                                  Ticker ticker, DelaunayCounts& counts) {
-    std::vector<double> length(mesh.num_edges());
-    for (Index e = 0; e < mesh.num_edges(); ++e) {
-        const Index h = mesh.sides(e)[0];
-        length[e] = (positions[mesh.tail(h)] - positions[mesh.tail(FlippableMesh::next(h))]).norm();
-    }
-    const auto measure = [&](Index edge) {
+bool is_above_pi(const Vec2& a, const Vec2& b) {
+    // The sine of the sum decides most cases without angles.
+    if (a.x() * b.y() + a.y() * b.x() > 0) return false;
+    return std::atan2(a.y(), a.x()) + std::atan2(b.y(), b.x()) >
+           std::numbers::pi + delaunay_tolerance;
+}
+
+// The corners around an edge and the edges between them: a is the tail of its first side, c and d
+// lie opposite, as in triangles (a, b, c) and (b, a, d).
+struct Quad {
+    Index a, b, c, d;
+    Index bc, ca, ad, db;  // Half-edges.
+
+    Quad(const FlippableMesh& mesh, Index edge) {
         const auto [h, g] = mesh.sides(edge);
-        return (positions[mesh.tail(FlippableMesh::previous(h))] -
-                positions[mesh.tail(FlippableMesh::previous(g))])
-            .norm();
+        bc = FlippableMesh::next(h);
+        ca = FlippableMesh::previous(h);
+        ad = FlippableMesh::next(g);
+        db = FlippableMesh::previous(g);
+        a = mesh.tail(h);
+        b = mesh.tail(g);
+        c = mesh.tail(ca);
+        d = mesh.tail(db);
+    }
+};
+
+struct EdgeLength {
+    double length;
+    bool is_locally_shortest;
+};
+using Metric = std::function<EdgeLength(Index, Index)>;  // Between two vertices.
+
+std::vector<double> measure_edges(const FlippableMesh& mesh, const Metric& metric, int num_threads,
+                                  Poller& poller, DelaunayCounts& counts) {
+    std::vector<EdgeLength> found(mesh.num_edges());
+    const auto measure = [&](Index, Index begin, Index end) {
+        Ticker ticker(poller);
+        for (Index e = begin; e < end; ++e) {
+            const Index h = mesh.sides(e)[0];
+            found[e] = metric(mesh.tail(h), mesh.tail(FlippableMesh::next(h)));
+            ticker.tick(ticks_per_path);
+        }
     };
-    flip(mesh, length, positions, {measure, [](Index) {}}, ticker, counts);
+    parallel_chunks(mesh.num_edges(), paths_per_task, num_threads, measure, poller);
+    std::vector<double> length;
+    for (const EdgeLength& edge : found) {
+        length.push_back(edge.length);
+        if (!edge.is_locally_shortest) ++counts.not_locally_shortest;
+    }
     return length;
 }
 
-std::vector<double> flip_on_surface(const Surface& surface, const DualVertices& vertices,
-                                    int num_threads, Poller& poller, FlippableMesh& mesh,
-                                    DelaunayCounts& counts) {
-    const Ticker ticker(poller);
-    std::vector<SurfacePoint> points;
-    points.reserve(vertices.points.size());
-    for (const SurfacePoint& point : vertices.points) points.push_back(snapped(surface, point));
-    std::vector<EdgePath> paths =
-        find_edge_paths(surface, {points, vertices.site, vertices.diagram, vertices.positions},
-                        mesh, num_threads, poller);
-    mend_triangles(surface, mesh, ticker, paths);
-    std::vector<double> length(paths.size());
-    for (Index e = 0; e < paths.size(); ++e) length[e] = paths[e].length;
+class Flipper {
+public:
+    Flipper(FlippableMesh& mesh, std::vector<double> length, std::span<const Vec3> positions,
+            const Metric& metric, Ticker ticker)
+        : ticker_(ticker),
+          mesh_(mesh),
+          length_(std::move(length)),
+          positions_(positions),
+          metric_(metric) {}
 
-    PathStraightener straightener(surface, ticker);
-    EdgePath diagonal;
-    const auto measure = [&](Index edge) {
-        diagonal = path_across(surface, mesh, paths, edge, straightener);
-        return diagonal.length;
-    };
-    const auto accept = [&](Index edge) { paths[edge] = std::move(diagonal); };
-    flip(mesh, length, vertices.positions, {measure, accept}, ticker, counts);
-    for (const EdgePath& path : paths) counts.not_locally_shortest += !path.is_locally_shortest;
-    return length;
-}
+    void run(DelaunayCounts& counts) {
+        std::vector<Index> failing = find_failing();
+        counts.failing_before = static_cast<Index>(failing.size());
+        counts.is_finished = false;
+        for (int pass = 0; pass < max_passes && !counts.is_finished; ++pass) {
+            const Index before = counts.flips;
+            for (const Index e : failing) {
+                if (fails(e) && try_flip(e)) ++counts.flips;
+            }
+            counts.is_finished = counts.flips == before;
+            if (!counts.is_finished) failing = find_failing();
+        }
+        counts.failing_after = static_cast<Index>(failing.size());
+        for (Index t = 0; t < mesh_.triangles().size(); ++t) {
+            if (!is_triangle(length(3 * t), length(3 * t + 1), length(3 * t + 2))) {
+                ++counts.broken_triangles;
+            }
+        }
+    }
+
+private:
+    [[nodiscard]] double length(Index half_edge) const { return length_[mesh_.edge(half_edge)]; }
+
+    [[nodiscard]] std::vector<Index> find_failing() {
+        std::vector<Index> failing;
+        for (Index e = 0; e < mesh_.num_edges(); ++e) {
+            ticker_.tick(2);
+            if (mesh_.is_inner(e) && fails(e)) failing.push_back(e);
+        }
+        return failing;
+    }
+
+    [[nodiscard]] bool fails(Index edge) const {
+        const auto corner = [&](Index h) {
+            return corner_opposite(length_[edge], length(FlippableMesh::next(h)),
+                                   length(FlippableMesh::previous(h)));
+        };
+        return is_above_pi(corner(mesh_.sides(edge)[0]), corner(mesh_.sides(edge)[1]));
+    }
+
+    bool try_flip(Index edge) {
+        if (!mesh_.can_flip(edge)) return false;
+        const Quad quad(mesh_, edge);
+        if (folds(quad)) return false;
+        const double across = metric_(quad.c, quad.d).length;
+        ticker_.tick(ticks_per_path);
+        const double bc = length(quad.bc), ca = length(quad.ca);
+        const double ad = length(quad.ad), db = length(quad.db);
+        if (!is_triangle(across, ca, ad) || !is_triangle(across, db, bc)) return false;
+        if (is_above_pi(corner_opposite(across, ca, ad), corner_opposite(across, db, bc))) {
+            return false;
+        }
+        mesh_.flip(edge);
+        length_[edge] = across;
+        return true;
+    }
+
+    [[nodiscard]] Vec3 normal(Index a, Index b, Index c) const {
+        return (positions_[b] - positions_[a]).cross(positions_[c] - positions_[a]).normalized();
+    }
+
+    // Whether the flip would make an edge here sharper than gentle_fold and than all were before.
+    [[nodiscard]] bool folds(const Quad& quad) const {
+        const auto [a, b, c, d] = std::array{quad.a, quad.b, quad.c, quad.d};
+        const Vec3 old_first = normal(a, b, c), old_second = normal(b, a, d);
+        const Vec3 new_first = normal(c, a, d), new_second = normal(d, b, c);
+        if (new_first.isZero() || new_second.isZero()) return true;  // No area.
+        double before = old_first.dot(old_second);
+        double after = new_first.dot(new_second);
+        const auto compare = [&](Index half_edge, const Vec3& old_normal, const Vec3& new_normal) {
+            const Index rim = mesh_.edge(half_edge);
+            if (!mesh_.is_inner(rim)) return;
+            const auto& sides = mesh_.sides(rim);
+            const Index across = sides[0] == half_edge ? sides[1] : sides[0];
+            const Triangle& t = mesh_.triangles()[across / 3];
+            const Vec3 beyond = normal(t[0], t[1], t[2]);
+            before = std::min(before, beyond.dot(old_normal));
+            after = std::min(after, beyond.dot(new_normal));
+        };
+        compare(quad.bc, old_first, new_second);
+        compare(quad.ca, old_first, new_first);
+        compare(quad.ad, old_second, new_first);
+        compare(quad.db, old_second, new_second);
+        return !(after >= std::min(before, gentle_fold));
+    }
+
+    Ticker ticker_;
+    FlippableMesh& mesh_;
+    std::vector<double> length_;  // By edge.
+    std::span<const Vec3> positions_;
+    const Metric& metric_;
+};
 
 }  // namespace
 
-const char* delaunay_name(Delaunay delaunay) {
-    switch (delaunay) {
-        case Delaunay::Intrinsic:
-            return "intrinsic";
-        case Delaunay::Extrinsic:
-            return "extrinsic";
-        case Delaunay::Off:
-            return "off";
-    }
-    return "unknown";
-}
-
 DelaunayResult make_delaunay(const Surface& surface, std::span<const SurfacePoint> points,
-                             std::span<const Vec3> positions, std::span<const Index> site,
-                             const Diagram& diagram, std::span<const Triangle> triangles,
+                             std::span<const Vec3> positions, std::span<const Triangle> triangles,
                              const DelaunayOptions& options) {
-    DelaunayResult result;
-    if (options.mode == Delaunay::Off) {
-        result.triangles.assign(triangles.begin(), triangles.end());
-        return result;
-    }
+    DelaunayResult result{{triangles.begin(), triangles.end()}, {}};
+    if (options.mode == Delaunay::Off) return result;
     Poller poller(options.progress);
+    const Progress progress = poller.progress();
+    const Metric on_surface = [&](Index a, Index b) -> EdgeLength {
+        const GeodesicPath path = path_between(surface, points[a], points[b], progress);
+        return {path.length, path.is_locally_shortest};
+    };
+    const Metric in_space = [&](Index a, Index b) -> EdgeLength {
+        return {(positions[a] - positions[b]).norm(), true};
+    };
+    const Metric& metric = options.mode == Delaunay::Intrinsic ? on_surface : in_space;
     FlippableMesh mesh(triangles, Ticker(poller));
-    const std::vector<double> length =
-        options.mode == Delaunay::Extrinsic
-            ? flip_in_space(mesh, positions, Ticker(poller), result.counts)
-            : flip_on_surface(surface, {points, site, diagram, positions}, options.num_threads,
-                              poller, mesh, result.counts);
+    DelaunayCounts& counts = result.counts;
+    for (Index e = 0; e < mesh.num_edges(); ++e) counts.inner_edges += mesh.is_inner(e) ? 1 : 0;
+    std::vector<double> length = measure_edges(mesh, metric, options.num_threads, poller, counts);
+    Flipper(mesh, std::move(length), positions, metric, Ticker(poller)).run(counts);
     result.triangles = mesh.triangles();
-    result.side_lengths.reserve(result.triangles.size());
-    for (Index t = 0; t < result.triangles.size(); ++t) {
-        const auto& side = result.side_lengths.emplace_back(std::array{
-            length[mesh.edge(3 * t)], length[mesh.edge(3 * t + 1)], length[mesh.edge(3 * t + 2)]});
-        if (!is_triangle(side[0], side[1], side[2])) ++result.counts.broken_triangles;
-    }
     return result;
 }
 

@@ -8,8 +8,6 @@
 
 namespace remesh {
 
-namespace {}  // namespace
-
 FlippableMesh::FlippableMesh(std::span<const Triangle> triangles, Ticker ticker)
     : triangles_(triangles.begin(), triangles.end()), edge_(3 * triangles.size()) {
     Index num_vertices = 0;
@@ -19,7 +17,7 @@ FlippableMesh::FlippableMesh(std::span<const Triangle> triangles, Ticker ticker)
     valence_.assign(num_vertices, 0);
     is_boundary_.assign(num_vertices, false);
     const std::vector<EdgeSide> sides = sorted_edge_sides(triangles_, ticker);
-    first_ends_.reserve(sides.size() / 2);
+    ends_.reserve(sides.size() / 2);
     sides_.reserve(sides.size() / 2);
     for_each_edge(sides, [&](std::span<const EdgeSide> edge) {
         ticker.tick();
@@ -28,18 +26,12 @@ FlippableMesh::FlippableMesh(std::span<const Triangle> triangles, Ticker ticker)
         const bool is_swapped = is_inner && !edge[0].forward;
         sides_.push_back({edge[is_swapped ? 1 : 0].half_edge,
                           is_inner ? edge[is_swapped ? 0 : 1].half_edge : no_index});
-        first_ends_.push_back(edge[0].ends);
+        ends_.insert(edge[0].ends);
         for (const Index v : {edge[0].low(), edge[0].high()}) {
             ++valence_[v];
             if (!is_inner) is_boundary_[v] = true;
         }
     });
-}
-
-bool FlippableMesh::has_edge(std::uint64_t ends) const {
-    if (added_.contains(ends)) return true;
-    return std::binary_search(first_ends_.begin(), first_ends_.end(), ends) &&
-           !removed_.contains(ends);
 }
 
 bool FlippableMesh::can_flip(Index edge) const {
@@ -49,7 +41,7 @@ bool FlippableMesh::can_flip(Index edge) const {
         if (valence_[v] <= (is_boundary_[v] ? 2U : 3U)) return false;
     }
     const Index c = tail(previous(h)), d = tail(previous(g));
-    return c != d && !has_edge(edge_key(c, d));
+    return c != d && !ends_.contains(edge_key(c, d));
 }
 
 void FlippableMesh::flip(Index edge) {
@@ -72,8 +64,8 @@ void FlippableMesh::flip(Index edge) {
     }
     edge_[3 * first + 2] = edge_[3 * second + 2] = edge;
     sides_[edge] = {3 * second + 2, 3 * first + 2};
-    if (added_.erase(edge_key(a, b)) == 0) removed_.insert(edge_key(a, b));
-    if (removed_.erase(edge_key(c, d)) == 0) added_.insert(edge_key(c, d));
+    ends_.erase(edge_key(a, b));
+    ends_.insert(edge_key(c, d));
     --valence_[a];
     --valence_[b];
     ++valence_[c];

@@ -41,16 +41,12 @@ public:
     void flip(Index edge);
 
 private:
-    [[nodiscard]] bool has_edge(std::uint64_t ends) const;
-
     std::vector<Triangle> triangles_;
     std::vector<Index> edge_;                  // #H
     std::vector<std::array<Index, 2>> sides_;  // #E
     std::vector<Index> valence_;               // By vertex: number of edges.
     std::vector<bool> is_boundary_;            // By vertex.
-    // Ends of the initial edges, ascending; those that flips removed, and those that they added.
-    std::vector<std::uint64_t> first_ends_;
-    std::unordered_set<std::uint64_t> removed_, added_;
+    std::unordered_set<std::uint64_t> ends_;   // Of all edges.
 };
 
 }  // namespace remesh

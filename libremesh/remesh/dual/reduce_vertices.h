@@ -1,11 +1,13 @@
 //! \file
-//! Removes vertices one by one without changing the topology.
+//! Removes vertices one by one without changing the topology: to a number, and what thinned patches
+//! have too many. Private to remeshing.
 #pragma once
 
 #include <cstdint>
 #include <span>
 
 #include "agvd/core/progress.h"
+#include "agvd/intrinsic/thin.h"
 #include "agvd/mesh/mesh_view.h"
 #include "remesh/names.h"
 
@@ -27,5 +29,22 @@ namespace remesh {
                                                  std::vector<Triangle>& triangles, Index target,
                                                  std::span<const std::uint8_t> keep = {},
                                                  const Progress& progress = {});
+
+//! Applies thin, then removes the extra vertices that it leaves by collapses, if all of them
+//! can be removed. On a curve no patch may have a vertex that the patch across the curve lacks.
+//!
+//! \param surface  may be a Delta-complex.
+//! \param faces    ascending: one component of it.
+//! \param points   in these faces, no two at one place.
+//! Cost: as thin.
+[[nodiscard]] ThinnedMesh thin_patch(const Surface& surface, std::span<const Index> faces,
+                                     std::span<const SurfacePoint> points);
+
+//! Removes extra vertices on the boundary as far as topology allows. A vertex often stays because
+//! an inner edge joins its two neighbours on the boundary: then this edge is flipped first.
+//!
+//! \param points  those that the patch was thinned to.
+//! Cost: O(n log n) for each extra vertex on the boundary.
+void free_rim(const Surface& surface, std::span<const SurfacePoint> points, ThinnedMesh& patch);
 
 }  // namespace remesh

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "agvd/mesh/point_faces.h"
-#include "remesh/curves/weld_sheets.h"
-#include "remesh/dual/farthest_voronoi_vertices.h"
+#include "remesh/curves/glue.h"
+#include "remesh/dual/closed_ball.h"
 #include "remesh/pipeline/place_vertices.h"
 #include "remesh/pipeline/vertex_count.h"
 #include "remesh/placement/flat_faces.h"
@@ -207,8 +207,7 @@ private:
         const Progress progress = progress_of(Stage::Delaunay, options);
         poll(progress, 0);
         DelaunayResult made = make_delaunay(
-            domain_.base(), dual.mesh.points, positions_of_vertices(dual), dual.site, dual.diagram,
-            dual.mesh.triangles,
+            domain_.base(), dual.mesh.points, positions_of_vertices(dual), dual.mesh.triangles,
             {.mode = options.delaunay, .num_threads = options.num_threads, .progress = progress});
         poll(progress, 1);
         dual.mesh.triangles = std::move(made.triangles);

@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "remesh/curves/weld_sheets.h"
+#include "remesh/curves/glue.h"
 #include "remesh/pipeline/locked.h"
 
 namespace remesh::detail {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "remesh/clean/clean_input.h"
-#include "remesh/curves/locked_elements.h"
+#include "remesh/curves/curve_network.h"
 #include "remesh/pipeline/stage_context.h"
 
 namespace remesh::detail {

@@ -1,6 +1,6 @@
 #include "remesh/pipeline/crossings.h"
 
-#include "remesh/curves/weld_sheets.h"
+#include "remesh/curves/glue.h"
 #include "remesh/quality/self_intersections.h"
 
 namespace remesh::detail {

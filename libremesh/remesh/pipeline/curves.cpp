@@ -8,7 +8,7 @@
 
 #include "agvd/mesh/distinct_points.h"
 #include "remesh/clean/carry_edges.h"
-#include "remesh/curves/prune_seams.h"
+#include "remesh/curves/crease_chains.h"
 #include "remesh/pipeline/given_sites.h"
 #include "remesh/sites/given_network.h"
 #include "remesh/sites/prepared_surface.h"

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "agvd/mesh/surface.h"
-#include "remesh/curves/locked_elements.h"
+#include "remesh/curves/curve_network.h"
 #include "remesh/pipeline/remesh_options.h"
 
 namespace remesh::detail {

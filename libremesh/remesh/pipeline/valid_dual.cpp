@@ -14,13 +14,10 @@
 #include "agvd/mesh/point_faces.h"
 #include "agvd/mesh/topology.h"
 #include "agvd/propagation/propagate.h"
-#include "remesh/curves/close_rim.h"
-#include "remesh/dual/boundary_cells.h"
+#include "remesh/curves/glue.h"
 #include "remesh/dual/build_dual.h"
 #include "remesh/dual/closed_ball.h"
-#include "remesh/dual/farthest_voronoi_vertices.h"
-#include "remesh/dual/free_rim.h"
-#include "remesh/dual/thin_patch.h"
+#include "remesh/dual/reduce_vertices.h"
 #include "remesh/pipeline/stage_context.h"
 
 namespace remesh::detail {

@@ -4,7 +4,7 @@
 #include <unordered_map>
 
 #include "agvd/core/position_hash.h"
-#include "remesh/curves/weld_sheets.h"
+#include "remesh/curves/glue.h"
 
 namespace remesh::detail {
 namespace {

@@ -8,7 +8,7 @@
 #include "agvd/core/poller.h"
 #include "agvd/diagram/build_diagram.h"
 #include "agvd/propagation/propagate.h"
-#include "remesh/curves/close_rim.h"
+#include "remesh/curves/glue.h"
 #include "remesh/dual/build_dual.h"
 #include "remesh/sites/site_labels.h"
 

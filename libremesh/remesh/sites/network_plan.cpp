@@ -9,7 +9,7 @@
 
 #include "agvd/mesh/components.h"
 #include "agvd/mesh/face_area.h"
-#include "remesh/curves/guard_corners.h"
+#include "remesh/curves/curve_sites.h"
 #include "remesh/sites/shares.h"
 #include "remesh/sites/sized_components.h"
 

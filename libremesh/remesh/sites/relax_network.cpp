@@ -12,8 +12,8 @@
 
 #include "agvd/mesh/closest_point.h"
 #include "agvd/mesh/components.h"
-#include "remesh/curves/close_rim.h"
-#include "remesh/dual/thin_patch.h"
+#include "remesh/curves/glue.h"
+#include "remesh/dual/reduce_vertices.h"
 #include "remesh/sites/levels.h"
 #include "remesh/sites/subdivide.h"
 #include "remesh/sites/walk.h"

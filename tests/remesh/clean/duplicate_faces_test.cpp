@@ -7,7 +7,7 @@
 #include "agvd/core/random.h"
 #include "agvd/mesh/topology.h"
 #include "remesh/clean/clean_input.h"
-#include "remesh/curves/junctions.h"
+#include "remesh/curves/curve_network.h"
 #include "support/shapes.h"
 
 using agvd::Index;

@@ -5,10 +5,7 @@
 #include <functional>
 #include <numbers>
 
-#include "remesh/curves/carry_creases.h"
-#include "remesh/curves/edge_angles.h"
-#include "remesh/curves/prune_creases.h"
-#include "remesh/curves/surrounding_turn.h"
+#include "remesh/curves/crease_chains.h"
 #include "support/parts.h"
 #include "support/shapes.h"
 

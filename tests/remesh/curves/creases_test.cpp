@@ -5,7 +5,7 @@
 
 #include "agvd/mesh/face_area.h"
 #include "remesh/clean/clean_input.h"
-#include "remesh/curves/edge_angles.h"
+#include "remesh/curves/crease_chains.h"
 #include "remesh/curves/find_creases.h"
 #include "remesh/meshfile/read_mesh.h"
 #include "support/files.h"

@@ -9,7 +9,6 @@
 #include "agvd/mesh/connectivity.h"
 #include "agvd/mesh/topology.h"
 #include "remesh/curves/curve_sites.h"
-#include "remesh/curves/cut_surface.h"
 #include "support/flag_edges.h"
 #include "support/parts.h"
 #include "support/shapes.h"

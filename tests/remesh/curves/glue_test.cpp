@@ -8,7 +8,7 @@
 
 #include "agvd/mesh/point_faces.h"
 #include "agvd/mesh/topology.h"
-#include "remesh/dual/thin_patch.h"
+#include "remesh/dual/reduce_vertices.h"
 #include "support/shapes.h"
 
 using agvd::Index;

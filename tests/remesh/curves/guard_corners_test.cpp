@@ -1,12 +1,11 @@
 // Curves beside a much shorter one get sites that lead up to it.
-#include "remesh/curves/guard_corners.h"
+#include "remesh/curves/curve_sites.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "remesh/curves/curve_sites.h"
 #include "support/flag_edges.h"
 #include "support/parts.h"
 

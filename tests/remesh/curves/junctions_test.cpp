@@ -1,5 +1,5 @@
 // Edges of several sheets by their origin, and curves with a side for each face.
-#include "remesh/curves/junctions.h"
+#include "remesh/curves/curve_network.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "remesh/clean/clean_input.h"
 #include "remesh/curves/curve_sites.h"
-#include "remesh/curves/weld_sheets.h"
+#include "remesh/curves/glue.h"
 #include "support/junction_shapes.h"
 
 using agvd::Index;

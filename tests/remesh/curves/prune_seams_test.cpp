@@ -1,4 +1,4 @@
-#include "remesh/curves/prune_seams.h"
+#include "remesh/curves/crease_chains.h"
 
 #include <gtest/gtest.h>
 

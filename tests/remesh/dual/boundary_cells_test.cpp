@@ -1,5 +1,5 @@
 // What moves onto the boundary, on strips with few sites.
-#include "remesh/dual/boundary_cells.h"
+#include "remesh/dual/closed_ball.h"
 
 #include <gtest/gtest.h>
 

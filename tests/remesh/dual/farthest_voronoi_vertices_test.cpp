@@ -1,4 +1,4 @@
-#include "remesh/dual/farthest_voronoi_vertices.h"
+#include "remesh/dual/closed_ball.h"
 
 #include <gtest/gtest.h>
 

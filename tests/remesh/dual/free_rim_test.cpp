@@ -1,11 +1,11 @@
-#include "remesh/dual/free_rim.h"
+#include "remesh/dual/reduce_vertices.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "agvd/mesh/point_faces.h"
-#include "remesh/curves/close_rim.h"
+#include "remesh/curves/glue.h"
 
 using agvd::Index;
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "remesh/curves/cut_surface.h"
+#include "remesh/curves/curve_network.h"
 #include "support/flag_edges.h"
 #include "support/parts.h"
 #include "support/shapes.h"

@@ -14,7 +14,7 @@
 #include "agvd/mesh/point_faces.h"
 #include "agvd/mesh/topology.h"
 #include "agvd/propagation/propagate.h"
-#include "remesh/dual/boundary_cells.h"
+#include "remesh/dual/closed_ball.h"
 #include "remesh/meshfile/read_mesh.h"
 #include "remesh/sites/boundary_curves.h"
 #include "remesh/sites/even_out.h"

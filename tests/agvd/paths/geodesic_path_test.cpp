@@ -1,4 +1,4 @@
-#include "remesh/dual/straighten.h"
+#include "agvd/paths/geodesic_path.h"
 
 #include <gtest/gtest.h>
 
@@ -7,6 +7,9 @@
 
 #include "agvd/intrinsic/intrinsic_triangulation.h"
 #include "agvd/mesh/point_faces.h"
+#include "agvd/mesh/uniform_points.h"
+#include "agvd/paths/face_strip.h"
+#include "agvd/propagation/propagate.h"
 #include "support/delta_shapes.h"
 #include "support/geodesics.h"
 #include "support/points.h"
@@ -14,8 +17,6 @@
 #include "support/shapes.h"
 
 using namespace agvd;
-using remesh::FaceStrip;
-using remesh::GeodesicPath;
 
 namespace {
 
@@ -51,22 +52,40 @@ Surface fan(Index spokes, double corner) {
 // At `share` of the spoke to rim vertex i.
 SurfacePoint on_spoke(Index i, double share) { return {FaceId(i), {1 - share, share, 0}}; }
 
-FaceStrip through_vertex(const Surface& surface, const SurfacePoint& from, Index vertex,
-                         const SurfacePoint& to) {
-    remesh::StripBuilder builder(surface, from);
-    builder.to_vertex(vertex);
-    return builder.finish(to);
+GeodesicPath straightened(const Surface& surface, const std::vector<SurfacePoint>& points) {
+    return straighten_path(surface, points);
+}
+
+GeodesicPath random_start(const Surface& surface, const SurfacePoint& from, const SurfacePoint& to,
+                          std::uint64_t seed) {
+    const GeodesicPath path = geodesics::random_path(surface, from, to, seed);
+    return straighten_path(surface, path.points, path.faces);
+}
+
+GeodesicPath through_vertex(const Surface& surface, const SurfacePoint& from, Index vertex,
+                            const SurfacePoint& to) {
+    return straightened(surface, {from, point_at(surface, vertex), to});
 }
 
 void expect_locally_shortest(const Surface& surface, const GeodesicPath& path) {
     EXPECT_TRUE(path.is_locally_shortest);
     EXPECT_NEAR(geodesics::length(surface, path.points), path.length, 1e-9 * path.length);
     EXPECT_LT(geodesics::largest_bend(surface, path.points), 1e-6);
+    ASSERT_EQ(path.faces.size() + 1, path.points.size());
+    double sum = 0;
+    for (std::size_t i = 0; i < path.faces.size(); ++i) {
+        const auto begin = seen_from(surface, path.points[i], path.faces[i].value());
+        const auto end = seen_from(surface, path.points[i + 1], path.faces[i].value());
+        ASSERT_TRUE(begin && end);
+        const MeshView mesh = surface.mesh.view();
+        sum += (position(mesh, *begin) - position(mesh, *end)).norm();
+    }
+    EXPECT_NEAR(sum, path.length, 1e-9 * path.length);
 }
 
 }  // namespace
 
-TEST(Straighten, InThePlaneAnyWayBecomesTheStraightLine) {
+TEST(GeodesicPath, InThePlaneAnyWayBecomesTheStraightLine) {
     TriangleMesh mesh = shapes::jitter(shapes::grid(8), 0.03, 1);
     for (Vec3& p : mesh.positions) p.z() = 0;
     // Convex, or the straight line might leave it.
@@ -78,8 +97,7 @@ TEST(Straighten, InThePlaneAnyWayBecomesTheStraightLine) {
     const auto ends = points::scattered(surface, 40, 3);
     for (Index i = 0; i + 1 < ends.size(); ++i) {
         SCOPED_TRACE(i);
-        const GeodesicPath path = remesh::straightest_path(
-            surface, geodesics::random_strip(surface, ends[i], ends[i + 1], i));
+        const GeodesicPath path = random_start(surface, ends[i], ends[i + 1], i);
         const double distance =
             (position(mesh.view(), ends[i]) - position(mesh.view(), ends[i + 1])).norm();
         EXPECT_NEAR(path.length, distance, 1e-12);
@@ -87,39 +105,38 @@ TEST(Straighten, InThePlaneAnyWayBecomesTheStraightLine) {
     }
 }
 
-TEST(Straighten, InsideOneFaceItIsTheSegment) {
+TEST(GeodesicPath, InsideOneFaceItIsTheSegment) {
     const Surface surface = build_surface(shapes::tetrahedron().view());
     const SurfacePoint a{FaceId(1), {0.2, 0.3, 0.5}}, b{FaceId(1), {0.6, 0.4, 0}};
-    const GeodesicPath path = remesh::straightest_path(surface, {a, b, {}});
+    const GeodesicPath path = straightened(surface, {a, b});
     const MeshView mesh = surface.mesh.view();
     EXPECT_NEAR(path.length, (position(mesh, a) - position(mesh, b)).norm(), 1e-15);
     EXPECT_TRUE(path.is_locally_shortest);
     EXPECT_EQ(path.points.size(), 2u);
 }
 
-TEST(Straighten, OverAConeItPassesTheApexOnTheNarrowSide) {
+TEST(GeodesicPath, OverAConeItPassesTheApexOnTheNarrowSide) {
     // 1 + 4 corners of pi / 4: the straight line passes on the side of the one, whichever way round
     // the path was at first.
     const Surface surface = fan(5, pi / 4);
     const SurfacePoint a = on_spoke(0, 0.5), b = on_spoke(1, 0.8);
     const double chord = std::sqrt(0.25 + 0.64 - 2 * 0.5 * 0.8 * std::cos(pi / 4));
-    FaceStrip strip{a, b, {}};
-    for (const Index face : {0U, 4U, 3U, 2U}) remesh::cross(surface, 3 * face, strip.crossed);
-    ASSERT_EQ(Surface::face(surface.twin[strip.crossed.back()]), b.face.value());
-    for (const FaceStrip& start : {strip, through_vertex(surface, a, 0, b)}) {
-        const GeodesicPath path = remesh::straightest_path(surface, start);
+    std::vector<SurfacePoint> around{a};
+    for (const Index i : {0U, 4U, 3U, 2U}) around.push_back(on_spoke(i, 0.6));
+    around.push_back(b);
+    for (const GeodesicPath& path :
+         {straightened(surface, around), through_vertex(surface, a, 0, b)}) {
         EXPECT_NEAR(path.length, chord, 1e-14);
         expect_locally_shortest(surface, path);
     }
 }
 
-TEST(Straighten, OverASaddleItGoesThroughTheVertex) {
+TEST(GeodesicPath, OverASaddleItGoesThroughTheVertex) {
     const Surface surface = fan(8, pi / 3);  // 480 degrees, 240 on each side.
     ASSERT_TRUE(surface.can_be_pseudo_source[0]);
     const SurfacePoint a = on_spoke(0, 0.5), b = on_spoke(4, 0.75);
     for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-        const GeodesicPath path =
-            remesh::straightest_path(surface, geodesics::random_strip(surface, a, b, seed));
+        const GeodesicPath path = random_start(surface, a, b, seed);
         EXPECT_NEAR(path.length, 1.25, 1e-14);
         expect_locally_shortest(surface, path);
         EXPECT_EQ(path.points.size(), 3u);
@@ -127,12 +144,12 @@ TEST(Straighten, OverASaddleItGoesThroughTheVertex) {
     // 2 of 8 corners are less than pi: past the vertex.
     const SurfacePoint c = on_spoke(2, 0.75);
     const double chord = std::sqrt(0.25 + 0.5625 - 2 * 0.5 * 0.75 * std::cos(2 * pi / 3));
-    const GeodesicPath path = remesh::straightest_path(surface, through_vertex(surface, a, 0, c));
+    const GeodesicPath path = through_vertex(surface, a, 0, c);
     EXPECT_NEAR(path.length, chord, 1e-14);
     expect_locally_shortest(surface, path);
 }
 
-TEST(Straighten, AtAReflexCornerOfTheBoundaryItBends) {
+TEST(GeodesicPath, AtAReflexCornerOfTheBoundaryItBends) {
     TriangleMesh mesh = shapes::grid(4);
     std::vector<Triangle> left;
     for (const Triangle& t : mesh.triangles) {
@@ -155,26 +172,27 @@ TEST(Straighten, AtAReflexCornerOfTheBoundaryItBends) {
     const double around =
         (position(mesh.view(), a) - corner).norm() + (position(mesh.view(), b) - corner).norm();
     for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-        const GeodesicPath path =
-            remesh::straightest_path(surface, geodesics::random_strip(surface, a, b, seed));
+        const GeodesicPath path = random_start(surface, a, b, seed);
         EXPECT_NEAR(path.length, around, 1e-14);
         expect_locally_shortest(surface, path);
     }
 }
 
-TEST(Straighten, BothWaysRoundATubeAreKept) {
+TEST(GeodesicPath, BothWaysRoundATubeAreKept) {
     const Index sides = 12, layers = 6;
     const Surface surface = build_surface(shapes::tube(sides, layers).view());
     const double side = 2 * std::sin(pi / sides);
     const auto vertex = [&](Index i, Index j) { return i % sides * (layers + 1) + j; };
     for (const Index passed : {4U, 8U, 16U}) {  // The short way, the long way, a turn more.
         for (const bool is_forward : {true, false}) {
-            remesh::StripBuilder builder(surface, point_at(surface, 0));
+            std::vector<SurfacePoint> start{point_at(surface, 0)};
             const auto at = [&](Index i) { return is_forward ? i : 10 * sides - i; };
-            for (Index i = 1; i <= passed; ++i) builder.to_vertex(vertex(at(i), 0));
-            for (Index j = 1; j < layers; ++j) builder.to_vertex(vertex(at(passed), j));
-            const GeodesicPath path = remesh::straightest_path(
-                surface, builder.finish(point_at(surface, vertex(at(passed), layers))));
+            const auto to = [&](Index i, Index j) {
+                start.push_back(point_at(surface, vertex(i, j)));
+            };
+            for (Index i = 1; i <= passed; ++i) to(at(i), 0);
+            for (Index j = 1; j <= layers; ++j) to(at(passed), j);
+            const GeodesicPath path = straightened(surface, start);
             EXPECT_NEAR(path.length, std::hypot(2, passed * side), 1e-13);
             expect_locally_shortest(surface, path);
         }
@@ -183,7 +201,7 @@ TEST(Straighten, BothWaysRoundATubeAreKept) {
 
 // A path around a spike moves up one ring of the spike in each round: on a long spike the crossings
 // of all rounds are bounded.
-TEST(Straighten, WindingAroundASpikeItStopsAtTheBound) {
+TEST(GeodesicPath, WindingAroundASpikeItStopsAtTheBound) {
     const Index sides = 3, turns = 200;
     for (const Index rings : {200U, 1000U}) {
         SCOPED_TRACE(rings);
@@ -195,24 +213,22 @@ TEST(Straighten, WindingAroundASpikeItStopsAtTheBound) {
         }
         const Surface surface = build_surface(spike.view());
         const auto at_base = [&](Index i) { return i % sides * (rings + 1); };
-        remesh::StripBuilder builder(surface, point_at(surface, 0));
-        for (Index i = 1; i <= turns * sides; ++i) builder.to_vertex(at_base(i));
-        FaceStrip strip = builder.finish(point_at(surface, 1));
-        const std::size_t num_crossed = strip.crossed.size();
+        std::vector<SurfacePoint> points{point_at(surface, 0)};
+        for (Index i = 1; i <= turns * sides; ++i) points.push_back(point_at(surface, at_base(i)));
+        points.push_back(point_at(surface, 1));
+        const double start = geodesics::length(surface, points);
+        const std::size_t num_crossed = strip_along(surface, points, {}).crossed.size();
         std::size_t num_polls = 0;
         const Progress count = [&](double) { return ++num_polls > 0; };
-        Poller poller(count);
-        remesh::PathStraightener straightener(surface, Ticker(poller));
-        const double start = straightener.shortest_in(strip).length;
-        const GeodesicPath path = straightener.straighten(strip);
+        const GeodesicPath path = straighten_path(surface, points, {}, count);
         EXPECT_LT(path.length, 0.8 * start);
         EXPECT_EQ(path.is_locally_shortest, rings == 200);
         EXPECT_LE(num_polls, 1 + (400 * num_crossed + 200'000) / Ticker::interval);
     }
 }
 
-// Two corners of a face may be one vertex: the way from one to the other leads around it.
-TEST(Straighten, StripsAreJoinedAtTheCornerNotAtTheVertex) {
+// Two corners of a face may be one vertex.
+TEST(GeodesicPath, AVertexAtTwoCornersIsMeantWhereItIsNearest) {
     Index num_loops = 0;
     for (const char* family : delta_shapes::families()) {
         for (std::uint64_t seed = 0; seed < 12; ++seed) {
@@ -228,25 +244,16 @@ TEST(Straighten, StripsAreJoinedAtTheCornerNotAtTheVertex) {
                 const Index next = Surface::next(h);
                 if (surface.tail(h) != surface.tail(next)) continue;
                 ++num_loops;
-                const auto length = [&](FaceStrip strip) {
-                    return remesh::straightest_path(surface, std::move(strip)).length;
-                };
-                const double least = 1e-9 * surface.length_of(h);
-                EXPECT_LT(
-                    length(remesh::joined(surface, {at(h), at(h), {}}, {at(next), at(next), {}})),
-                    least)
+                EXPECT_LT(straightened(surface, {at(h), at(next)}).length,
+                          1e-9 * surface.length_of(h))
                     << family << ' ' << seed;
-                // A vertex without a corner is meant where it is nearest: here.
-                const Index vertex = surface.tail(h);
-                EXPECT_LT(length(through_vertex(surface, at(h), vertex, at(next))), least);
-                EXPECT_LT(length(through_vertex(surface, at(next), vertex, at(h))), least);
             }
         }
     }
     EXPECT_GT(num_loops, 20u);
 }
 
-TEST(Straighten, OnRandomMeshesEveryPathIsLocallyShortest) {
+TEST(GeodesicPath, OnRandomMeshesEveryPathIsLocallyShortest) {
     const std::uint64_t num_seeds = std::getenv("AGVD_LONG") != nullptr ? 1000 : 30;
     std::size_t num_paths = 0, num_unproved = 0;
     for (const char* family : random_meshes::families()) {
@@ -270,10 +277,9 @@ TEST(Straighten, OnRandomMeshesEveryPathIsLocallyShortest) {
                 }
                 const SurfacePoint b = points::anywhere(
                     dice, open[dice.count(0, static_cast<Index>(open.size()) - 1)]);
-                FaceStrip strip = geodesics::random_strip(surface, a, b, seed);
-                remesh::PathStraightener straightener(surface);
-                const double start = straightener.shortest_in(strip).length;
-                const GeodesicPath path = remesh::straightest_path(surface, strip);
+                const GeodesicPath before = geodesics::random_path(surface, a, b, seed);
+                const double start = geodesics::length(surface, before.points);
+                const GeodesicPath path = straighten_path(surface, before.points, before.faces);
                 double rounding = 0;  // Of coordinates; points that lie beside a vertex are moved.
                 for (const Vec3& p : surface.mesh.positions) {
                     rounding = std::max(rounding, 1e-11 * p.norm());
@@ -291,4 +297,84 @@ TEST(Straighten, OnRandomMeshesEveryPathIsLocallyShortest) {
     }
     // Rounding hides it on faces of no height.
     EXPECT_LE(num_unproved, num_paths / 1000);
+}
+
+TEST(GeodesicPath, BetweenPointsIsNoLongerThanAlongEdges) {
+    const Surface surface = build_surface(shapes::tube(12, 6).view());
+    const double side = 2 * std::sin(pi / 12);
+    const GeodesicPath path =
+        path_between(surface, point_at(surface, 0), point_at(surface, 4 * 7 + 6));
+    EXPECT_NEAR(path.length, std::hypot(2, 4 * side), 1e-13);
+    expect_locally_shortest(surface, path);
+    const Surface two = build_surface(
+        shapes::join(shapes::cube(), shapes::moved(shapes::cube(), {3, 0, 0})).view());
+    EXPECT_THROW((void)path_between(two, point_at(two, 0), point_at(two, 8)), InvalidInput);
+    EXPECT_THROW((void)straightened(two, {point_at(two, 0), point_at(two, 8)}), InvalidInput);
+    EXPECT_THROW((void)straightened(two, {}), InvalidInput);
+}
+
+TEST(GeodesicPath, ToASiteInThePlaneIsTheSegmentToTheNearest) {
+    TriangleMesh mesh = shapes::jitter(shapes::grid(20), 0.01, 1);
+    for (Vec3& p : mesh.positions) {
+        p.z() = 0;
+        if (p.x() < 0.02 || p.x() > 0.98) p.x() = std::round(p.x());
+        if (p.y() < 0.02 || p.y() > 0.98) p.y() = std::round(p.y());
+    }
+    const Surface surface = build_surface(mesh.view());
+    const std::vector<SurfacePoint> sites = uniform_points(surface, 30, 2);
+    const Propagation propagation = propagate(surface, sites, {.max_error = 0});
+    for (const SurfacePoint& from : points::scattered(surface, 300, 3)) {
+        const GeodesicPath path = path_to_site(surface, sites, propagation, from);
+        double nearest = infinity;
+        for (const SurfacePoint& site : sites) {
+            nearest = std::min(nearest,
+                               (position(mesh.view(), site) - position(mesh.view(), from)).norm());
+        }
+        EXPECT_NEAR(path.length, nearest, 1e-9);
+        EXPECT_NEAR(
+            (position(mesh.view(), path.points.front()) - position(mesh.view(), from)).norm(), 0,
+            1e-11);
+        if (path.length > 0) expect_locally_shortest(surface, path);
+    }
+}
+
+TEST(GeodesicPath, ToASiteHasTheLengthOfTheDistance) {
+    for (const TriangleMesh& mesh : {shapes::jitter(shapes::sphere(3), 0.03, 1),
+                                     shapes::jitter(shapes::torus(40, 20), 0.03, 2)}) {
+        const Surface surface = build_surface(mesh.view());
+        const std::vector<SurfacePoint> sites = uniform_points(surface, 6, 1);
+        const Propagation propagation = propagate(surface, sites, {.max_error = 0});
+        Index num_longer = 0;
+        for (Index v = 0; v < surface.num_vertices(); ++v) {
+            const GeodesicPath path =
+                path_to_site(surface, sites, propagation, point_at(surface, v));
+            EXPECT_GE(path.length, propagation.vertex_distance[v] * (1 - 1e-9));
+            if (path.length > propagation.vertex_distance[v] * (1 + 1e-9)) ++num_longer;
+        }
+        EXPECT_LE(num_longer, surface.num_vertices() / 20);
+    }
+}
+
+TEST(GeodesicPath, ToASiteIsFoundOnRandomMeshes) {
+    for (const char* family : random_meshes::families()) {
+        for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+            SCOPED_TRACE(std::string(family) + ' ' + std::to_string(seed));
+            const Surface surface = build_surface(random_meshes::make(family, seed).view());
+            const std::vector<SurfacePoint> sites = uniform_points(surface, 8, seed);
+            const Propagation propagation = propagate(surface, sites);
+            Dice dice(seed);
+            for (int i = 0; i < 20; ++i) {
+                const SurfacePoint from =
+                    points::anywhere(dice, dice.count(0, surface.num_faces() - 1));
+                if (!propagation.vertex_site[surface.tail(3 * from.face.value())].is_valid()) {
+                    continue;
+                }
+                const GeodesicPath path = path_to_site(surface, sites, propagation, from);
+                const double straight = (position(surface.mesh.view(), path.points.front()) -
+                                         position(surface.mesh.view(), path.points.back()))
+                                            .norm();
+                EXPECT_GE(path.length, straight * (1 - 1e-9) - 1e-12);
+            }
+        }
+    }
 }

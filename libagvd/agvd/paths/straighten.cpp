@@ -1,16 +1,16 @@
 // Each round unfolds the strip into a plane and finds the shortest path inside it by a funnel
 // ([lee1984]). At bends with an angle below pi on the other side, the strip is rerouted around that
 // side ([xin2007]). Rounds end when there is no such bend or the path gets no shorter.
-#include "remesh/dual/straighten.h"
-
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "agvd/mesh/point_faces.h"
+#include "agvd/paths/face_strip.h"
 
-namespace remesh {
+namespace agvd {
 
 namespace {
 
@@ -44,102 +44,124 @@ bool is_left_of(const Vec2& a, const Vec2& b, const Vec2& c) {
            side * side > collinear * collinear * (b - a).squaredNorm() * (c - a).squaredNorm();
 }
 
-// A sum of angles, each below pi, that is followed up to pi.
-class AngleSum {
+class Straightener {
 public:
-    //! \param corner  (cos, sin) times any length; sin < 0 counts as rounding.
-    void add(const Vec2& corner) {
-        if (is_over_) return;
-        const double length = corner.norm();
-        if (!(length > 0)) return;
-        const double cosine = corner.x() / length, sine = std::max(corner.y(), 0.0) / length;
-        const Vec2 sum(cosine_ * cosine - sine_ * sine, cosine_ * sine + sine_ * cosine);
-        // If the sum was below pi, adding an angle below pi gives a negative sine only above pi.
-        is_over_ = sum.y() < 0 || (sum.x() < 0 && sum.y() < angle_tolerance);
-        cosine_ = sum.x();
-        sine_ = sum.y();
-    }
-    [[nodiscard]] bool is_below_pi() const { return !is_over_; }
+    Straightener(const Surface& surface, FaceStrip strip, Ticker ticker)
+        : surface_(surface), strip_(std::move(strip)), ticker_(ticker) {}
+
+    GeodesicPath run();
 
 private:
-    double cosine_ = 1, sine_ = 0;
-    bool is_over_ = false;
+    // A vertex of the unfolded strip (or the source, or the target).
+    struct Node {
+        Vec2 place;
+        Index parent;  // The node before it on the shortest path from the source.
+        Index first;   // The first of the crossings of which it is an end;
+        Index last;    // the last one.
+        bool is_left;
+    };
+    // Ends of a crossed edge in the plane of the unfolded strip.
+    struct Ends {
+        Vec2 left, right;
+    };
+
+    [[nodiscard]] GeodesicPath traced(double length, bool is_locally_shortest) const;
+    [[nodiscard]] double find_shortest();
+    void unfold();
+    void add_to_funnel(Index node);
+    [[nodiscard]] double collect_path();
+    [[nodiscard]] bool reroute();
+    struct Detour {
+        bool is_shorter;
+        Index last;  // The last crossing that it replaces.
+    };
+    [[nodiscard]] Detour find_detour(Index bend);
+    [[nodiscard]] Vec2 apex_of(Index half_edge, const Vec2& tail, const Vec2& head) const;
+
+    const Surface& surface_;
+    FaceStrip strip_;
+    Ticker ticker_;
+    std::vector<Node> nodes_;    // The source, both ends of the first crossing, one for each more;
+                                 // then the target.
+    std::vector<Ends> ends_;     // Of each crossing.
+    std::vector<Index> funnel_;  // Left end, ..., apex, ..., right end: [begin_, end_).
+    Index begin_ = 0, end_ = 0, apex_ = 0;
+    std::vector<Index> path_;     // Nodes from the source to the target.
+    std::vector<Index> detour_;   // Crossings on the other side of a bend.
+    std::vector<Index> crossed_;  // Of the next round.
+    FaceStrip best_;              // Of the shortest path so far.
 };
 
-}  // namespace
-
-GeodesicPath PathStraightener::straighten(FaceStrip& strip) {
-    GeodesicPath path{std::numeric_limits<double>::infinity(), false, {}};
-    strip.source = snapped(surface_, strip.source);
-    strip.target = snapped(surface_, strip.target);
-    const std::size_t max_rounds = strip.crossed.size() + more_rounds;
-    const std::size_t max_looks = looks_for_each * strip.crossed.size() + more_looks;
+// Replaces the strip by that of a locally shortest path, which is never longer.
+GeodesicPath Straightener::run() {
+    double least = std::numeric_limits<double>::infinity();
+    const std::size_t max_rounds = strip_.crossed.size() + more_rounds;
+    const std::size_t max_looks = looks_for_each * strip_.crossed.size() + more_looks;
     std::size_t looks = 0;
     int stalled_rounds = 0;
     for (std::size_t round = 0;
          round < max_rounds && looks < max_looks && stalled_rounds <= max_stalled_rounds; ++round) {
-        ticker_.tick(1 + strip.crossed.size());
-        looks += strip.crossed.size();
-        trim(surface_, strip);
-        const double length = find_shortest(strip);
-        const bool is_rerouted = reroute(strip.crossed);
-        if (!is_rerouted && length <= path.length * (1 + rounding)) {
-            path.length = length;
-            path.is_locally_shortest = true;
-            return path;
+        ticker_.tick(1 + strip_.crossed.size());
+        looks += strip_.crossed.size();
+        trim(surface_, strip_);
+        const double length = find_shortest();
+        const bool is_rerouted = reroute();
+        if (!is_rerouted && length <= least * (1 + rounding)) {
+            return traced(length, true);
         }
-        if (length < path.length) {
-            path.length = length;
-            best_ = strip;
+        if (length < least) {
+            least = length;
+            best_ = strip_;
             stalled_rounds = 0;
         } else {
             ++stalled_rounds;
         }
         if (!is_rerouted) break;
-        strip.crossed.swap(crossed_);
+        strip_.crossed.swap(crossed_);
     }
-    strip = best_;
-    return path;
+    strip_ = best_;
+    return traced(find_shortest(), false);
 }
 
-GeodesicPath PathStraightener::shortest_in(FaceStrip strip) {
-    trim(surface_, strip);
-    GeodesicPath path{find_shortest(strip), !reroute(strip.crossed), {}};
-    path.points.push_back(strip.source);
+// The points of the shortest path in the strip.
+GeodesicPath Straightener::traced(double length, bool is_locally_shortest) const {
+    const std::vector<Index>& crossed = strip_.crossed;
+    GeodesicPath path{{strip_.source}, {strip_.source.face}, length, is_locally_shortest};
+    // Enters the face across a half-edge at a point of it: 0 at its tail, 1 at its head.
+    const auto enter = [&](Index half_edge, double along) {
+        const Index inside = surface_.twin[half_edge];
+        SurfacePoint& point = path.points.emplace_back();
+        point = {FaceId(Surface::face(inside)), {0, 0, 0}};
+        point.barycentric[inside % 3] = along;
+        point.barycentric[(inside + 1) % 3] = 1 - along;
+        path.faces.push_back(point.face);
+    };
     Index next = 0;
     for (std::size_t i = 1; i < path_.size(); ++i) {
         const Node& from = nodes_[path_[i - 1]];
         const Node& to = nodes_[path_[i]];
         for (; next < to.first; ++next) {
-            const Index h = strip.crossed[next];
             const double left = std::max(side_of(from.place, to.place, ends_[next].left), 0.0);
             const double right = std::max(-side_of(from.place, to.place, ends_[next].right), 0.0);
-            const double tail = left + right > 0 ? left / (left + right) : 0.5;
-            SurfacePoint& point = path.points.emplace_back();
-            point = {FaceId(Surface::face(h)), {0, 0, 0}};
-            point.barycentric[h % 3] = tail;
-            point.barycentric[(h + 1) % 3] = 1 - tail;
+            enter(crossed[next], left + right > 0 ? right / (left + right) : 0.5);
         }
         if (i + 1 == path_.size()) break;
-        const Index h = strip.crossed[to.first];
-        SurfacePoint& point = path.points.emplace_back();
-        point = {FaceId(Surface::face(h)), {0, 0, 0}};
-        point.barycentric[to.is_left ? (h + 1) % 3 : h % 3] = 1;
+        enter(crossed[to.last], to.is_left ? 1 : 0);
         next = std::max(next, to.last + 1);
     }
-    path.points.push_back(strip.target);
+    path.points.push_back(strip_.target);
     return path;
 }
 
 // The length of the shortest path inside the strip; sets path_ to its nodes.
-double PathStraightener::find_shortest(const FaceStrip& strip) {
+double Straightener::find_shortest() {
     path_.clear();
-    if (strip.crossed.empty()) {
-        const Index h = 3 * strip.source.face.value();
-        nodes_ = {{position_in_frame(surface_, strip.source, h), no_index, 0, 0, false},
-                  {position_in_frame(surface_, strip.target, h), 0, 0, 0, false}};
+    if (strip_.crossed.empty()) {
+        const Index h = 3 * strip_.source.face.value();
+        nodes_ = {{position_in_frame(surface_, strip_.source, h), no_index, 0, 0, false},
+                  {position_in_frame(surface_, strip_.target, h), 0, 0, 0, false}};
     } else {
-        unfold(strip);
+        unfold();
         const auto num_nodes = static_cast<Index>(nodes_.size());
         funnel_.resize(2 * num_nodes);
         begin_ = num_nodes - 1;
@@ -154,14 +176,14 @@ double PathStraightener::find_shortest(const FaceStrip& strip) {
 }
 
 // Unfolds the faces into one plane, one after the other.
-void PathStraightener::unfold(const FaceStrip& strip) {
-    const std::vector<Index>& crossed = strip.crossed;
+void Straightener::unfold() {
+    const std::vector<Index>& crossed = strip_.crossed;
     const auto num_crossed = static_cast<Index>(crossed.size());
     nodes_.clear();
     ends_.clear();
     Index h = crossed[0];
     ends_.push_back({{surface_.length_of(h), 0}, {0, 0}});
-    nodes_.push_back({position_in_frame(surface_, strip.source, h), no_index, 0, 0, false});
+    nodes_.push_back({position_in_frame(surface_, strip_.source, h), no_index, 0, 0, false});
     nodes_.push_back({ends_[0].left, 0, 0, 0, true});
     nodes_.push_back({ends_[0].right, 0, 0, 0, false});
     Index left = 1, right = 2;
@@ -180,23 +202,23 @@ void PathStraightener::unfold(const FaceStrip& strip) {
     }
     nodes_[left].last = nodes_[right].last = num_crossed - 1;
     const Index inside = surface_.twin[h];
-    const Vec2 target = position_in_frame(surface_, strip.target, inside);
+    const Vec2 target = position_in_frame(surface_, strip_.target, inside);
     const Ends& ends = ends_.back();
     const Vec2 along = (ends.right - ends.left) / surface_.length_of(inside);
     nodes_.push_back({ends.left + target.x() * along + target.y() * Vec2(-along.y(), along.x()),
                       no_index, num_crossed, num_crossed, false});
 }
 
-Vec2 PathStraightener::apex_of(Index half_edge, const Vec2& tail, const Vec2& head) const {
+Vec2 Straightener::apex_of(Index half_edge, const Vec2& tail, const Vec2& head) const {
     const Vec2 along = (head - tail) / surface_.length_of(half_edge);
-    const Vec2& apex = surface_.apex[half_edge];
+    const Vec2 apex = surface_.apex_of(half_edge);
     return tail + apex.x() * along + apex.y() * Vec2(-along.y(), along.x());
 }
 
 // The chains from the apex to both ends bend outwards; nodes past which the new end sees are
 // removed. A vertex on the straight line counts as a bend, as its other side may be narrower than
 // pi.
-void PathStraightener::add_to_funnel(Index node) {
+void Straightener::add_to_funnel(Index node) {
     const Vec2& place = nodes_[node].place;
     const auto at = [&](Index i) -> const Vec2& { return nodes_[funnel_[i]].place; };
     if (nodes_[node].is_left) {
@@ -225,7 +247,7 @@ void PathStraightener::add_to_funnel(Index node) {
     funnel_[end_++] = node;
 }
 
-double PathStraightener::collect_path() {
+double Straightener::collect_path() {
     double length = 0;
     Index node = static_cast<Index>(nodes_.size()) - 1;
     path_.push_back(node);
@@ -241,12 +263,13 @@ double PathStraightener::collect_path() {
 
 // Reroutes the strip around all bends with less than pi on the other side. Each detour shortens the
 // path close to its vertex, so detours do not interfere.
-bool PathStraightener::reroute(const std::vector<Index>& crossed) {
+bool Straightener::reroute() {
+    const std::vector<Index>& crossed = strip_.crossed;
     crossed_.clear();
     Index next = 0;
     bool is_changed = false;
     for (Index i = 1; i + 1 < path_.size(); ++i) {
-        const Detour detour = find_detour(crossed, i);
+        const Detour detour = find_detour(i);
         if (!detour.is_shorter) continue;
         is_changed = true;
         const Index first = nodes_[path_[i]].first;
@@ -261,8 +284,8 @@ bool PathStraightener::reroute(const std::vector<Index>& crossed) {
     return true;
 }
 
-PathStraightener::Detour PathStraightener::find_detour(const std::vector<Index>& crossed,
-                                                       Index bend) {
+Straightener::Detour Straightener::find_detour(Index bend) {
+    const std::vector<Index>& crossed = strip_.crossed;
     const Node& node = nodes_[path_[bend]];
     detour_.clear();
     const Index in = crossed[node.first];
@@ -274,10 +297,13 @@ PathStraightener::Detour PathStraightener::find_detour(const std::vector<Index>&
         if (surface_.twin[crossed[k]] == around) return {true, k};
     }
     // Angles at the vertex on the other side: clockwise for a vertex on the left.
-    AngleSum angle;
+    double angle = 0;
+    const auto add_corner = [&](const Vec2& corner) {  // (cos, sin) times any length.
+        angle += std::atan2(std::max(corner.y(), 0.0), corner.x());
+    };
     const auto add = [&](const Vec2& from, const Vec2& to) {
         const Vec2 a = from - node.place, b = to - node.place;
-        angle.add({a.dot(b), node.is_left ? cross_product(b, a) : cross_product(a, b)});
+        add_corner({a.dot(b), node.is_left ? cross_product(b, a) : cross_product(a, b)});
     };
     const Ends& first = ends_[node.first];
     const Ends& last = ends_[node.last];
@@ -285,23 +311,21 @@ PathStraightener::Detour PathStraightener::find_detour(const std::vector<Index>&
     add(apex_of(out, last.left, last.right), nodes_[path_[bend + 1]].place);
     const Index goal = node.is_left ? Surface::previous(out) : Surface::next(out);
     Index h = node.is_left ? Surface::next(in) : Surface::previous(in);
-    while (angle.is_below_pi()) {
+    while (angle < std::numbers::pi - angle_tolerance) {
         const Index inside = surface_.twin[h];
         if (inside == no_index) break;
         detour_.push_back(h);
         if (inside == goal) return {true, node.last};
         h = node.is_left ? Surface::next(inside) : Surface::previous(inside);
-        angle.add(surface_.apex[node.is_left ? h : inside]);
+        add_corner(surface_.apex_of(node.is_left ? h : inside));
     }
     return {false, node.last};
 }
 
-GeodesicPath straightest_path(const Surface& surface, FaceStrip strip) {
-    PathStraightener straightener(surface);
-    const GeodesicPath path = straightener.straighten(strip);
-    GeodesicPath result = straightener.shortest_in(std::move(strip));
-    result.is_locally_shortest = path.is_locally_shortest;
-    return result;
+}  // namespace
+
+GeodesicPath straighten(const Surface& surface, FaceStrip strip, Ticker ticker) {
+    return Straightener(surface, std::move(strip), ticker).run();
 }
 
-}  // namespace remesh
+}  // namespace agvd

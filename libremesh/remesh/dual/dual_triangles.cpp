@@ -4,17 +4,16 @@
 #include "remesh/dual/build_dual.h"
 
 #include <algorithm>
+#include <array>
 #include <set>
 
+#include "agvd/core/edge_key.h"
 #include "agvd/core/poller.h"
-#include "remesh/dual/degenerate_edges.h"
+#include "agvd/core/union_find.h"
+#include "remesh/dual/closed_ball.h"
 
 namespace remesh {
 namespace {
-
-using SitePair = std::pair<Index, Index>;
-
-SitePair make_pair(Index a, Index b) { return {std::min(a, b), std::max(a, b)}; }
 
 class DualBuilder {
 public:
@@ -26,7 +25,7 @@ public:
             const VoronoiEdge& edge = diagram.edges[e];
             ticker_.tick(4);  // A set is slow.
             if (is_contracted_[e] || !edge.right.is_valid()) continue;
-            taken_.insert(make_pair(edge.left.value(), edge.right.value()));
+            taken_.insert(edge_key(edge.left.value(), edge.right.value()));
         }
     }
 
@@ -46,18 +45,10 @@ public:
 private:
     // Contracted edges must not close a cycle, otherwise the polygon would have a hole.
     void keep_forest() {
-        std::vector<Index> parent(diagram_.vertices.size());
-        for (Index v = 0; v < parent.size(); ++v) parent[v] = v;
-        const auto root = [&](Index v) {
-            while (parent[v] != v) v = parent[v] = parent[parent[v]];
-            return v;
-        };
+        UnionFind joined(diagram_.vertices.size());
         for (Index e = 0; e < diagram_.edges.size(); ++e) {
-            if (!is_contracted_[e]) continue;
-            const Index a = root(diagram_.edges[e].tail);
-            const Index b = root(diagram_.edges[e].head);
-            is_contracted_[e] = a != b;
-            parent[std::max(a, b)] = std::min(a, b);
+            const VoronoiEdge& edge = diagram_.edges[e];
+            if (is_contracted_[e]) is_contracted_[e] = joined.unite(edge.tail, edge.head);
         }
     }
 
@@ -112,7 +103,7 @@ private:
             const Index b = at(ear);
             const Index c = at(ear + 1);
             triangles_.push_back({a, b, c});
-            taken_.insert(make_pair(a, c));
+            taken_.insert(edge_key(a, c));
             polygon_.erase(polygon_.begin() + static_cast<std::ptrdiff_t>(ear));
         }
         if (polygon_.size() == 3) triangles_.push_back({polygon_[0], polygon_[1], polygon_[2]});
@@ -123,7 +114,7 @@ private:
     [[nodiscard]] bool is_free_ear(std::size_t i) const {
         const Index a = at(i + polygon_.size() - 1);
         const Index c = at(i + 1);
-        return a != c && !taken_.contains(make_pair(a, c));
+        return a != c && !taken_.contains(edge_key(a, c));
     }
 
     const Diagram& diagram_;
@@ -131,10 +122,34 @@ private:
     Ticker ticker_;
     std::vector<Index> end_at_;         // By 2 * edge + (0: tail, 1: head): index in vertex_ends.
     std::vector<Index> vertex_of_end_;  // By index in vertex_ends.
-    std::set<SitePair> taken_;          // Edges of the dual so far.
+    std::set<std::uint64_t> taken_;     // Edges of the dual so far.
     std::vector<Index> polygon_;
     std::vector<Triangle> triangles_;
 };
+
+struct ReasonTexts {
+    const char* key;
+    const char* place;
+};
+
+const ReasonTexts& texts_of(SiteReason reason) {
+    // In the order of SiteReason.
+    static constexpr ReasonTexts texts[] = {
+        {"a corner of the boundary", "at corners of the boundary"},
+        {"covers a whole component", "in cells that cover a whole component"},
+        {"is not a disc", "in cells that are not discs"},
+        {"meets along a closed curve", "between cells that meet along a closed curve"},
+        {"meets in more than one arc", "between cells that meet in more than one arc"},
+        {"meets the boundary at both ends of its arc with",
+         "between cells whose common arc has both ends on the boundary"},
+        {"meets the boundary more than once", "in cells that meet the boundary more than once"},
+        {"meets twice, each time with the same third cell,",
+         "between cells that meet twice, each time with the same third cell"},
+        {"no site on a component", "on components without a site"},
+        {"self-intersects", "where the mesh self-intersected"},
+    };
+    return texts[static_cast<std::size_t>(reason)];
+}
 
 }  // namespace
 
@@ -144,5 +159,14 @@ std::vector<Triangle> build_dual(const Surface& surface, const Diagram& diagram,
     const Ticker ticker(poller);
     return DualBuilder(diagram, find_degenerate_edges(surface, diagram, ticker), ticker).run();
 }
+
+const char* delaunay_name(Delaunay delaunay) {
+    constexpr std::array names = {"intrinsic", "extrinsic", "off"};
+    return names[static_cast<std::size_t>(delaunay)];
+}
+
+const char* to_text(SiteReason reason) { return texts_of(reason).key; }
+
+const char* place_text(SiteReason reason) { return texts_of(reason).place; }
 
 }  // namespace remesh

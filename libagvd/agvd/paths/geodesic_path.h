@@ -1,0 +1,93 @@
+//! \file
+//! Locally shortest paths on the surface: from a given path, between two points, and from a point
+//! to its site after propagate(). None is shorter than the geodesic distance (up to rounding).
+//! Held by GeodesicPath.OnRandomMeshesEveryPathIsLocallyShortest in tests/agvd/paths.
+#pragma once
+
+#include <span>
+
+#include "agvd/core/progress.h"
+#include "agvd/mesh/surface.h"
+#include "agvd/mesh/surface_point.h"
+#include "agvd/propagation/relays.h"
+
+namespace agvd {
+
+//! A polyline on the surface, each piece of which is straight in one face.
+struct GeodesicPath {
+    //! The start, the points where the path crosses edges or touches vertices, and the end. Each is
+    //! named in the face of the piece after it; the last in that of the piece before it.
+    std::vector<SurfacePoint> points;
+    std::vector<FaceId> faces;  //!< Of the piece from each point to the next; one fewer.
+    double length = 0;          //!< Mesh units.
+    //! At every vertex that the path touches between its ends, both sides have an angle of at least
+    //! pi (less 1e-7) or the boundary; elsewhere the path is straight. False: there were too many
+    //! rounds, or rounding hides whether a vertex is better passed on its other side.
+    bool is_locally_shortest = false;
+};
+
+//! Straightens a path with its ends fixed, such as one along edges (see point_at). The result can
+//! be reached from it without leaving the surface, and is never longer: handles and holes stay on
+//! their side.
+//!
+//! A funnel gives the shortest path through the faces crossed ([lee1984]). If it bends at a vertex
+//! with an angle below pi on the other side, it is led around that side, which is shorter, until
+//! there is no such vertex ([xin2007]).
+//! \param points  at least one; each shares a face with the next.
+//! \param faces   of each piece; empty: any face that both points share, the nearest around a
+//!                vertex.
+//! \throw InvalidInput  two points in a row share no face (or not the given one).
+//! \throw Cancelled     the progress callback returned false.
+//! Cost: O(#crossed + degrees of the vertices passed) a round. One to three rounds for ten
+//! crossings are usual; at most 500 and one for each crossing are made, and fewer where these would
+//! look at more than 400 times as many crossings as there are at the start, and 200 000.
+[[nodiscard]] GeodesicPath straighten_path(const Surface& surface,
+                                           std::span<const SurfacePoint> points,
+                                           std::span<const FaceId> faces = {},
+                                           const Progress& progress = {});
+
+//! The shortest path along edges between two points, straightened. There may be a shorter one on
+//! the other side of a peak or a handle.
+//!
+//! \throw InvalidInput  the points lie on different components.
+//! \throw Cancelled     the progress callback returned false.
+//! Cost: that of an A* search over the vertices between both, and of straighten_path.
+[[nodiscard]] GeodesicPath path_between(const Surface& surface, const SurfacePoint& from,
+                                        const SurfacePoint& to, const Progress& progress = {});
+
+//! The distances that lead to sites: those of a Propagation, or of a Diagram.
+struct SiteDistances {
+    std::span<const SiteId> site;      //!< #V, as Propagation::vertex_site.
+    std::span<const double> distance;  //!< #V, as Propagation::vertex_distance.
+};
+
+//! Where a path is to end.
+struct SiteGoal {
+    SiteId site;         //!< Its number in SiteDistances.
+    SurfacePoint point;  //!< Where it lies.
+    //! From the start of the path, if known: a path of this length is looked for.
+    double distance = 0;
+};
+
+//! A path from a point of a site's cell to the site.
+//!
+//! It is a shortest path where its length is the distance. Tried and straightened are the straight
+//! lines to where the distances at the ends of an edge beside the point put the site, and paths
+//! from vertex to vertex by falling distances, until one has the distance's length (up to 1e-9).
+//! The shortest is returned; if none arrives, that of path_between.
+//! \throw InvalidInput  the site lies on another component.
+//! \throw Cancelled     the progress callback returned false.
+//! Cost: that of straightening one path, or a few for each face around the point.
+[[nodiscard]] GeodesicPath path_to_site(const Surface& surface, const SiteDistances& distances,
+                                        const SiteGoal& goal, const SurfacePoint& point,
+                                        const Progress& progress = {});
+
+//! The same to the point's nearest site.
+//!
+//! \param sites, propagation  propagate(surface, sites).
+//! \throw InvalidInput  no site reaches the point.
+[[nodiscard]] GeodesicPath path_to_site(const Surface& surface, std::span<const SurfacePoint> sites,
+                                        const Propagation& propagation, const SurfacePoint& point,
+                                        const Progress& progress = {});
+
+}  // namespace agvd
