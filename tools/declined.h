@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "remesh/meshfile/mesh_file.h"
+#include "remesh/meshfile/read_mesh.h"
 
 namespace cli {
 

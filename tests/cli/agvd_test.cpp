@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "agvd/diagram/diagram.h"
-#include "remesh/meshfile/read_diagram.h"
+#include "remesh/meshfile/diagram_file.h"
 #include "remesh/meshfile/read_mesh.h"
 #include "support/dirty_shapes.h"
 #include "support/scratch.h"

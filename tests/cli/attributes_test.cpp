@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "remesh/meshfile/gzip.h"
+#include "remesh/meshfile/packed.h"
 #include "remesh/meshfile/read_mesh.h"
 #include "remesh/meshfile/xml_reader.h"
 #include "support/scratch.h"

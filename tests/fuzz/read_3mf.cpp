@@ -1,7 +1,7 @@
 // The reader of 3MF. Bytes that begin with "PK" are the whole file. Checksums would refuse nearly
 // all changes of such a file, so other bytes are the model part of a package.
 #include "check_reader.h"
-#include "remesh/meshfile/zip_archive.h"
+#include "remesh/meshfile/packed.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     std::string bytes(reinterpret_cast<const char*>(data), size);

@@ -1,5 +1,5 @@
 // The reader of diagrams, and the comparison of what it returns, as in `agvd compare`.
-#include "remesh/meshfile/read_diagram.h"
+#include "remesh/meshfile/diagram_file.h"
 
 #include "agvd/core/error.h"
 #include "memory_file.h"

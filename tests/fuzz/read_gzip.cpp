@@ -1,7 +1,7 @@
 // Unpacking of gzip: what was unpacked comes back, packed anew. Input that unpacks to more than a
 // few megabytes is stopped as a memory limit does it.
 #include "agvd/core/error.h"
-#include "remesh/meshfile/gzip.h"
+#include "remesh/meshfile/packed.h"
 #include "require.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -9,8 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "remesh/meshfile/deflated.h"
-#include "remesh/meshfile/gzip.h"
+#include "remesh/meshfile/packed.h"
 
 struct VtpStyle {
     enum Encoding { Ascii, Binary, Base64, Raw };  // Base64 and Raw: appended.

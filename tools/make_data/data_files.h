@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "agvd/mesh/mesh_view.h"
-#include "remesh/meshfile/texture_seams.h"
+#include "remesh/meshfile/read_mesh.h"
 
 namespace make_data {
 

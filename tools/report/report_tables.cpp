@@ -3,7 +3,7 @@
 #include <locale>
 #include <sstream>
 
-#include "remesh/meshfile/words.h"
+#include "remesh/meshfile/text.h"
 #include "report/report.h"
 #include "report/report_common.h"
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "remesh/meshfile/words.h"
+#include "remesh/meshfile/text.h"
 #include "report/report.h"
 #include "report/report_common.h"
 

@@ -15,7 +15,7 @@
 #include <utility>
 
 #include "agvd/core/error.h"
-#include "remesh/meshfile/standard_streams.h"
+#include "remesh/meshfile/source_file.h"
 
 namespace remesh {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "agvd/mesh/mesh_view.h"
-#include "remesh/meshfile/triangulate.h"
+#include "remesh/meshfile/read_mesh.h"
 
 namespace remesh {
 namespace detail {

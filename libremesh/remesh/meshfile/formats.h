@@ -7,7 +7,7 @@
 #include <string>
 
 #include "agvd/core/poller.h"
-#include "remesh/meshfile/mesh_file.h"
+#include "remesh/meshfile/read_mesh.h"
 #include "remesh/meshfile/source_file.h"
 
 namespace remesh {

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "agvd/core/error.h"
-#include "remesh/meshfile/byte_order.h"
 #include "remesh/meshfile/byte_source.h"
+#include "remesh/meshfile/numbers.h"
 
 namespace remesh {
 namespace {

@@ -12,9 +12,8 @@
 
 #include "remesh/meshfile/formats.h"
 #include "remesh/meshfile/polygon_soup.h"
-#include "remesh/meshfile/text_format.h"
+#include "remesh/meshfile/text.h"
 #include "remesh/meshfile/text_scanner.h"
-#include "remesh/meshfile/volume_surface.h"
 
 namespace remesh {
 namespace {

@@ -1,17 +1,137 @@
+//! Colours and labels of an OBJ file. Private to the reader.
 // Wavefront OBJ: vertices (v, also with colours) and faces (f), materials, groups and objects;
 // texture coordinates of corners (vt); every other statement is skipped, and so are normals of a
 // corner: vertices are never split along their seams (format: Wavefront, Advanced Visualizer
 // Manual, appendix B1).
+// Writes OBJ: vertices with colours and normals, texture coordinates, each once, and faces with
+// materials, groups and objects.
 
 #include <algorithm>
+#include <array>
+#include <map>
+#include <utility>
 
+#include "agvd/mesh/vertex_normals.h"
 #include "remesh/meshfile/formats.h"
-#include "remesh/meshfile/obj_attributes.h"
+#include "remesh/meshfile/materials.h"
 #include "remesh/meshfile/polygon_soup.h"
+#include "remesh/meshfile/text.h"
 #include "remesh/meshfile/text_scanner.h"
 
 namespace remesh {
 namespace {
+
+class ObjAttributes {
+public:
+    //! \param is_wanted  false: everything is passed over.
+    explicit ObjAttributes(bool is_wanted) : is_wanted_(is_wanted) {}
+
+    //! The words behind a vertex's coordinates: three are a colour, one is a weight.
+    void take_color(std::size_t vertex, TextScanner& scan);
+
+    //! The coordinates behind vt: a second one may be missing, a third one does not count.
+    void take_texture(TextScanner& scan, SoupTexture& texture) const;
+
+    //! Any other statement than v, vt and f.
+    //! \param num_polygons  before it.
+    void take(std::string_view statement, std::size_t num_polygons, TextScanner& scan);
+
+    [[nodiscard]] bool is_wanted() const { return is_wanted_; }
+
+    //! All attributes; those of faces have a value for each polygon.
+    [[nodiscard]] MeshAttributes finish(std::size_t num_vertices, std::size_t num_polygons) &&;
+
+private:
+    // What usemtl, g or o say: a label for each polygon from the statement on.
+    struct Labels {
+        const char* statement;
+        const char* name;  // Of the attribute.
+        std::vector<double> values = {};
+        std::vector<std::string> names = {};
+        std::map<std::string, std::size_t, std::less<>> number = {};
+        std::size_t current = 0;
+
+        void begin(const std::string& label, std::size_t num_polygons);
+    };
+
+    bool is_wanted_;
+    bool has_normals_ = false;
+    TextColors colors_;
+    std::array<Labels, 3> labels_ = {Labels{"usemtl", "material"}, Labels{"g", "group"},
+                                     Labels{"o", "object"}};
+    std::vector<std::string> material_files_;
+};
+
+// A name may have several words. A backslash at its end would join the line with the next one when
+// it is written.
+std::string name_on(TextScanner& scan) {
+    std::string name = scan.words();
+    while (name.ends_with('\\') || name.ends_with(' ')) name.pop_back();
+    return name;
+}
+
+void ObjAttributes::take_color(std::size_t vertex, TextScanner& scan) {
+    std::array<double, 4> numbers{};
+    std::size_t count = 0;
+    while (scan.has_word()) {  // Over joined lines too.
+        if (!is_wanted_ || count == numbers.size()) {
+            scan.word();
+            continue;
+        }
+        const std::optional<double> number = scan.number_or_other("a number");
+        if (!number) colors_.spoil();
+        numbers[count++] = number.value_or(0);
+    }
+    if (count > 1) colors_.take(vertex, std::span(numbers).first(count));
+}
+
+void ObjAttributes::take_texture(TextScanner& scan, SoupTexture& texture) const {
+    std::array<double, 2> numbers{};
+    bool is_broken = false;
+    for (double& number : numbers) {
+        if (!scan.has_word()) break;  // Joined lines are passed over, wanted or not.
+        const std::optional<double> read = scan.number_or_other("a number");
+        is_broken = is_broken || !read;
+        number = read.value_or(0);
+    }
+    if (!is_wanted_) return;
+    texture.name = "vt";
+    texture.is_broken = texture.is_broken || is_broken;
+    texture.add(numbers[0], numbers[1]);
+}
+
+void ObjAttributes::take(std::string_view statement, std::size_t num_polygons, TextScanner& scan) {
+    if (!is_wanted_) return;
+    has_normals_ = has_normals_ || statement == "vn";
+    if (statement == "mtllib") material_files_.push_back(name_on(scan));
+    for (Labels& labels : labels_) {
+        if (statement == labels.statement) labels.begin(name_on(scan), num_polygons);
+    }
+}
+
+void ObjAttributes::Labels::begin(const std::string& label, std::size_t num_polygons) {
+    if (names.empty() && num_polygons > 0) names.emplace_back();  // Of the polygons before.
+    values.resize(num_polygons, static_cast<double>(current));
+    const auto [found, is_new] = number.try_emplace(label, names.size());
+    if (is_new) names.push_back(label);
+    current = found->second;
+}
+
+MeshAttributes ObjAttributes::finish(std::size_t num_vertices, std::size_t num_polygons) && {
+    MeshAttributes attributes;
+    attributes.material_files = std::move(material_files_);
+    if (has_normals_) attributes.normals = NumberType::Float32;
+    std::move(colors_).finish(num_vertices, ElementKind::Vertex, attributes);
+    for (Labels& labels : labels_) {
+        if (labels.names.empty()) continue;
+        labels.values.resize(num_polygons, static_cast<double>(labels.current));
+        attributes.of_faces.push_back({.name = labels.name,
+                                       .type = NumberType::Int32,
+                                       .values = std::move(labels.values),
+                                       .names = std::move(labels.names)});
+    }
+    return attributes;
+}
 
 struct ObjCorner {
     std::int64_t vertex;         // From 0.
@@ -70,6 +190,80 @@ void take_coordinates(std::string_view rest, PolygonSoup& soup) {
     texture.set_corner(soup.num_corners(), static_cast<Index>(number - 1));
 }
 
+constexpr std::array label_statements = {std::pair{"o ", "object"}, std::pair{"g ", "group"},
+                                         std::pair{"usemtl ", "material"}};
+
+void append_vertex(std::string& bytes, const Vec3& p, std::size_t vertex,
+                   const std::vector<const Attribute*>& colors) {
+    append_line(bytes, "v ", p);
+    if (colors.empty()) return;
+    bytes.pop_back();
+    std::array<float, 3> color{};
+    for (std::size_t k = 0; k < 3; ++k) {
+        color[k] = static_cast<float>(intensity(*colors[k], vertex));
+    }
+    append_line(bytes, " ", color);
+}
+
+// Statements for the labels that differ from those of the face before.
+void append_labels(std::string& bytes, const std::vector<Attribute>& of_faces, std::size_t face) {
+    for (const auto& [statement, name] : label_statements) {
+        const Attribute* const labels = find_attribute(of_faces, name);
+        if (labels == nullptr || labels->names.empty()) continue;
+        const auto at = [&](std::size_t f) { return static_cast<std::size_t>(labels->values[f]); };
+        const std::string& label = labels->names[at(face)];
+        if (face == 0 ? label.empty() : at(face) == at(face - 1)) continue;
+        bytes += statement + (label.empty() ? "none" : label) + '\n';
+    }
+}
+
+// Numbers of texture coordinates, from 1.
+class ObjTexture {
+public:
+    // Appends the lines vt.
+    ObjTexture(const TextureCoordinates& texture, Ticker& ticker, std::string& bytes) {
+        const bool is_single = texture.type == NumberType::Float32;
+        for (const CornerCoordinates& corners : texture.corners) {
+            ticker.tick(4);
+            for (const Vec2& p : corners) {
+                if (!is_whole(corners)) {
+                    number_.push_back(0);
+                    continue;
+                }
+                const auto [known, is_new] = known_.try_emplace({p.x(), p.y()}, known_.size() + 1);
+                number_.push_back(known->second);
+                if (!is_new) continue;
+                if (is_single) {
+                    append_line(bytes, "vt ", p.cast<float>().eval());
+                } else {
+                    append_line(bytes, "vt ", p);
+                }
+            }
+        }
+    }
+
+    // 0: there is none.
+    [[nodiscard]] std::size_t operator()(std::size_t face, std::size_t corner) const {
+        return number_.empty() ? 0 : number_[3 * face + corner];
+    }
+
+private:
+    std::map<std::pair<double, double>, std::size_t> known_;
+    std::vector<std::size_t> number_;
+};
+
+void append_face(std::string& bytes, const Triangle& triangle, std::size_t face, bool has_normals,
+                 const ObjTexture& texture) {
+    bytes += 'f';
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::string number = std::to_string(triangle[k] + 1ull);
+        bytes.append(" ").append(number);
+        if (texture(face, k) > 0) bytes.append("/").append(std::to_string(texture(face, k)));
+        if (has_normals) bytes.append(texture(face, k) > 0 ? "/" : "//").append(number);
+    }
+    bytes += '\n';
+}
+
 }  // namespace
 
 // NOLINTNEXTLINE(performance-unnecessary-value-param): all readers have this type.
@@ -111,6 +305,39 @@ MeshFile read_obj(SourceFile file) {
                     result);
     }
     return result;
+}
+
+bool obj_holds(const Attribute& attribute, ElementKind kind, const MeshAttributes& all) {
+    if (kind == ElementKind::Vertex) {
+        return is_color(attribute.name) && attribute.name != "alpha" &&
+               !colors_of(all.of_vertices).empty();
+    }
+    return !attribute.names.empty() &&
+           std::any_of(label_statements.begin(), label_statements.end(),
+                       [&](const auto& known) { return attribute.name == known.second; });
+}
+
+std::string format_obj(const MeshView& mesh, const MeshAttributes& attributes, Ticker ticker) {
+    std::string bytes;
+    for (const std::string& file : attributes.material_files) bytes += "mtllib " + file + '\n';
+    const std::vector<const Attribute*> colors = colors_of(attributes.of_vertices);
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        ticker.tick(4);
+        append_vertex(bytes, mesh.positions[v], v, colors);
+    }
+    if (attributes.normals) {
+        for (const Vec3& normal : vertex_normals(mesh)) {
+            ticker.tick(4);
+            append_line(bytes, "vn ", normal.cast<float>().eval());
+        }
+    }
+    const ObjTexture texture(attributes.texture, ticker, bytes);
+    for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+        ticker.tick();
+        append_labels(bytes, attributes.of_faces, f);
+        append_face(bytes, mesh.triangles[f], f, attributes.normals.has_value(), texture);
+    }
+    return bytes;
 }
 
 }  // namespace remesh

@@ -13,7 +13,7 @@
 
 #include "agvd/core/error.h"
 #include "agvd/mesh/mesh_view.h"
-#include "remesh/meshfile/triangulate.h"
+#include "remesh/meshfile/read_mesh.h"
 
 namespace remesh {
 

@@ -1,20 +1,207 @@
+//! Properties of a PLY file that are neither coordinates nor corners. Private to the reader.
+// Which properties of PLY are carried over is decided by their names, as programs use them:
+// normals are computed anew, texture coordinates belong to corners, other lists have no single
+// value.
+//! Triangle strips of PLY, as scans of Stanford's repository have them. Private to the reader.
+//! The element tristrips holds lists of vertices, and -1 ends a strip.
+//! Texture coordinates of a PLY file: a pair of numbers of each vertex, or a list of each face with
+//! a pair for each corner, as MeshLab writes it. Private to the reader.
 // PLY, ascii and both binaries: the coordinates of element "vertex", the corners of element "face",
 // and their other properties as attributes, texture coordinates as such; triangle strips. Every
 // other element is skipped (format: Greg Turk, "The PLY Polygon File Format", 1994).
+// Writes PLY: coordinates in double, attributes under their names and types, texture coordinates as
+// a list of each face.
 
 #include <algorithm>
 #include <array>
 #include <limits>
 #include <utility>
 
+#include "agvd/mesh/vertex_normals.h"
 #include "remesh/meshfile/formats.h"
-#include "remesh/meshfile/ply_attributes.h"
-#include "remesh/meshfile/ply_strips.h"
-#include "remesh/meshfile/ply_texture.h"
+#include "remesh/meshfile/numbers.h"
+#include "remesh/meshfile/ply_values.h"
 #include "remesh/meshfile/polygon_soup.h"
 
 namespace remesh {
 namespace {
+
+//! Takes the values of an element's other properties, one element after the other.
+class PlyAttributes {
+public:
+    //! Decides which properties are carried over. Those that are not are listed in `attributes`,
+    //! with the reason, and so is the type of normals.
+    //! \param used  properties that the reader needs itself.
+    //! \param file  without with_attributes nothing is carried over.
+    PlyAttributes(const PlyElement& element, ElementKind kind,
+                  const std::vector<const PlyProperty*>& used, const SourceFile& file,
+                  MeshAttributes& attributes);
+
+    //! Reads or skips a value.
+    //! \param property  index in the element; none of those that are used.
+    template <typename Values>
+    void take(Values& values, std::size_t property) {
+        const PlyProperty& type = element_.properties[property];
+        if (column_[property] == no_column) {
+            skip_property(values, type, file_);
+            return;
+        }
+        const std::optional<double> value = values.attribute(type.type);
+        Column& column = columns_[column_[property]];
+        column.is_broken = column.is_broken || !value;
+        column.attribute.values.push_back(value.value_or(0));
+    }
+
+    //! Moves the attributes to `attributes`; those that hold other words than numbers are declined.
+    void finish(MeshAttributes& attributes) &&;
+
+private:
+    static constexpr std::size_t no_column = ~std::size_t{0};
+    struct Column {
+        Attribute attribute;
+        bool is_broken = false;
+    };
+
+    const PlyElement& element_;
+    ElementKind kind_;
+    const SourceFile& file_;
+    std::vector<std::size_t> column_;  // By property: index into columns_.
+    std::vector<Column> columns_;
+};
+
+constexpr std::array normal_names = {"nx", "ny", "nz"};
+
+bool is_normal(const std::string& name) {
+    return std::find(normal_names.begin(), normal_names.end(), name) != normal_names.end();
+}
+
+// Why a property is not carried over; empty: it is.
+std::string reason_against(const PlyProperty& property, const PlyElement& element,
+                           ElementKind kind) {
+    if (property.size_type) return "lists are not carried over";
+    if (kind == ElementKind::Face && is_normal(property.name)) {
+        return "normals of faces are not carried over";
+    }
+    return element.find(property.name) == &property ? "" : "another property has the same name";
+}
+
+PlyAttributes::PlyAttributes(const PlyElement& element, ElementKind kind,
+                             const std::vector<const PlyProperty*>& used, const SourceFile& file,
+                             MeshAttributes& attributes)
+    : element_(element), kind_(kind), file_(file), column_(element.properties.size(), no_column) {
+    if (!file.with_attributes) return;
+    for (std::size_t i = 0; i < element.properties.size(); ++i) {
+        const PlyProperty& property = element.properties[i];
+        if (std::find(used.begin(), used.end(), &property) != used.end()) continue;
+        const std::string reason = reason_against(property, element, kind);
+        if (!reason.empty()) {
+            attributes.declined.push_back({element.name + " " + property.name, reason});
+        } else if (kind == ElementKind::Vertex && is_normal(property.name)) {
+            attributes.normals = property.type;
+        } else {
+            column_[i] = columns_.size();
+            columns_.push_back({{.name = property.name, .type = property.type}});
+        }
+    }
+    // No value takes less than a byte, so that memory follows the bytes that are there.
+    const std::uint64_t most = file.bytes.size() / std::max<std::size_t>(1, column_.size());
+    for (Column& column : columns_) {
+        column.attribute.values.reserve(std::min(element.count, most));
+    }
+}
+
+void PlyAttributes::finish(MeshAttributes& attributes) && {
+    auto& target = kind_ == ElementKind::Vertex ? attributes.of_vertices : attributes.of_faces;
+    for (Column& column : columns_) {
+        if (column.is_broken) {
+            attributes.declined.push_back({element_.name + " " + column.attribute.name,
+                                           "some of its values are not of its type"});
+        } else {
+            target.push_back(std::move(column.attribute));
+        }
+    }
+}
+
+//! Reads the element tristrips.
+//! \throw IoError  it has no list of whole numbers, or is truncated.
+//! \throw InvalidInput  a vertex is negative and not -1, or beyond any index.
+template <typename Values>
+void read_strips(Values& values, const PlyElement& element, const SourceFile& file,
+                 PolygonSoup& soup) {
+    const PlyProperty& corners = require_corners(element, file);
+    for (std::uint64_t i = 0; i < element.count; ++i) {
+        values.begin(element, i);
+        for (const PlyProperty& property : element.properties) {
+            if (&property != &corners) {
+                skip_property(values, property, file);
+                continue;
+            }
+            StripTriangles strip(soup);
+            for (std::int64_t k = read_length(values, property, file); k > 0; --k) {
+                const std::size_t start = values.offset();
+                const std::int64_t vertex = values.integer(property.type);
+                soup.ticker.tick();
+                if (vertex == -1) {
+                    strip.end();
+                } else {
+                    strip.add(vertex, start);
+                }
+            }
+            strip.end();
+        }
+        values.end();
+    }
+}
+
+//! The two numbers of an element that are texture coordinates; null: it has none. One name of a
+//! pair alone is an ordinary property.
+[[nodiscard]] inline std::array<const PlyProperty*, 2> texture_pair(const PlyElement& element) {
+    constexpr std::array<std::array<const char*, 2>, 4> names = {
+        {{"s", "t"}, {"u", "v"}, {"texture_u", "texture_v"}, {"texture_s", "texture_t"}}};
+    const auto is_real = [](const PlyProperty* property) {
+        return property != nullptr && !property->size_type && !is_integer(property->type);
+    };
+    for (const auto& [u, v] : names) {
+        const std::array pair = {element.find(u), element.find(v)};
+        if (is_real(pair[0]) && is_real(pair[1])) return pair;
+    }
+    return {nullptr, nullptr};
+}
+
+//! The list of an element's corners that are texture coordinates, or nullptr.
+[[nodiscard]] inline const PlyProperty* texture_list(const PlyElement& element) {
+    const PlyProperty* const list = element.find(TextureCoordinates::name);
+    return list != nullptr && list->size_type && !is_integer(list->type) ? list : nullptr;
+}
+
+//! Reads the list of one face. It may stand before the corners, so it is given to them afterwards.
+template <typename Values>
+[[nodiscard]] std::vector<double> read_texture_list(Values& values, const PlyProperty& list,
+                                                    const SourceFile& file, SoupTexture& texture) {
+    std::vector<double> numbers;
+    for (std::int64_t k = read_length(values, list, file); k > 0; --k) {
+        const std::optional<double> number = values.attribute(list.type);
+        texture.is_broken = texture.is_broken || !number;
+        numbers.push_back(number.value_or(0));
+    }
+    return numbers;
+}
+
+//! Gives the last corners so far their coordinates; an empty list is none.
+inline void set_texture(std::span<const double> numbers, std::size_t num_corners,
+                        PolygonSoup& soup) {
+    SoupTexture& texture = soup.texture;
+    if (numbers.empty()) return;
+    if (numbers.size() != 2 * num_corners) {
+        texture.is_broken = true;
+        return;
+    }
+    for (std::size_t k = 0; k < num_corners; ++k) {
+        texture.add(numbers[2 * k], numbers[2 * k + 1]);
+        texture.set_corner(soup.num_corners() - num_corners + k + 1,
+                           static_cast<Index>(texture.values.size() - 1));
+    }
+}
 
 // The coordinates of vertices, unless faces have some of their own.
 std::array<const PlyProperty*, 2> find_texture(const PlyElement& vertices, const PlyHeader& header,
@@ -194,6 +381,67 @@ MeshFile read_body(Values values, const PlyHeader& header, const SourceFile& fil
     return result;
 }
 
+NumberType stored_type(const Attribute& attribute) {
+    return attribute.is_intensity ? NumberType::UInt8 : attribute.type;
+}
+
+std::string properties_of(const std::vector<Attribute>& attributes) {
+    std::string text;
+    for (const Attribute& attribute : attributes) {
+        text += std::string("property ") + name_of(stored_type(attribute)) + ' ' + attribute.name +
+                '\n';
+    }
+    return text;
+}
+
+std::string normal_properties(const MeshAttributes& attributes) {
+    std::string text;
+    if (!attributes.normals) return text;
+    for (const char* name : {"nx", "ny", "nz"}) {
+        text += std::string("property ") + name_of(*attributes.normals) + ' ' + name + '\n';
+    }
+    return text;
+}
+
+// What the labels are called: "comment material 0 brass".
+std::string label_comments(const MeshAttributes& attributes) {
+    std::string text;
+    for (const Attribute& attribute : attributes.of_faces) {
+        for (std::size_t i = 0; i < attribute.names.size(); ++i) {
+            text += "comment " + attribute.name + ' ' + std::to_string(i) + ' ' +
+                    attribute.names[i] + '\n';
+        }
+    }
+    return text;
+}
+
+NumberType stored_type(const TextureCoordinates& texture) {
+    return texture.type == NumberType::Float64 ? NumberType::Float64 : NumberType::Float32;
+}
+
+std::string texture_property(const TextureCoordinates& texture) {
+    if (texture.empty()) return "";
+    return std::string("property list uchar ") + name_of(stored_type(texture)) + ' ' +
+           TextureCoordinates::name + '\n';
+}
+
+void append_texture(std::string& bytes, const TextureCoordinates& texture, std::size_t face) {
+    if (texture.empty()) return;
+    const CornerCoordinates& corners = texture.corners[face];
+    append(bytes, std::uint8_t{is_whole(corners) ? std::uint8_t{6} : std::uint8_t{0}});
+    if (!is_whole(corners)) return;
+    for (const Vec2& corner : corners) {
+        for (const double x : corner) append_number(bytes, stored_type(texture), x);
+    }
+}
+
+void append_values(std::string& bytes, const std::vector<Attribute>& attributes, std::size_t i) {
+    for (const Attribute& attribute : attributes) {
+        const double value = attribute.values[i];
+        append_number(bytes, stored_type(attribute), attribute.is_intensity ? 255 * value : value);
+    }
+}
+
 }  // namespace
 
 MeshFile read_binary_ply(const PlyHeader& header, const SourceFile& file) {
@@ -205,6 +453,37 @@ MeshFile read_ply(SourceFile file) {
     if (!header.byte_order) return read_body(AsciiValues(file, header), header, file);
     file.is_binary = true;
     return read_binary_ply(header, file);
+}
+
+std::string format_ply(const MeshView& mesh, const MeshAttributes& attributes, Ticker ticker) {
+    // "int" is what every reader knows; it does for all but the largest meshes.
+    const char* const index_type = mesh.positions.size() <= INT32_MAX ? "int" : "uint";
+    std::string bytes = "ply\nformat binary_little_endian 1.0\n" + label_comments(attributes) +
+                        "element vertex " + std::to_string(mesh.positions.size()) +
+                        "\nproperty double x\nproperty double y\nproperty double z\n" +
+                        normal_properties(attributes) + properties_of(attributes.of_vertices) +
+                        "element face " + std::to_string(mesh.triangles.size()) +
+                        "\nproperty list uchar " + index_type + " vertex_indices\n" +
+                        texture_property(attributes.texture) + properties_of(attributes.of_faces) +
+                        "end_header\n";
+    std::vector<Vec3> normals;
+    if (attributes.normals) normals = vertex_normals(mesh);
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        ticker.tick();
+        for (const double x : mesh.positions[v]) append(bytes, x);
+        if (attributes.normals) {
+            for (const double x : normals[v]) append_number(bytes, *attributes.normals, x);
+        }
+        append_values(bytes, attributes.of_vertices, v);
+    }
+    for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+        ticker.tick();
+        append(bytes, std::uint8_t{3});
+        for (const Index v : mesh.triangles[f]) append(bytes, v);
+        append_texture(bytes, attributes.texture, f);
+        append_values(bytes, attributes.of_faces, f);
+    }
+    return bytes;
 }
 
 }  // namespace remesh

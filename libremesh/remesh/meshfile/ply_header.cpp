@@ -1,10 +1,10 @@
 // Reads the header line by line: the format, then elements with their properties in order. The data
 // begin behind the line of end_header.
-#include "remesh/meshfile/ply_header.h"
 
 #include <algorithm>
 #include <iterator>
 
+#include "remesh/meshfile/ply_values.h"
 #include "remesh/meshfile/text_scanner.h"
 
 namespace remesh {

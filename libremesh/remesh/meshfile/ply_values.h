@@ -1,14 +1,54 @@
 //! \file
+//! The head of a PLY file: which elements follow, and how they are stored. Private to the reader.
 //! The values of a PLY file's elements, in any of its encodings. Private to the readers.
 //! AsciiValues and BinaryValues have the same interface (begin an element, take its values, end
 //! it), so that the readers of elements are templates that are written once.
 #pragma once
 
-#include "remesh/meshfile/byte_order.h"
-#include "remesh/meshfile/ply_header.h"
+#include <bit>
+#include <optional>
+#include <vector>
+
+#include "remesh/meshfile/numbers.h"
+#include "remesh/meshfile/read_mesh.h"
+#include "remesh/meshfile/source_file.h"
 #include "remesh/meshfile/text_scanner.h"
 
 namespace remesh {
+
+using PlyType = NumberType;
+
+struct PlyProperty {
+    std::string name;
+    PlyType type;
+    std::optional<PlyType> size_type = {};  //!< Of a list: the type of its length, an integer one.
+};
+
+struct PlyElement {
+    std::string name;
+    std::uint64_t count = 0;  //!< As announced; not reliable before the bytes are read.
+    std::vector<PlyProperty> properties;
+
+    //! The property of that name, or nullptr.
+    [[nodiscard]] const PlyProperty* find(std::string_view property) const;
+};
+
+//! The name of a type in a header.
+[[nodiscard]] const char* name_of(PlyType type);
+
+struct PlyHeader {
+    std::optional<std::endian> byte_order;  //!< None: ascii.
+    std::vector<PlyElement> elements = {};  //!< In the order of the data.
+    std::size_t size = 0;                   //!< Bytes up to the first datum.
+    std::string warning = {};               //!< Lines that were passed over, leniently.
+};
+
+//! \throw IoError  by line: no PLY, an unknown type or format, an element without a name, ...
+[[nodiscard]] PlyHeader read_ply_header(const SourceFile& file);
+
+//! The mesh of binary data behind a head; binary OFF has the same layout.
+//! \throw IoError, InvalidInput  as read_mesh.  \throw Cancelled
+[[nodiscard]] MeshFile read_binary_ply(const PlyHeader& header, const SourceFile& file);
 
 [[nodiscard]] inline std::string name_of(const PlyElement& element, std::uint64_t index) {
     return element.name + " " + std::to_string(index) + " of " + std::to_string(element.count);

@@ -1,14 +1,18 @@
+// Faces are compared by their vertices in ascending order: equal ones follow each other once
+// sorted. Programs disagree on which way round a cell is numbered: the sign of its volume tells.
 #include "remesh/meshfile/polygon_soup.h"
 
 #include <algorithm>
 #include <utility>
 
+#include "agvd/core/bucket_sort.h"
 #include "agvd/core/error.h"
-#include "remesh/meshfile/triangulate.h"
+#include "remesh/meshfile/read_mesh.h"
+#include "remesh/meshfile/text.h"
 
 namespace remesh {
-
 namespace {
+
 constexpr const char* export_again = "; correct the face, or export the file again";
 
 // The places in a polygon of its triangles' corners. Where a vertex comes twice, its first place.
@@ -28,6 +32,74 @@ void append_corners(std::span<const Index> polygon, std::size_t begin,
                     ->second);
         }
     }
+}
+
+using FaceCorners = std::array<Index, 4>;  // Of a triangle the last one is no_index.
+
+struct KindOfCell {
+    std::size_t num_faces;
+    std::array<std::array<int, 4>, 6> faces;  // Counter-clockwise from outside; -1: a triangle.
+};
+
+constexpr std::array kinds_of_cells = {
+    KindOfCell{4, {{{0, 1, 3, -1}, {1, 2, 3, -1}, {2, 0, 3, -1}, {0, 2, 1, -1}}}},
+    KindOfCell{
+        6, {{{0, 4, 7, 3}, {1, 2, 6, 5}, {0, 1, 5, 4}, {3, 7, 6, 2}, {0, 3, 2, 1}, {4, 5, 6, 7}}}},
+    KindOfCell{5, {{{0, 1, 2, -1}, {3, 5, 4, -1}, {0, 3, 4, 1}, {1, 4, 5, 2}, {2, 5, 3, 0}}}},
+    KindOfCell{5, {{{0, 3, 2, 1}, {0, 1, 4, -1}, {1, 2, 4, -1}, {2, 3, 4, -1}, {3, 0, 4, -1}}}}};
+
+struct CellFace {
+    FaceCorners sorted;   // Its vertices; behind them no_index.
+    std::uint64_t place;  // 8 cell + face.
+};
+
+// The vertices of a face in order, each once: corners of a cell may coincide.
+FaceCorners face_corners(std::span<const Index> cell, const std::array<int, 4>& face) {
+    FaceCorners result;
+    result.fill(no_index);
+    auto end = result.begin();
+    for (const int k : face) {
+        if (k < 0) break;
+        const Index vertex = cell[static_cast<std::size_t>(k)];
+        if (std::find(result.begin(), end, vertex) == end) *end++ = vertex;
+    }
+    return result;
+}
+
+std::size_t num_corners(const FaceCorners& corners) {
+    return static_cast<std::size_t>(std::find(corners.begin(), corners.end(), no_index) -
+                                    corners.begin());
+}
+
+bool is_inside_out(std::span<const Index> cell, const KindOfCell& kind,
+                   const std::vector<Vec3>& positions) {
+    double volume = 0;
+    const auto at = [&](Index v) { return Vec3(positions[v] - positions[cell[0]]); };
+    for (std::size_t f = 0; f < kind.num_faces; ++f) {
+        const FaceCorners corners = face_corners(cell, kind.faces[f]);
+        for (std::size_t k = 2; k < num_corners(corners); ++k) {
+            volume += at(corners[0]).cross(at(corners[k - 1])).dot(at(corners[k]));
+        }
+    }
+    return volume < 0;
+}
+
+// Where each face of the surface is, in the order of the cells.
+std::vector<std::uint64_t> faces_of_one_cell(const std::vector<CellFace>& faces,
+                                             std::size_t num_points, const Ticker& ticker) {
+    if (faces.size() >= no_index) {
+        throw InvalidInput("the cells have more than 2^32 - 2 faces; extract their surface");
+    }
+    const std::vector<CellFace> sorted = sort_in_buckets(
+        faces, static_cast<Index>(num_points), [](const CellFace& face) { return face.sorted[0]; },
+        [](const CellFace& a, const CellFace& b) { return a.sorted < b.sorted; }, ticker);
+    std::vector<std::uint64_t> single;
+    for (std::size_t i = 0, end = 0; i < sorted.size(); i = end) {
+        for (end = i + 1; end < sorted.size() && sorted[end].sorted == sorted[i].sorted;) ++end;
+        if (end == i + 1) single.push_back(sorted[i].place);
+    }
+    std::sort(single.begin(), single.end());
+    return single;
 }
 
 }  // namespace
@@ -144,6 +216,67 @@ TextureCoordinates PolygonSoup::texture_of(const TriangleMesh& mesh,
     if (!has_any || texture.is_broken) return {};
     read.seams = find_texture_seams(mesh.view(), read.corners, ticker);
     return read;
+}
+
+void VolumeSurface::add_corner(std::int64_t vertex, std::size_t offset) {
+    if (vertex < 0 || vertex >= no_index) {
+        file_.fail_unusable(offset, "cell " + std::to_string(num_cells()) + " names vertex " +
+                                        std::to_string(vertex) + ", which is " +
+                                        (vertex < 0 ? "negative" : "too large") +
+                                        "; correct the cell, or export the file again");
+    }
+    corners_.push_back(static_cast<Index>(vertex));
+    if (corners_.back() < highest_) return;
+    highest_ = corners_.back();
+    highest_offset_ = offset;
+}
+
+std::vector<std::size_t> VolumeSurface::add_to(PolygonSoup& soup) const {
+    if (kinds_.empty() || soup.num_polygons() > 0) return {};
+    if (highest_ >= soup.positions.size()) {
+        file_.fail_unusable(highest_offset_, "a cell names a vertex behind the last of the " +
+                                                 std::to_string(soup.positions.size()) +
+                                                 "; correct the cell, or export the file again");
+    }
+    std::vector<std::size_t> begins;  // By cell, of its corners.
+    std::vector<CellFace> faces;
+    std::size_t begin = 0;
+    for (std::size_t c = 0; c < kinds_.size(); ++c) {
+        soup.ticker.tick(8);
+        begins.push_back(begin);
+        const KindOfCell& kind = kinds_of_cells[static_cast<std::size_t>(kinds_[c])];
+        for (std::size_t f = 0; f < kind.num_faces; ++f) {
+            FaceCorners corners = face_corners(std::span(corners_).subspan(begin), kind.faces[f]);
+            if (num_corners(corners) < 3) continue;
+            std::sort(corners.begin(), corners.end());
+            faces.push_back({corners, 8 * c + f});
+        }
+        begin += num_corners(kinds_[c]);
+    }
+    std::vector<std::size_t> cell_of_face;
+    for (const std::uint64_t place : faces_of_one_cell(faces, soup.positions.size(), soup.ticker)) {
+        const std::size_t c = place / 8;
+        const KindOfCell& kind = kinds_of_cells[static_cast<std::size_t>(kinds_[c])];
+        const auto cell = std::span(corners_).subspan(begins[c]);
+        const FaceCorners corners = face_corners(cell, kind.faces[place % 8]);
+        const std::size_t count = num_corners(corners);
+        const bool is_turned = is_inside_out(cell, kind, soup.positions);
+        for (std::size_t k = 0; k < count; ++k) {
+            soup.add_corner(corners[is_turned ? count - 1 - k : k], highest_offset_);
+        }
+        soup.end_polygon();
+        cell_of_face.push_back(c);
+    }
+    return cell_of_face;
+}
+
+std::string VolumeSurface::warning(std::size_t num_added) const {
+    if (kinds_.empty()) return {};
+    const std::string cells =
+        file_.path.string() + ": " + detail::counted(num_cells(), "volume cell");
+    return num_added == 0 ? cells + ": passed over, as the file has faces of its own"
+                          : cells + ": their surface is read, the " + std::to_string(num_added) +
+                                " faces that belong to one of them only";
 }
 
 }  // namespace remesh

@@ -1,7 +1,11 @@
 //! \file
 //! Vertices and polygons as in the file, filled by the readers. Private.
+//! Triangle strips: each vertex from the third one on makes a triangle with the two before it;
+//! every second triangle is turned round, so that all face the same way. Private to the readers.
+//! The surface of tetrahedra, hexahedra and the like. Private to the readers.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 
@@ -78,6 +82,90 @@ private:
     Index highest_ = 0;                     // Vertices may follow the faces: checked at the end.
     std::size_t highest_offset_ = 0;
     std::size_t highest_polygon_ = 0;
+};
+
+//! Adds the triangles of one strip to a soup, vertex by vertex.
+class StripTriangles {
+public:
+    explicit StripTriangles(PolygonSoup& soup) : soup_(soup) {}
+
+    void add(std::int64_t vertex, std::size_t offset) {
+        const Corner corner{vertex, offset};
+        if (length_ >= 2) {
+            const bool is_turned = length_ % 2 == 1;
+            add_triangle(is_turned ? last_ : before_, is_turned ? before_ : last_, corner);
+        }
+        before_ = last_;
+        last_ = corner;
+        ++length_;
+    }
+
+    //! A strip of one or two vertices counts as a face of so many corners.
+    void end() {
+        if (length_ == 1 || length_ == 2) {
+            if (length_ == 2) soup_.add_corner(before_.vertex, before_.offset);
+            soup_.add_corner(last_.vertex, last_.offset);
+            soup_.end_polygon();
+        }
+        length_ = 0;
+    }
+
+private:
+    struct Corner {
+        std::int64_t vertex = 0;
+        std::size_t offset = 0;  // In the file.
+    };
+
+    // A vertex that is named twice in a row only turns the strip.
+    void add_triangle(const Corner& a, const Corner& b, const Corner& c) {
+        if (a.vertex == b.vertex || b.vertex == c.vertex || c.vertex == a.vertex) return;
+        for (const Corner& corner : {a, b, c}) soup_.add_corner(corner.vertex, corner.offset);
+        soup_.end_polygon();
+    }
+
+    PolygonSoup& soup_;
+    std::size_t length_ = 0;  // Vertices so far.
+    Corner before_, last_;
+};
+
+//! Kinds of cells; their corners are numbered as in VTK.
+enum class VolumeCell : std::uint8_t { Tetrahedron, Hexahedron, Wedge, Pyramid };
+
+[[nodiscard]] constexpr std::size_t num_corners(VolumeCell kind) {
+    return std::array<std::size_t, 4>{4, 8, 6, 5}[static_cast<std::size_t>(kind)];
+}
+
+//! Collects cells and gives the faces that belong to one of them only.
+class VolumeSurface {
+public:
+    //! \param file  named in errors; must outlive this.
+    explicit VolumeSurface(const SourceFile& file) : file_(file) {}
+
+    //! Adds a corner, counted from 0, to the current cell.
+    //! \throw InvalidInput  it is negative or beyond any index.
+    void add_corner(std::int64_t vertex, std::size_t offset);
+    //! Of the kind that has as many corners as were added.
+    void end_cell(VolumeCell kind) { kinds_.push_back(kind); }
+
+    [[nodiscard]] std::size_t num_cells() const { return kinds_.size(); }
+
+    //! Adds the surface to a soup that has all vertices, its faces turned outwards. A soup that has
+    //! faces gets no others: the file tells its surface.
+    //! \return by face that was added: its cell.
+    //! \throw InvalidInput  a cell names a vertex that does not exist.
+    //! \throw Cancelled
+    //! Cost: linear but for sorting, 24 bytes for each face of each cell.
+    [[nodiscard]] std::vector<std::size_t> add_to(PolygonSoup& soup) const;
+
+    //! What add_to did; empty without cells.
+    [[nodiscard]] std::string warning(std::size_t num_added) const;
+
+private:
+    const SourceFile& file_;
+    std::vector<Index> corners_;  // Cell after cell.
+    std::vector<VolumeCell> kinds_;
+    Index highest_ = 0;
+    std::size_t highest_offset_ = 0;
 };
 
 }  // namespace remesh

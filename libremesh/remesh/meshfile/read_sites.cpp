@@ -1,3 +1,4 @@
+
 #include "remesh/meshfile/read_sites.h"
 
 #include <algorithm>
@@ -5,8 +6,8 @@
 #include <optional>
 
 #include "agvd/mesh/closest_point.h"
+#include "remesh/meshfile/text.h"
 #include "remesh/meshfile/text_scanner.h"
-#include "remesh/meshfile/words.h"
 
 namespace remesh {
 namespace {
@@ -193,6 +194,66 @@ SitesFile read_sites(const std::filesystem::path& path, const MeshView& mesh,
     Poller poller(progress);
     const SourceFile file = load_file(path, poller);
     return SiteReader(file, mesh, progress).read();
+}
+
+std::vector<Index> read_vertices(const std::filesystem::path& path, const MeshView& mesh,
+                                 const Progress& progress) {
+    Poller poller(progress);
+    const SourceFile file = load_file(path, poller);
+    Ticker ticker = file.ticker;
+    std::vector<bool> is_corner(mesh.positions.size(), false);
+    for (const Triangle& t : mesh.triangles) {
+        ticker.tick();
+        for (const Index v : t) is_corner[v] = true;
+    }
+    TextScanner scan(file, 0, {.comment = '#'});
+    std::vector<Index> vertices;
+    while (scan.find_word()) {
+        ticker.tick(16);
+        const std::size_t start = scan.offset();
+        const std::int64_t value = scan.integer("a vertex index");
+        if (value < 0 || static_cast<std::uint64_t>(value) >= is_corner.size()) {
+            file.fail_unusable(start, "there is no vertex " + std::to_string(value) +
+                                          ": the mesh has " + std::to_string(is_corner.size()) +
+                                          " vertices, counted from 0; correct the line");
+        }
+        if (!is_corner[static_cast<std::size_t>(value)]) {
+            file.fail_unusable(start, "vertex " + std::to_string(value) +
+                                          " is in no face; use a vertex of a face");
+        }
+        vertices.push_back(static_cast<Index>(value));
+        if (scan.has_word()) scan.fail_expecting("the end of the line");
+    }
+    if (vertices.empty()) {
+        scan.fail_malformed("the file holds no vertex; write lines of one vertex index");
+    }
+    return vertices;
+}
+
+std::vector<std::array<Index, 2>> read_edges(const std::filesystem::path& path,
+                                             const Progress& progress) {
+    Poller poller(progress);
+    const SourceFile file = load_file(path, poller);
+    TextScanner scan(file, 0, {.comment = '#'});
+    const auto vertex = [&] {
+        const std::size_t start = scan.offset();
+        const std::int64_t value = scan.integer("a vertex index");
+        if (value < 0 || value >= no_index) {
+            file.fail_malformed(start, "the vertex index " + std::to_string(value) +
+                                           " is out of range; count vertices from 0");
+        }
+        return static_cast<Index>(value);
+    };
+    std::vector<std::array<Index, 2>> edges;
+    while (scan.find_word()) {
+        const Index first = vertex();
+        edges.push_back({first, vertex()});
+        if (scan.has_word()) scan.fail_expecting("the end of the line");
+    }
+    if (edges.empty()) {
+        scan.fail_malformed("the file holds no edge; write lines of two vertex indices");
+    }
+    return edges;
 }
 
 }  // namespace remesh

@@ -1,12 +1,17 @@
 //! \file
 //! Reads sites that the user placed.
+//! Reads vertices that the user named.
+//! Reads edges that the user named.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 #include "agvd/core/progress.h"
+#include "agvd/core/types.h"
+#include "agvd/mesh/mesh_view.h"
 #include "agvd/mesh/surface_point.h"
 #include "remesh/names.h"
 
@@ -41,5 +46,25 @@ struct SitesFile {
 //! Cost: O(file size + n log n), and O(#F log #F) once for the first `p`.
 [[nodiscard]] SitesFile read_sites(const std::filesystem::path& path, const MeshView& mesh,
                                    const Progress& progress = {});
+
+//! A text file with one vertex per line, counted from 0 as in the arrays of read_mesh's result;
+//! what follows # is a comment.
+//!
+//! \throw IoError  the file cannot be read, a line has another form, or there is no vertex.
+//! \throw InvalidInput  the mesh has no such vertex, or it is in no face.
+//!        Both name the file, the line and the remedy.
+//! Cost: O(file size + #F).
+[[nodiscard]] std::vector<Index> read_vertices(const std::filesystem::path& path,
+                                               const MeshView& mesh, const Progress& progress = {});
+
+//! A text file with two vertices per line, counted from 0 as in the arrays of read_mesh's result;
+//! what follows # is a comment.
+//!
+//! \throw IoError  the file cannot be read, a line has another form, or there is no edge; the
+//!        text names the file, the line and the remedy.
+//! \throw InvalidInput  a number is beyond 64 bits.
+//! Cost: O(file size).
+[[nodiscard]] std::vector<std::array<Index, 2>> read_edges(const std::filesystem::path& path,
+                                                           const Progress& progress = {});
 
 }  // namespace remesh

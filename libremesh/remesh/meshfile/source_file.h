@@ -1,7 +1,9 @@
 //! \file
 //! A file's bytes, and errors that name the place in it. Private to the readers.
+//! The paths that name streams of the process. Private to the readers and writers.
 #pragma once
 
+#include <unistd.h>
 #include <cstddef>
 #include <filesystem>
 #include <string>
@@ -49,5 +51,15 @@ struct SourceFile {
 
 //! The text in quotes, cut to a readable length, with unprintable bytes shown as '?'.
 [[nodiscard]] std::string in_quotes(std::string_view text);
+
+// These are used through their descriptors: to open them again would fail for sockets, and would
+// replace a file instead of writing to where the caller's shell has got to.
+
+[[nodiscard]] inline bool is_standard_input(const std::filesystem::path& path) {
+    return path == "/dev/stdin";
+}
+[[nodiscard]] inline bool is_standard_output(const std::filesystem::path& path) {
+    return path == "/dev/stdout";
+}
 
 }  // namespace remesh

@@ -3,8 +3,8 @@
 // Specification, 1989).
 
 #include "agvd/core/error.h"
-#include "remesh/meshfile/byte_order.h"
 #include "remesh/meshfile/formats.h"
+#include "remesh/meshfile/numbers.h"
 #include "remesh/meshfile/point_welder.h"
 #include "remesh/meshfile/polygon_soup.h"
 #include "remesh/meshfile/text_scanner.h"

@@ -1,4 +1,4 @@
-#include "remesh/meshfile/texture_seams.h"
+#include "remesh/meshfile/read_mesh.h"
 
 #include <algorithm>
 #include <cmath>

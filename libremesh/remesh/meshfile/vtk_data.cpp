@@ -5,10 +5,9 @@
 #include <cmath>
 #include <utility>
 
-#include "remesh/meshfile/byte_order.h"
 #include "remesh/meshfile/formats.h"
-#include "remesh/meshfile/strip_triangles.h"
-#include "remesh/meshfile/volume_surface.h"
+#include "remesh/meshfile/numbers.h"
+#include "remesh/meshfile/polygon_soup.h"
 
 namespace remesh {
 namespace {

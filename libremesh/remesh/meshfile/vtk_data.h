@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "remesh/meshfile/mesh_file.h"
+#include "remesh/meshfile/read_mesh.h"
 #include "remesh/meshfile/source_file.h"
 
 namespace remesh {

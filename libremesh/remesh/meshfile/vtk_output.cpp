@@ -1,14 +1,18 @@
+// Writes VTK's XML PolyData (.vtp) and UnstructuredGrid (.vtu): a piece of triangles, coordinates
+// in double.
 #include "remesh/meshfile/vtk_output.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
-#include "remesh/meshfile/append_number.h"
-#include "remesh/meshfile/text_colors.h"
+#include "agvd/mesh/vertex_normals.h"
+#include "remesh/meshfile/formats.h"
+#include "remesh/meshfile/materials.h"
+#include "remesh/meshfile/numbers.h"
 #include "remesh/meshfile/vtk_data.h"
 
 namespace remesh {
-
 namespace {
 
 NumberType stored_type(const Attribute& attribute) {
@@ -19,6 +23,66 @@ NumberType stored_type(const Attribute& attribute) {
 bool is_next_part(const Attribute& attribute, const VtkOutputArray& array) {
     return attribute.name == array.name + '_' + std::to_string(array.parts.size()) &&
            stored_type(attribute) == array.type && array.parts.size() < most_vtk_components;
+}
+
+// Of the character that begins the text; 0: XML has no such character, or it is no UTF-8.
+std::size_t num_bytes_of_character(std::string_view text) {
+    const auto byte = [&](std::size_t i) {
+        return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u;
+    };
+    const unsigned first = byte(0);
+    if (first < 0x80) return first >= ' ' && first != 0x7F ? 1 : 0;
+    const std::size_t size = first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : 2;
+    std::uint32_t code = first & (0x7Fu >> size);
+    for (std::size_t i = 1; i < size; ++i) {
+        if ((byte(i) & 0xC0) != 0x80) return 0;
+        code = code << 6 | (byte(i) & 0x3F);
+    }
+    constexpr std::uint32_t smallest[] = {0x80, 0x800, 0x10000};
+    const bool is_surrogate = code >= 0xD800 && code < 0xE000;
+    const bool is_character = code >= smallest[size - 2] && code <= 0x10FFFF && !is_surrogate &&
+                              code != 0xFFFE && code != 0xFFFF;
+    return first >= 0xC2 && first < 0xF5 && is_character ? size : 0;
+}
+
+const char* vtp_name_of(NumberType type) {
+    constexpr std::array names = {"Int8",  "UInt8",  "Int16",   "UInt16",
+                                  "Int32", "UInt32", "Float32", "Float64"};
+    return names[static_cast<std::size_t>(type)];
+}
+
+void add_attributes(const std::vector<Attribute>& attributes, std::size_t count, Ticker& ticker,
+                    VtpWriter& writer) {
+    for (const VtkOutputArray& array : arrays_of(attributes)) {
+        std::string& bytes =
+            writer.begin_array(array.name, vtp_name_of(array.type), array.parts.size());
+        append_values(array, count, std::endian::little, ticker, bytes);
+        writer.end_array();
+    }
+}
+
+std::string format_vtk_xml(const MeshView& mesh, const MeshAttributes& attributes, bool is_grid,
+                           Ticker ticker) {
+    const std::size_t num_points = mesh.positions.size(), num_faces = mesh.triangles.size();
+    VtpWriter writer({.points = num_points, .polys = num_faces}, is_grid);
+    writer.begin_section("PointData", attributes.normals ? " Normals=\"Normals\"" : "");
+    if (attributes.normals) {
+        const std::vector<Vec3> normals = vertex_normals(mesh);
+        writer.add_array<float>("Normals", "Float32", 3, num_points, ticker,
+                                [&](std::size_t v) { return normals[v]; });
+    }
+    add_attributes(attributes.of_vertices, num_points, ticker, writer);
+    writer.end_section();
+    writer.begin_section("CellData");
+    add_attributes(attributes.of_faces, num_faces, ticker, writer);
+    writer.end_section();
+    writer.begin_section("Points");
+    writer.add_array<double>("Points", "Float64", 3, num_points, ticker,
+                             [&](std::size_t v) { return mesh.positions[v]; });
+    writer.end_section();
+    writer.add_cells(is_grid ? "Cells" : "Polys", num_faces, ticker,
+                     [&](std::size_t f) { return mesh.triangles[f]; });
+    return std::move(writer).finish();
 }
 
 }  // namespace
@@ -53,6 +117,78 @@ void append_values(const VtkOutputArray& array, std::size_t num_elements, std::e
             append_number(bytes, array.type, value, order);
         }
     }
+}
+
+std::string xml_escaped(std::string_view text) {
+    std::string escaped;
+    while (!text.empty()) {
+        const std::size_t size = num_bytes_of_character(text);
+        switch (text.front()) {
+            case '&':
+                escaped += "&amp;";
+                break;
+            case '<':
+                escaped += "&lt;";
+                break;
+            case '"':
+                escaped += "&quot;";
+                break;
+            default:
+                escaped += size == 0 ? "_" : text.substr(0, size);
+        }
+        text.remove_prefix(std::max<std::size_t>(size, 1));
+    }
+    return escaped;
+}
+
+VtpWriter::VtpWriter(const Counts& counts, bool is_grid)
+    : is_grid_(is_grid),
+      kind_(is_grid ? "UnstructuredGrid" : "PolyData"),
+      xml_(std::string("<?xml version=\"1.0\"?>\n<VTKFile type=\"") + kind_ +
+           "\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<" + kind_ +
+           ">\n<Piece NumberOfPoints=\"" + std::to_string(counts.points)) {
+    const std::string polys = std::to_string(counts.polys);
+    xml_ += is_grid ? "\" NumberOfCells=\"" + polys + "\">\n"
+                    : "\" NumberOfVerts=\"" + std::to_string(counts.verts) + "\" NumberOfLines=\"" +
+                          std::to_string(counts.lines) +
+                          "\" NumberOfStrips=\"0\" NumberOfPolys=\"" + polys + "\">\n";
+}
+
+void VtpWriter::begin_section(const char* name, const std::string& attributes) {
+    section_ = name;
+    xml_ += '<' + section_ + attributes + ">\n";
+}
+
+void VtpWriter::end_section() { xml_ += "</" + section_ + ">\n"; }
+
+std::string& VtpWriter::begin_array(const std::string& name, const char* type,
+                                    std::size_t num_components) {
+    array_begin_ = data_.size();
+    xml_ += std::string("<DataArray type=\"") + type + "\" Name=\"" + xml_escaped(name) +
+            "\" NumberOfComponents=\"" + std::to_string(num_components) +
+            "\" format=\"appended\" offset=\"" + std::to_string(array_begin_) + "\"/>\n";
+    append(data_, std::uint64_t{0});
+    return data_;
+}
+
+void VtpWriter::end_array() {
+    std::string size;
+    append(size, std::uint64_t{data_.size() - array_begin_ - sizeof(std::uint64_t)});
+    data_.replace(array_begin_, size.size(), size);
+}
+
+std::string VtpWriter::finish() && {
+    xml_ += std::string("</Piece>\n</") + kind_ + ">\n<AppendedData encoding=\"raw\">\n_";
+    xml_ += data_;
+    return std::move(xml_) + "\n</AppendedData>\n</VTKFile>\n";
+}
+
+std::string format_vtp(const MeshView& mesh, const MeshAttributes& attributes, Ticker ticker) {
+    return format_vtk_xml(mesh, attributes, false, ticker);
+}
+
+std::string format_vtu(const MeshView& mesh, const MeshAttributes& attributes, Ticker ticker) {
+    return format_vtk_xml(mesh, attributes, true, ticker);
 }
 
 }  // namespace remesh

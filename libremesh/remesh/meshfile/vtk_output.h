@@ -1,13 +1,19 @@
 //! \file
 //! Attributes as VTK's files hold them, in both formats. Private to the writers of VTK.
+//! Writes VTK's XML PolyData and UnstructuredGrid: arrays of numbers behind XML that describes
+//! them. Private to the writers of meshes and diagrams.
 #pragma once
 
+#include <array>
 #include <bit>
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "agvd/core/poller.h"
-#include "remesh/meshfile/mesh_attributes.h"
+#include "remesh/meshfile/numbers.h"
+#include "remesh/meshfile/read_mesh.h"
+#include "remesh/meshfile/vtk_data.h"
 
 namespace remesh {
 
@@ -26,5 +32,72 @@ struct VtkOutputArray {
 //! Appends the numbers of all elements.
 void append_values(const VtkOutputArray& array, std::size_t num_elements, std::endian order,
                    Ticker& ticker, std::string& bytes);
+
+//! The text as the value of an attribute. What XML cannot hold becomes '_'.
+[[nodiscard]] std::string xml_escaped(std::string_view text);
+
+//! One piece, little endian; arrays are appended as they are ("raw"), not compressed.
+class VtpWriter {
+public:
+    struct Counts {
+        std::size_t points = 0, verts = 0, lines = 0, polys = 0;
+    };
+    //! \param is_grid  UnstructuredGrid, whose cells are the polys, all of them triangles; else
+    //!        PolyData.
+    explicit VtpWriter(const Counts& counts, bool is_grid = false);
+
+    //! A section, such as Points, and its attributes with a blank before each.
+    void begin_section(const char* name, const std::string& attributes = {});
+    void end_section();
+
+    //! \param type  "Float64", ...
+    //! \return where to append the numbers, before the next call.
+    std::string& begin_array(const std::string& name, const char* type, std::size_t num_components);
+    void end_array();
+
+    //! An array of T with as many rows as there are items; row_of(i) gives the numbers of row i.
+    template <typename T, typename RowOf>
+    void add_array(const std::string& name, const char* type, std::size_t num_components,
+                   std::size_t num_rows, Ticker& ticker, const RowOf& row_of) {
+        std::string& bytes = begin_array(name, type, num_components);
+        for (std::size_t i = 0; i < num_rows; ++i) {
+            ticker.tick();
+            for (const auto value : row_of(i)) append(bytes, static_cast<T>(value));
+        }
+        end_array();
+    }
+
+    //! A section of cells, such as Polys; corners_of(i) gives the points of cell i.
+    template <typename CornersOf>
+    void add_cells(const char* section, std::size_t num_cells, Ticker& ticker,
+                   const CornersOf& corners_of) {
+        std::vector<std::size_t> ends;
+        ends.reserve(num_cells);
+        begin_section(section);
+        add_array<std::int64_t>("connectivity", "Int64", 1, num_cells, ticker, [&](std::size_t i) {
+            const auto corners = corners_of(i);
+            ends.push_back((ends.empty() ? 0 : ends.back()) + corners.size());
+            return corners;
+        });
+        add_array<std::int64_t>("offsets", "Int64", 1, num_cells, ticker,
+                                [&](std::size_t i) { return std::array{ends[i]}; });
+        if (is_grid_) {
+            add_array<std::uint8_t>("types", "UInt8", 1, num_cells, ticker,
+                                    [](std::size_t) { return std::array{VtkCell::Triangle}; });
+        }
+        end_section();
+    }
+
+    //! The whole file's bytes.
+    [[nodiscard]] std::string finish() &&;
+
+private:
+    bool is_grid_;
+    const char* kind_;  // Of data.
+    std::string xml_;
+    std::string data_;             // Behind the '_' of AppendedData.
+    std::string section_;          // That is open.
+    std::size_t array_begin_ = 0;  // In the data, of the one that is open: its size comes first.
+};
 
 }  // namespace remesh

@@ -1,7 +1,7 @@
 // Compressed files, for a build without zlib: they are refused.
+
 #include "agvd/core/error.h"
-#include "remesh/meshfile/deflated.h"
-#include "remesh/meshfile/gzip.h"
+#include "remesh/meshfile/packed.h"
 
 namespace remesh {
 

@@ -6,8 +6,7 @@
 
 #include "agvd/core/progress.h"
 #include "agvd/mesh/mesh_view.h"
-#include "remesh/meshfile/mesh_attributes.h"
-#include "remesh/meshfile/mesh_file.h"
+#include "remesh/meshfile/read_mesh.h"
 
 namespace remesh {
 

@@ -7,7 +7,7 @@
 
 #include "agvd/core/poller.h"
 #include "agvd/mesh/closest_point.h"
-#include "remesh/meshfile/texture_seams.h"
+#include "remesh/meshfile/read_mesh.h"
 
 namespace remesh::detail {
 

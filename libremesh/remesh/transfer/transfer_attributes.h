@@ -5,7 +5,7 @@
 #include <span>
 #include <string_view>
 
-#include "remesh/meshfile/mesh_file.h"
+#include "remesh/meshfile/read_mesh.h"
 #include "remesh/transfer/map_to_input.h"
 #include "remesh/transfer/transfer_corners.h"
 

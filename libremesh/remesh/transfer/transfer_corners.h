@@ -4,7 +4,7 @@
 
 #include "agvd/core/progress.h"
 #include "agvd/mesh/surface_point.h"
-#include "remesh/meshfile/texture_seams.h"
+#include "remesh/meshfile/read_mesh.h"
 
 namespace remesh {
 

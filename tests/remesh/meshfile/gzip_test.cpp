@@ -1,4 +1,4 @@
-#include "remesh/meshfile/gzip.h"
+#include "remesh/meshfile/packed.h"
 
 #include <gtest/gtest.h>
 

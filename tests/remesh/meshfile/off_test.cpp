@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "remesh/meshfile/byte_order.h"
+#include "remesh/meshfile/numbers.h"
 #include "support/read_text.h"
 
 using agvd::InvalidInput;

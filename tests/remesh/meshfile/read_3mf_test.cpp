@@ -1,9 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "remesh/meshfile/gzip.h"
+#include "remesh/meshfile/packed.h"
 #include "remesh/meshfile/write_mesh.h"
 #include "remesh/meshfile/xml_reader.h"
-#include "remesh/meshfile/zip_archive.h"
 #include "support/read_text.h"
 #include "support/shapes.h"
 

@@ -3,11 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "agvd/mesh/topology.h"
-#include "remesh/meshfile/byte_order.h"
-#include "remesh/meshfile/read_diagram.h"
-#include "remesh/meshfile/read_edges.h"
+#include "remesh/meshfile/numbers.h"
+#include "remesh/meshfile/diagram_file.h"
 #include "remesh/meshfile/read_sites.h"
-#include "remesh/meshfile/read_vertices.h"
 #include "remesh/meshfile/write_mesh.h"
 #include "support/files.h"
 #include "support/read_text.h"

@@ -1,4 +1,4 @@
-#include "remesh/meshfile/triangulate.h"
+#include "remesh/meshfile/read_mesh.h"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,11 @@
-#include "remesh/meshfile/write_diagram.h"
+#include "remesh/meshfile/diagram_file.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "agvd/core/error.h"
-#include "remesh/meshfile/gzip.h"
-#include "remesh/meshfile/read_diagram.h"
+#include "remesh/meshfile/packed.h"
 #include "remesh/meshfile/read_mesh.h"
 #include "remesh/meshfile/vtk_data.h"
 #include "remesh/meshfile/xml_reader.h"

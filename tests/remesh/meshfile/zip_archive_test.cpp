@@ -1,12 +1,10 @@
-#include "remesh/meshfile/zip_archive.h"
+#include "remesh/meshfile/packed.h"
 
 #include <gtest/gtest.h>
 
 #include "agvd/core/error.h"
 #include "agvd/core/progress.h"
-#include "remesh/meshfile/byte_order.h"
-#include "remesh/meshfile/deflated.h"
-#include "remesh/meshfile/gzip.h"
+#include "remesh/meshfile/numbers.h"
 
 using agvd::IoError;
 

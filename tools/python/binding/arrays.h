@@ -12,7 +12,7 @@
 
 #include "agvd/mesh/mesh_view.h"
 #include "agvd/mesh/surface_point.h"
-#include "remesh/meshfile/texture_seams.h"
+#include "remesh/meshfile/read_mesh.h"
 
 namespace python {
 

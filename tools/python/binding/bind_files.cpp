@@ -9,7 +9,6 @@
 #include "declined.h"
 #include "remesh/meshfile/atomic_file.h"
 #include "remesh/meshfile/read_mesh.h"
-#include "remesh/meshfile/triangulate.h"
 #include "remesh/meshfile/write_mesh.h"
 
 namespace python {

@@ -10,13 +10,10 @@
 #include <utility>
 
 #include "agvd/core/error.h"
-#include "remesh/meshfile/face_labels.h"
 #include "remesh/meshfile/formats.h"
 #include "remesh/meshfile/gltf_document.h"
-#include "remesh/meshfile/gltf_materials.h"
+#include "remesh/meshfile/materials.h"
 #include "remesh/meshfile/polygon_soup.h"
-#include "remesh/meshfile/strip_triangles.h"
-#include "remesh/meshfile/text_colors.h"
 
 namespace remesh {
 namespace {

@@ -13,10 +13,9 @@
 
 #include "agvd/core/error.h"
 #include "agvd/mesh/vertex_normals.h"
-#include "remesh/meshfile/append_number.h"
 #include "remesh/meshfile/formats.h"
-#include "remesh/meshfile/gltf_materials.h"
-#include "remesh/meshfile/text_colors.h"
+#include "remesh/meshfile/materials.h"
+#include "remesh/meshfile/numbers.h"
 
 namespace remesh {
 namespace {

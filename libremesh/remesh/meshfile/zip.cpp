@@ -1,12 +1,12 @@
 // ZIP files as far as packages of XML use them: parts that are stored or deflated, also beyond 4 GB
 // (format: PKWARE, "APPNOTE.TXT - .ZIP File Format Specification", version 6.3). Sizes are those of
 // the directory; none of them is believed.
-#include "remesh/meshfile/zip_archive.h"
 
 #include <algorithm>
 
-#include "remesh/meshfile/byte_order.h"
-#include "remesh/meshfile/deflated.h"
+#include "agvd/core/error.h"
+#include "remesh/meshfile/numbers.h"
+#include "remesh/meshfile/packed.h"
 
 namespace remesh {
 namespace {
@@ -18,6 +18,10 @@ constexpr std::size_t local_size = 30, entry_size = 46, end_size = 22, large_pla
 constexpr std::uint64_t in_large_numbers = 0xFFFFFFFF;  // The number has eight bytes elsewhere.
 constexpr std::uint64_t encrypted = 1, stored = 0, deflated = 8;
 constexpr const char* zip_again = "; save the file again";
+
+constexpr std::uint16_t zip_version = 20;  // That of deflated parts.
+constexpr std::uint16_t zip_deflated = 8;
+constexpr std::uint16_t first_of_1980 = 0x21;  // Times would make different bytes in each run.
 
 }  // namespace
 
@@ -158,6 +162,50 @@ std::string_view ZipArchive::packed(const Entry& entry) const {
         entry.header + local_size + number(entry.header + 26, 2) + number(entry.header + 28, 2);
     require(begin, entry.packed_size, what);
     return std::string_view(file_.bytes).substr(begin, entry.packed_size);
+}
+
+void ZipWriter::add(const std::string& name, const std::string& content, Ticker& ticker) {
+    require_size(content.size());
+    const std::string packed = pack_for_zip(content, ticker);
+    require_size(bytes_.size() + packed.size());
+    std::string fields;  // The same in both places.
+    append(fields, zip_version);
+    append(fields, std::uint16_t{0});  // Flags.
+    append(fields, zip_deflated);
+    append(fields, std::uint16_t{0});  // Midnight.
+    append(fields, first_of_1980);
+    append(fields, crc32_of(content));
+    append(fields, static_cast<std::uint32_t>(packed.size()));
+    append(fields, static_cast<std::uint32_t>(content.size()));
+    append(fields, static_cast<std::uint16_t>(name.size()));
+    append(fields, std::uint16_t{0});  // No further fields.
+
+    directory_ += "PK\1\2";
+    append(directory_, zip_version);
+    directory_ += fields;
+    directory_.append(10, '\0');  // No comment, the first disk, no attributes.
+    append(directory_, static_cast<std::uint32_t>(bytes_.size()));
+    directory_ += name;
+    bytes_ += "PK\3\4" + fields + name;
+    bytes_ += packed;
+    ++num_parts_;
+}
+
+std::string ZipWriter::finish() && {
+    require_size(bytes_.size() + directory_.size());
+    const std::size_t begin = bytes_.size();
+    bytes_ += directory_ + "PK\5\6" + std::string(4, '\0');
+    append(bytes_, static_cast<std::uint16_t>(num_parts_));
+    append(bytes_, static_cast<std::uint16_t>(num_parts_));
+    append(bytes_, static_cast<std::uint32_t>(directory_.size()));
+    append(bytes_, static_cast<std::uint32_t>(begin));
+    append(bytes_, std::uint16_t{0});  // No comment.
+    return std::move(bytes_);
+}
+
+void ZipWriter::require_size(std::size_t size) const {
+    if (size < UINT32_MAX) return;
+    throw InvalidInput("the mesh is too large for a ZIP file of 4 GB; write .ply");
 }
 
 }  // namespace remesh

@@ -7,11 +7,10 @@
 #include <numeric>
 #include <utility>
 
-#include "remesh/meshfile/face_labels.h"
 #include "remesh/meshfile/formats.h"
-#include "remesh/meshfile/gltf_materials.h"
-#include "remesh/meshfile/text_format.h"
-#include "remesh/meshfile/zip_archive.h"
+#include "remesh/meshfile/materials.h"
+#include "remesh/meshfile/packed.h"
+#include "remesh/meshfile/text.h"
 
 namespace remesh {
 namespace {
