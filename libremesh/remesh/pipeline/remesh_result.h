@@ -60,7 +60,7 @@ struct SizingResult {
     double low_ratio = 0;
     double high_ratio = 0;  //!< See low_ratio.
     //! Both ways between result and input, at many points of each; all others are proved to be
-    //! within Sizing::max_distance. 0: not measured, as that is not used.
+    //! within that of MaxDistance. 0: not measured, as that is not used.
     double largest_distance = 0;
 };
 

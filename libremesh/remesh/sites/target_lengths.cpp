@@ -43,7 +43,8 @@ public:
         const double real_area = surface_area(surface);
         mean_ = std::sqrt(real_area / (area > 0 ? area : 1));
         longest_ = sizing.max_edge;
-        if (sizing.is_adaptive && area > 0) longest_ = std::min(longest_, longest_of_mean * mean_);
+        if (sizing.is_adaptive() && area > 0)
+            longest_ = std::min(longest_, longest_of_mean * mean_);
         if (!least.empty()) find_bounds(least);
     }
 
@@ -112,11 +113,13 @@ private:
     }
 
     [[nodiscard]] double wanted(Index v, double scale) const {
-        if (sizing_.max_error > 0) {
-            return length_for_error(std::numbers::sqrt2 * values_[v], sizing_.max_error);
+        if (const auto* most = std::get_if<MaxError>(&sizing_.count)) {
+            return length_for_error(std::numbers::sqrt2 * values_[v], most->error);
         }
-        if (sizing_.is_adaptive) return scale / std::cbrt(values_[v]);
-        if (!sizing_.densities.empty()) return scale / std::sqrt(values_[v]);
+        if (sizing_.is_adaptive()) return scale / std::cbrt(values_[v]);
+        if (std::holds_alternative<VertexDensities>(sizing_.edges)) {
+            return scale / std::sqrt(values_[v]);
+        }
         return scale * values_[v];
     }
 

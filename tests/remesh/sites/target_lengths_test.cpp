@@ -14,7 +14,10 @@
 
 using agvd::Index;
 using agvd::Surface;
+using remesh::AdaptiveEdges;
 using remesh::Sizing;
+using remesh::VertexDensities;
+using remesh::VertexLengths;
 
 namespace {
 
@@ -61,9 +64,9 @@ TEST_F(TargetLengthsOfATorus, TheAreaComesOut) {
     for (const double gradation : {1.05, 1.3, 4.0}) {
         for (const double area : {50.0, 2000.0, 1e5}) {
             for (const int kind : {0, 1, 2}) {
-                Sizing sizing{.is_adaptive = kind == 0, .gradation = gradation};
-                if (kind == 1) sizing.target_lengths = wanted;
-                if (kind == 2) sizing.densities = wanted;
+                Sizing sizing{.edges = AdaptiveEdges{}, .gradation = gradation};
+                if (kind == 1) sizing.edges = VertexLengths{wanted};
+                if (kind == 2) sizing.edges = VertexDensities{wanted};
                 const auto targets = run(sizing, wanted, area);
                 EXPECT_NEAR(remesh::area_in_lengths(surface, targets.length) / area, 1, 1e-9);
                 ++num_tried;
@@ -75,12 +78,12 @@ TEST_F(TargetLengthsOfATorus, TheAreaComesOut) {
 
 TEST_F(TargetLengthsOfATorus, AreScaledOrTakenAsTheyAre) {
     const std::vector<double> wanted = values(2);
-    const Sizing loose{.target_lengths = wanted, .gradation = 1000};
+    const Sizing loose{.edges = VertexLengths{wanted}, .gradation = 1000};
     EXPECT_EQ(run(loose, wanted, 0).length, wanted);
     const auto scaled = run(loose, wanted, 800);
-    const Sizing by_density{.densities = wanted, .gradation = 1000};
+    const Sizing by_density{.edges = VertexDensities{wanted}, .gradation = 1000};
     const auto dense = run(by_density, wanted, 800);
-    const Sizing by_curvature{.is_adaptive = true, .gradation = 1000};
+    const Sizing by_curvature{.edges = AdaptiveEdges{}, .gradation = 1000};
     const auto curved = run(by_curvature, wanted, 800);
     for (std::size_t v = 0; v < wanted.size(); ++v) {
         EXPECT_NEAR(scaled.length[v] / scaled.length[0], wanted[v] / wanted[0], 1e-12);
@@ -92,9 +95,10 @@ TEST_F(TargetLengthsOfATorus, AreScaledOrTakenAsTheyAre) {
 TEST_F(TargetLengthsOfATorus, KeepTheirBounds) {
     const std::vector<double> wanted = values(30);
     const double mean = std::sqrt(agvd::surface_area(surface) / 1000);
-    const auto free = range(run({.target_lengths = wanted}, wanted, 1000).length);
+    const auto free = range(run({.edges = VertexLengths{wanted}}, wanted, 1000).length);
     const auto bounded =
-        run({.target_lengths = wanted, .min_edge = mean / 2, .max_edge = 1.6 * mean}, wanted, 1000);
+        run({.edges = VertexLengths{wanted}, .min_edge = mean / 2, .max_edge = 1.6 * mean}, wanted,
+            1000);
     const auto [least, most] = range(bounded.length);
     EXPECT_LT(free.first, 0.45 * mean);
     EXPECT_GT(free.second, 1.7 * mean);
@@ -102,7 +106,7 @@ TEST_F(TargetLengthsOfATorus, KeepTheirBounds) {
     EXPECT_NEAR(most / (1.6 * mean), 1, 0.01);
     // Bounds that exclude the number give way: the lengths are equal then.
     const auto forced =
-        range(run({.target_lengths = wanted, .max_edge = mean / 3}, wanted, 1000).length);
+        range(run({.edges = VertexLengths{wanted}, .max_edge = mean / 3}, wanted, 1000).length);
     EXPECT_NEAR(forced.first, mean, 1e-9);
     EXPECT_NEAR(forced.second, mean, 1e-9);
 }
@@ -117,7 +121,7 @@ TEST_F(TargetLengthsOfATorus, GrowNoFasterThanTheGradationAlongGeodesics) {
     Index num_tried = 0;
     for (const double gradation : {1.1, 1.3}) {
         agvd::Ticker ticker;
-        const Sizing sizing{.target_lengths = wanted, .gradation = gradation};
+        const Sizing sizing{.edges = VertexLengths{wanted}, .gradation = gradation};
         const auto length =
             remesh::target_lengths(base.surface(), wanted, {}, {}, sizing, 3000, ticker).length;
         for (Index site = 0; site < base.surface().num_vertices(); site += 731) {
@@ -136,7 +140,8 @@ TEST_F(TargetLengthsOfATorus, GrowNoFasterThanTheGradationAlongGeodesics) {
 
 TEST_F(TargetLengthsOfATorus, AreThoseOfTheErrorWhereOneIsGiven) {
     const std::vector<double> curvature(surface.num_vertices(), 2);
-    const auto targets = run({.is_adaptive = true, .max_error = 1e-3}, curvature, 0);
+    const auto targets =
+        run({.edges = AdaptiveEdges{}, .count = remesh::MaxError{1e-3}}, curvature, 0);
     for (const double length : targets.length) {
         EXPECT_DOUBLE_EQ(length, remesh::length_for_error(2 * std::sqrt(2), 1e-3));
     }
