@@ -14,7 +14,7 @@
 #include "remesh/curves/find_creases.h"
 #include "remesh/curves/junctions.h"
 #include "remesh/dual/delaunay.h"
-#include "remesh/sites/relax_options.h"
+#include "remesh/sites/relax_sites.h"
 #include "remesh/sites/sample_sites.h"
 #include "remesh/sites/sizing.h"
 

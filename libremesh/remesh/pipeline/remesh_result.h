@@ -16,7 +16,7 @@
 #include "remesh/dual/site_reason.h"
 #include "remesh/pipeline/remesh_options.h"
 #include "remesh/quality/verdict.h"
-#include "remesh/sites/relax_options.h"
+#include "remesh/sites/relax_sites.h"
 
 namespace remesh {
 

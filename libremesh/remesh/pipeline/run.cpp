@@ -15,7 +15,7 @@
 #include "remesh/pipeline/sample_count.h"
 #include "remesh/pipeline/sizes.h"
 #include "remesh/pipeline/work_limit.h"
-#include "remesh/sites/minimum_samples.h"
+#include "remesh/sites/shares.h"
 
 namespace remesh::detail {
 namespace {

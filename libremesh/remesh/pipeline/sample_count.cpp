@@ -7,9 +7,9 @@
 
 #include "agvd/core/edge_key.h"
 #include "agvd/mesh/face_area.h"
-#include "remesh/sites/minimum_samples.h"
 #include "remesh/sites/network_plan.h"
 #include "remesh/sites/prepared_surface.h"
+#include "remesh/sites/shares.h"
 
 namespace remesh::detail {
 namespace {

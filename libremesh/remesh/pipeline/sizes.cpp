@@ -14,7 +14,6 @@
 #include "agvd/mesh/scale.h"
 #include "remesh/pipeline/sample_count.h"
 #include "remesh/pipeline/thin_lengths.h"
-#include "remesh/sites/curvature.h"
 #include "remesh/sites/target_lengths.h"
 
 namespace remesh::detail {
@@ -202,16 +201,16 @@ RunSizes find_sizes(const CleanedInput& cleaned, const FoundCurves& found, doubl
                            std::holds_alternative<MaxError>(sizing.count));
     const auto* mean_edge = options.sites ? nullptr : std::get_if<MeanEdge>(&sizing.count);
     double area = gives_count ? 0 : num_sites * std::numbers::sqrt3 / 2;
-    TargetLengths targets =
+    std::vector<double> targets =
         target_lengths(base->surface(), values, most, joined, sizing, area, ticker, least);
     for (int i = 0; i < edge_length_tries && mean_edge != nullptr; ++i) {
-        const double ratio = mean_length(base->surface(), targets.length) / mean_edge->length;
+        const double ratio = mean_length(base->surface(), targets) / mean_edge->length;
         area *= ratio * ratio;
         targets =
             target_lengths(base->surface(), values, most, joined, sizing, area, ticker, least);
     }
     RunSizes sizes{nullptr, options.num_samples};
-    sizes.field = std::make_unique<const SizeField>(base, std::move(targets.length));
+    sizes.field = std::make_unique<const SizeField>(base, std::move(targets));
     if (gives_count || mean_edge != nullptr) {
         sizes.num_samples = count_for(*sizes.field, cleaned, spacing);
     }
@@ -222,7 +221,7 @@ SizingResult measure_edges(const MeshView& mesh, std::span<const SurfacePoint> s
                            Index num_samples, const SizeField* sizes) {
     SizingResult result{.num_samples = num_samples, .mean_edge = mean_edge(mesh)};
     if (sizes == nullptr) return result;
-    const std::vector<double> target = sizes->at(sites);
+    const std::vector<double> target = lengths_at(sizes, sites);
     std::vector<double> ratios;  // Each inner edge twice.
     for (const Triangle& t : mesh.triangles) {
         for (std::size_t k = 0; k < 3; ++k) {

@@ -216,7 +216,7 @@ void bind_remesh(py::module_& module) {
     add_count(
         options, "set_edge_length", +[](double length) { return remesh::MeanEdge{length}; });
     add_count(
-        options, "set_num_faces", +[](Index number) { return remesh::NumFaces{number}; });
+        options, "set_num_faces", +[](agvd::Index number) { return remesh::NumFaces{number}; });
     add_count(
         options, "set_max_distance",
         +[](double distance) { return remesh::MaxDistance{distance}; });
