@@ -53,7 +53,8 @@ std::vector<ExpectedStage> stages_of_remesh(std::size_t num_faces, std::size_t n
 }
 
 Runs runs_of_remesh(const remesh::RemeshOptions& options) {
-    return options.sizing.max_distance > 0 ? Runs::Unknown : Runs::One;
+    return std::holds_alternative<remesh::MaxDistance>(options.sizing.count) ? Runs::Unknown
+                                                                             : Runs::One;
 }
 
 std::vector<ExpectedStage> stages_of_diagram(std::size_t num_faces, std::size_t num_sites) {
@@ -73,17 +74,18 @@ std::vector<ExpectedStage> stages_of_comparison(bool is_exact) {
 }
 
 std::size_t estimated_samples(const remesh::RemeshOptions& options, const agvd::MeshView& mesh) {
-    const remesh::Sizing& sizing = options.sizing;
+    const auto& wanted = options.sizing.count;
     if (options.sites) return options.sites->size();
-    if (sizing.num_faces > 0) return sizing.num_faces / 2;
-    if (sizing.max_distance > 0 || sizing.gives_count) return 0;
-    if (!(sizing.edge_length > 0)) return options.num_samples;
+    if (const auto* faces = std::get_if<remesh::NumFaces>(&wanted)) return faces->number / 2;
+    if (std::holds_alternative<remesh::NumSamples>(wanted)) return options.num_samples;
+    const auto* mean = std::get_if<remesh::MeanEdge>(&wanted);
+    if (mean == nullptr) return 0;
     double area = 0;
     for (const auto& [a, b, c] : mesh.triangles) {
         const agvd::Vec3& p = mesh.positions[a];
         area += (mesh.positions[b] - p).cross(mesh.positions[c] - p).norm() / 2;
     }
-    const double count = 2 / std::numbers::sqrt3 * area / (sizing.edge_length * sizing.edge_length);
+    const double count = 2 / std::numbers::sqrt3 * area / (mean->length * mean->length);
     constexpr double most = 1e12;
     return static_cast<std::size_t>(std::clamp(count, 1.0, most));
 }

@@ -85,23 +85,28 @@ remesh::RemeshOptions options_of_level(const LevelArguments& arguments, std::siz
     remesh::Sizing& sizing = options.sizing;
     if (!arguments.samples.empty()) {
         options.num_samples = num_samples_for(arguments.samples[level], num_vertices);
-        sizing.gives_count = false;
+        if (std::holds_alternative<remesh::CountOfLengths>(sizing.count)) {
+            sizing.count = remesh::NumSamples{};
+        }
         return options;
     }
     const double factor = std::ldexp(1, static_cast<int>(level));  // Of lengths.
     const auto fewer = [&](agvd::Index& count) {
-        if (count == 0) return;
         count = static_cast<agvd::Index>(std::max(1.0, std::round(count / (factor * factor))));
     };
     fewer(options.num_samples);
-    fewer(sizing.num_faces);
-    for (double* length : {&sizing.min_edge, &sizing.max_edge, &sizing.edge_length}) {
-        *length *= factor;
+    const auto longer = [&](std::vector<double>& lengths) {
+        for (double& length : lengths) length *= factor;
+    };
+    sizing.min_edge *= factor;
+    sizing.max_edge *= factor;
+    if (auto* lengths = std::get_if<remesh::VertexLengths>(&sizing.edges)) longer(lengths->values);
+    if (auto* lengths = std::get_if<remesh::FaceLengths>(&sizing.edges)) longer(lengths->values);
+    if (auto* faces = std::get_if<remesh::NumFaces>(&sizing.count)) fewer(faces->number);
+    if (auto* mean = std::get_if<remesh::MeanEdge>(&sizing.count)) mean->length *= factor;
+    if (auto* most = std::get_if<remesh::MaxDistance>(&sizing.count)) {
+        most->distance *= factor * factor;
     }
-    for (auto* lengths : {&sizing.target_lengths, &sizing.face_lengths}) {
-        for (double& length : *lengths) length *= factor;
-    }
-    sizing.max_distance *= factor * factor;
     return options;
 }
 

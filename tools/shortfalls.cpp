@@ -33,8 +33,9 @@ std::string describe_coarseness(const remesh::RemeshResult& result) {
 
 // What makes the edges of the result shorter.
 std::string finer(const remesh::RemeshOptions& options) {
-    const remesh::Sizing& sizing = options.sizing;
-    const bool has_lengths = sizing.edge_length > 0 || sizing.gives_count;
+    const auto& count = options.sizing.count;
+    const bool has_lengths = std::holds_alternative<remesh::MeanEdge>(count) ||
+                             std::holds_alternative<remesh::CountOfLengths>(count);
     return has_lengths ? "shorter edges" : "more --samples";
 }
 

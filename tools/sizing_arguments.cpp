@@ -117,13 +117,12 @@ double length_of(const Amount& length, const agvd::MeshView& mesh) {
 
 void add_sizing_options(CLI::App& app, SizingArguments& arguments) {
     start_group(app, heading::count);
-    remesh::Sizing& sizing = arguments.sizing;
     CLI::Option* const samples = app.get_option("--samples");
     CLI::Option* const sites = app.get_option("--sites");
     arguments.samples = samples;
     CLI::Option* const faces =
         add_count(app, "--faces", "Number of faces of the result, instead of --samples",
-                  sizing.num_faces)
+                  arguments.num_faces)
             ->excludes(samples)
             ->excludes(sites);
     CLI::Option* const edge =
@@ -143,7 +142,7 @@ void add_sizing_options(CLI::App& app, SizingArguments& arguments) {
     distance->excludes(samples)->excludes(sites)->excludes(faces)->excludes(edge);
     start_group(app, heading::place);
     CLI::Option* const adaptive =
-        app.add_flag("--adaptive", sizing.is_adaptive,
+        app.add_flag("--adaptive", arguments.is_adaptive,
                      "Shorter edges where the surface is curved, longer ones elsewhere");
     CLI::Option* const lengths = app.add_option("--sizing", arguments.target_lengths,
                                                 "Vertex property of IN, such as of PLY or VTK, "
@@ -179,8 +178,7 @@ void add_sizing_options(CLI::App& app, SizingArguments& arguments) {
     add_length(app, "--min-edge,--hmin", "No edge is meant to be shorter", arguments.min_edge);
     add_length(app, "--max-edge,--hmax", "No edge is meant to be longer", arguments.max_edge);
     const auto take_gradation = [&arguments](const std::string& text) {
-        arguments.sizing.gradation = parse_amount(text).value().value;
-        arguments.has_gradation = true;
+        arguments.gradation = parse_amount(text).value().value;
     };
     app.add_option_function<std::string>(
            "--gradation,--hgrad", take_gradation,
@@ -194,7 +192,7 @@ void add_sizing_options(CLI::App& app, SizingArguments& arguments) {
 bool has_count(const SizingArguments& arguments) {
     const bool has_mean_edge = arguments.edge && arguments.label_lengths.empty();
     return arguments.samples->count() > 0 || has_mean_edge || arguments.max_distance ||
-           arguments.sizing.num_faces > 0;
+           arguments.num_faces > 0;
 }
 
 bool wants_attributes(const SizingArguments& arguments) {
@@ -204,38 +202,46 @@ bool wants_attributes(const SizingArguments& arguments) {
 
 remesh::Sizing sizing_for(const SizingArguments& arguments, const std::filesystem::path& path,
                           const remesh::MeshFile& mesh) {
-    remesh::Sizing sizing = arguments.sizing;
     const auto values_of = [&](const char* option, const std::string& name) {
-        if (name.empty()) return std::vector<double>();
         return remesh::require_attribute(mesh.attributes.of_vertices, name,
                                          option + path.string() + " has no vertex property")
             .values;
     };
     const bool is_even =
-        !sizing.is_adaptive && !arguments.max_distance && !wants_attributes(arguments);
-    if (is_even && (arguments.min_edge || arguments.max_edge || arguments.has_gradation)) {
+        !arguments.is_adaptive && !arguments.max_distance && !wants_attributes(arguments);
+    if (is_even && (arguments.min_edge || arguments.max_edge || arguments.gradation)) {
         throw agvd::InvalidOption(
             "--min-edge, --max-edge and --gradation bound edges that differ; add --adaptive, "
             "--max-distance, --sizing, --edge-length-of or --density, or leave them out");
     }
-    sizing.target_lengths = values_of("--sizing: ", arguments.target_lengths);
-    sizing.densities = values_of("--density: ", arguments.densities);
     const auto in_mesh_units = [&](const Amount& amount) {
         return length_of(amount, mesh.mesh.view());
     };
-    const auto take = [&](const std::optional<Amount>& amount, double& length) {
-        if (amount) length = in_mesh_units(*amount);
-    };
+    remesh::Sizing sizing;
+    sizing.gradation = arguments.gradation.value_or(sizing.gradation);
+    if (arguments.min_edge) sizing.min_edge = in_mesh_units(*arguments.min_edge);
+    if (arguments.max_edge) sizing.max_edge = in_mesh_units(*arguments.max_edge);
     const bool is_by_label = !arguments.label_lengths.empty();
-    if (is_by_label) {
-        sizing.face_lengths = lengths_by_label(arguments, path, mesh, in_mesh_units);
-    } else {
-        take(arguments.edge, sizing.edge_length);
+    if (arguments.is_adaptive) {
+        sizing.edges = remesh::AdaptiveEdges{};
+    } else if (is_by_label) {
+        sizing.edges = remesh::FaceLengths{lengths_by_label(arguments, path, mesh, in_mesh_units)};
+    } else if (!arguments.target_lengths.empty()) {
+        sizing.edges = remesh::VertexLengths{values_of("--sizing: ", arguments.target_lengths)};
+    } else if (!arguments.densities.empty()) {
+        sizing.edges = remesh::VertexDensities{values_of("--density: ", arguments.densities)};
     }
-    sizing.gives_count = !has_count(arguments) && (is_by_label || !sizing.target_lengths.empty());
-    take(arguments.max_distance, sizing.max_distance);
-    take(arguments.min_edge, sizing.min_edge);
-    take(arguments.max_edge, sizing.max_edge);
+    // Of a mesh without extent a percentage is 0, and no length is asked for.
+    const auto take = [&](const std::optional<Amount>& amount, auto count) {
+        const double length = amount ? in_mesh_units(*amount) : 0;
+        if (length > 0) sizing.count = decltype(count){length};
+    };
+    if (arguments.num_faces > 0) sizing.count = remesh::NumFaces{arguments.num_faces};
+    if (!is_by_label) take(arguments.edge, remesh::MeanEdge{});
+    take(arguments.max_distance, remesh::MaxDistance{});
+    if (!has_count(arguments) && (is_by_label || !arguments.target_lengths.empty())) {
+        sizing.count = remesh::CountOfLengths{};
+    }
     return sizing;
 }
 

@@ -24,12 +24,13 @@ struct LabelLength {
 };
 
 struct SizingArguments {
-    remesh::Sizing sizing;  //!< What needs no mesh.
+    bool is_adaptive = false;
+    agvd::Index num_faces = 0;  //!< 0: not given.
     //! Mesh units, or percent of the diagonal.
     std::optional<Amount> edge, max_distance, min_edge, max_edge;
     std::string target_lengths, densities;   //!< Names of vertex properties; empty: none.
     std::vector<LabelLength> label_lengths;  //!< Empty: none.
-    bool has_gradation = false;              //!< --gradation is given.
+    std::optional<double> gradation;
     //! --samples: if it is not given, target lengths give the number.
     const CLI::Option* samples = nullptr;
 };

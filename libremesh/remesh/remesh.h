@@ -13,6 +13,7 @@
 #include "remesh/pipeline/remesh.h"
 #include "remesh/quality/evaluate.h"
 #include "remesh/quality/self_intersections.h"
+#include "remesh/sites/prepared_surface.h"
 #include "remesh/sites/relax_sites.h"
 #include "remesh/sites/sample_sites.h"
 #include "remesh/transfer/map_to_input.h"

@@ -34,7 +34,7 @@ int main() {
     // Before: edges of length .2, the mesh itself changes.
     PMP::isotropic_remeshing(faces(mesh), 0.2, mesh, CGAL::parameters::number_of_iterations(10));
     // After: a new mesh.
-    const auto result = remesh::remesh(input, {.sizing = {.edge_length = 0.2}});
+    const auto result = remesh::remesh(input, {.sizing = {.count = remesh::MeanEdge{0.2}}});
 
     const auto count = static_cast<double>(num_vertices(mesh));
     const auto new_count = static_cast<double>(result.mesh.positions.size());

@@ -37,8 +37,8 @@ TEST(Shortfalls, CrossingsAreWarnedOfAndRefusedIfStrict) {
 TEST(Shortfalls, WhereLengthsAreGivenShorterOnesAreTheAdvice) {
     RemeshResult result;
     result.self_intersections = 3;
-    for (const remesh::Sizing& sizing :
-         {remesh::Sizing{.edge_length = 1}, remesh::Sizing{.gives_count = true}}) {
+    for (const remesh::Sizing& sizing : {remesh::Sizing{.count = remesh::MeanEdge{1}},
+                                         remesh::Sizing{.count = remesh::CountOfLengths{}}}) {
         EXPECT_EQ(cli::shortfalls_of(result, {.sizing = sizing}, false),
                   Warnings{"the result has 3 pairs of intersecting faces, the input has 0; use "
                            "shorter edges"});

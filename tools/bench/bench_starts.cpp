@@ -10,6 +10,7 @@
 #include "agvd/propagation/propagate.h"
 #include "bench/report.h"
 #include "cli.h"
+#include "remesh/sites/prepared_surface.h"
 #include "remesh/sites/relax_sites.h"
 
 namespace {

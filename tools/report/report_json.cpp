@@ -171,18 +171,24 @@ Json to_json(const KeptPart& kept) {
 
 Json to_json(const Sizing& sizing) {
     Json object;
-    object["adaptive"] = sizing.is_adaptive;
-    object["given_target_lengths"] = sizing.target_lengths.size();
-    object["given_face_lengths"] = sizing.face_lengths.size();
-    object["given_densities"] = sizing.densities.size();
+    const auto* lengths = std::get_if<VertexLengths>(&sizing.edges);
+    const auto* of_faces = std::get_if<FaceLengths>(&sizing.edges);
+    const auto* densities = std::get_if<VertexDensities>(&sizing.edges);
+    object["adaptive"] = sizing.is_adaptive();
+    object["given_target_lengths"] = lengths != nullptr ? lengths->values.size() : 0;
+    object["given_face_lengths"] = of_faces != nullptr ? of_faces->values.size() : 0;
+    object["given_densities"] = densities != nullptr ? densities->values.size() : 0;
     object["min_edge_mesh_units"] = sizing.min_edge;
     object["max_edge_mesh_units"] = sizing.max_edge;
     object["gradation"] = sizing.gradation;
-    object["edge_length_mesh_units"] = sizing.edge_length > 0 ? Json(sizing.edge_length) : Json();
-    object["faces"] = sizing.num_faces > 0 ? Json(sizing.num_faces) : Json();
-    object["max_distance_mesh_units"] =
-        sizing.max_distance > 0 ? Json(sizing.max_distance) : Json();
-    object["max_error_mesh_units"] = sizing.max_error > 0 ? Json(sizing.max_error) : Json();
+    const auto* mean = std::get_if<MeanEdge>(&sizing.count);
+    const auto* faces = std::get_if<NumFaces>(&sizing.count);
+    const auto* distance = std::get_if<MaxDistance>(&sizing.count);
+    const auto* error = std::get_if<MaxError>(&sizing.count);
+    object["edge_length_mesh_units"] = mean != nullptr ? Json(mean->length) : Json();
+    object["faces"] = faces != nullptr ? Json(faces->number) : Json();
+    object["max_distance_mesh_units"] = distance != nullptr ? Json(distance->distance) : Json();
+    object["max_error_mesh_units"] = error != nullptr ? Json(error->error) : Json();
     return object;
 }
 

@@ -11,9 +11,9 @@ namespace {
 // Sites, edges and labels refer to the caller's mesh; later stages carry them to the cleaned one.
 bool refers_to_input(const RemeshOptions& options) {
     return options.sites || !options.feature_edges.empty() || !options.texture_seams.empty() ||
-           !options.face_labels.empty() || !options.sizing.target_lengths.empty() ||
-           !options.sizing.face_lengths.empty() || !options.sizing.densities.empty() ||
-           !options.locked.empty() || !options.locked_edges.empty();
+           !options.face_labels.empty() ||
+           !(options.sizing.is_even() || options.sizing.is_adaptive()) || !options.locked.empty() ||
+           !options.locked_edges.empty();
 }
 
 Topology topology_of(const CleanResult& clean, int num_threads, const Progress& progress) {

@@ -10,7 +10,7 @@
 #include "remesh/clean/carry_edges.h"
 #include "remesh/curves/crease_chains.h"
 #include "remesh/pipeline/given_sites.h"
-#include "remesh/sites/given_network.h"
+#include "remesh/sites/network_plan.h"
 #include "remesh/sites/prepared_surface.h"
 
 namespace remesh::detail {

@@ -21,13 +21,12 @@ constexpr double global_factor = 0.8;
 
 }  // namespace
 
-RemeshResult meet_distance(const CleanedInput& cleaned, const RemeshOptions& options,
+RemeshResult meet_distance(const CleanedInput& cleaned, const RemeshOptions& options, double limit,
                            const RunWithLengths& run) {
-    const double limit = options.sizing.max_distance;
     RemeshOptions finer = options;
     finer.vertex_count = VertexCount::Add;
-    finer.sizing.is_adaptive = true;
-    finer.sizing.max_error = first_error * limit;
+    finer.sizing.edges = AdaptiveEdges{};
+    MaxError aim{first_error * limit};
     const MeshView mesh = cleaned.surface.mesh.view();
     const Progress cleaning = progress_of(Stage::Clean, options);
     const DistanceCheck check(mesh, options.num_threads,
@@ -39,11 +38,12 @@ RemeshResult meet_distance(const CleanedInput& cleaned, const RemeshOptions& opt
     MeasuredDistance best{std::numeric_limits<double>::infinity(), false, {}};
     std::size_t num_vertices = 0;
     for (int round = 0; round < max_rounds; ++round) {
+        finer.sizing.count = aim;
         RemeshResult result = run(finer, most_lengths);
         const MeasuredDistance found = check.measure(result.mesh.view(), limit, most_lengths, last);
         result.sizing.largest_distance = found.largest;
         if (found.is_within) return result;
-        if (round >= local_rounds) finer.sizing.max_error *= global_factor;
+        if (round >= local_rounds) aim.error *= global_factor;
         if (found.largest < best.largest) {
             best = found;
             num_vertices = result.mesh.positions.size();

@@ -17,11 +17,11 @@ using RunWithLengths =
 //! Begins with the lengths that curvature asks for, and shortens edges where the result is too far.
 //! Vertices that the topology needs are added (VertexCount::Add).
 //!
-//! \param options  with sizing.max_distance > 0.
+//! \param limit  > 0, mesh units: of MaxDistance.
 //! \throw ConstraintUnmet  it was not met in the rounds made; the text gives the best.
 //! Cost: that of a run and of DistanceCheck::measure in each round, of which there are one to
 //! eight.
 [[nodiscard]] RemeshResult meet_distance(const CleanedInput& cleaned, const RemeshOptions& options,
-                                         const RunWithLengths& run);
+                                         double limit, const RunWithLengths& run);
 
 }  // namespace remesh::detail

@@ -5,7 +5,7 @@
 
 #include "agvd/mesh/point_faces.h"
 #include "remesh/placement/mend_shape.h"
-#include "remesh/sites/boundary_curves.h"
+#include "remesh/sites/sampling.h"
 
 namespace remesh::detail {
 namespace {

@@ -8,9 +8,9 @@
 
 #include "agvd/mesh/distinct_points.h"
 #include "remesh/pipeline/given_sites.h"
-#include "remesh/sites/boundary_curves.h"
-#include "remesh/sites/minimum_samples.h"
 #include "remesh/sites/relax_network.h"
+#include "remesh/sites/sampling.h"
+#include "remesh/sites/shares.h"
 
 namespace remesh::detail {
 namespace {

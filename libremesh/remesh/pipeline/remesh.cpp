@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <tuple>
 
 #include "agvd/core/parallel.h"
 #include "agvd/mesh/scale.h"
@@ -20,7 +21,6 @@ struct Elements {
 };
 
 void check_values(const char* name, const std::vector<double>& values, const Elements& elements) {
-    if (values.empty()) return;
     if (values.size() != elements.count) {
         throw InvalidOption(std::string(name) + " has " + std::to_string(values.size()) +
                             " values, but the mesh has " + std::to_string(elements.count) + ' ' +
@@ -33,41 +33,40 @@ void check_values(const char* name, const std::vector<double>& values, const Ele
                         ' ' + std::to_string(bad - values.begin()) + "; use numbers above 0");
 }
 
-void check_sizing(const RemeshOptions& options, std::size_t num_vertices, std::size_t num_faces) {
-    const Sizing& sizing = options.sizing;
-    check_values("target_lengths", sizing.target_lengths, {"vertex", "vertices", num_vertices});
-    check_values("densities", sizing.densities, {"vertex", "vertices", num_vertices});
-    check_values("face_lengths", sizing.face_lengths, {"face", "faces", num_faces});
-    const int num_fields = (sizing.is_adaptive ? 1 : 0) + (sizing.target_lengths.empty() ? 0 : 1) +
-                           (sizing.face_lengths.empty() ? 0 : 1) +
-                           (sizing.densities.empty() ? 0 : 1);
-    if (num_fields > 1) {
-        throw InvalidOption(
-            "several of is_adaptive, target_lengths, face_lengths and densities are given; use one "
-            "of them");
+// Whether what gives the number suits where edges are how long.
+void check_count(const Sizing& sizing) {
+    const auto& [edges, count] = std::tie(sizing.edges, sizing.count);
+    const bool has_values = !sizing.is_even() && !sizing.is_adaptive();
+    if (std::holds_alternative<MaxError>(count) && !sizing.is_adaptive()) {
+        throw InvalidOption("max_error needs adaptive edges");
     }
-    const int num_counts = (sizing.max_error > 0 ? 1 : 0) + (sizing.edge_length > 0 ? 1 : 0) +
-                           (sizing.num_faces > 0 ? 1 : 0) + (sizing.gives_count ? 1 : 0) +
-                           (sizing.max_distance > 0 ? 1 : 0);
-    if (num_counts > 1) {
-        throw InvalidOption(
-            "several of max_error, max_distance, edge_length, num_faces and gives_count are given; "
-            "use one of them");
-    }
-    if (sizing.max_error > 0 && !sizing.is_adaptive) {
-        throw InvalidOption("max_error needs is_adaptive");
-    }
-    if (sizing.max_distance > 0 && num_fields > (sizing.is_adaptive ? 1 : 0)) {
+    if (std::holds_alternative<MaxDistance>(count) && has_values) {
         throw InvalidOption("max_distance excludes target_lengths, face_lengths and densities");
     }
-    if (sizing.gives_count && sizing.target_lengths.empty() && sizing.face_lengths.empty()) {
-        throw InvalidOption("gives_count needs target_lengths or face_lengths");
+    if (std::holds_alternative<CountOfLengths>(count) &&
+        (!has_values || std::holds_alternative<VertexDensities>(edges))) {
+        throw InvalidOption(
+            "a number that follows from lengths needs target_lengths or face_lengths");
     }
-    const auto is_length = [](double value) { return value >= 0 && std::isfinite(value); };
-    if (!is_length(sizing.max_error) || !is_length(sizing.edge_length) ||
-        !is_length(sizing.max_distance)) {
-        throw InvalidOption("max_error, max_distance and edge_length must be 0 or more");
+    const auto require = [](double value) {
+        if (value > 0 && std::isfinite(value)) return;
+        throw InvalidOption("max_error, max_distance, edge_length and num_faces must be above 0");
+    };
+    if (const auto* mean = std::get_if<MeanEdge>(&count)) require(mean->length);
+    if (const auto* faces = std::get_if<NumFaces>(&count)) require(faces->number);
+    if (const auto* most = std::get_if<MaxError>(&count)) require(most->error);
+    if (const auto* most = std::get_if<MaxDistance>(&count)) require(most->distance);
+}
+
+void check_sizing(const Sizing& sizing, std::size_t num_vertices, std::size_t num_faces) {
+    if (const auto* lengths = std::get_if<VertexLengths>(&sizing.edges)) {
+        check_values("target_lengths", lengths->values, {"vertex", "vertices", num_vertices});
+    } else if (const auto* of_faces = std::get_if<FaceLengths>(&sizing.edges)) {
+        check_values("face_lengths", of_faces->values, {"face", "faces", num_faces});
+    } else if (const auto* densities = std::get_if<VertexDensities>(&sizing.edges)) {
+        check_values("densities", densities->values, {"vertex", "vertices", num_vertices});
     }
+    check_count(sizing);
     if (!(sizing.min_edge >= 0 && sizing.max_edge > 0 && sizing.min_edge <= sizing.max_edge)) {
         throw InvalidOption("min_edge is " + std::to_string(sizing.min_edge) + " and max_edge " +
                             std::to_string(sizing.max_edge) +
@@ -81,13 +80,16 @@ void check_sizing(const RemeshOptions& options, std::size_t num_vertices, std::s
 
 // Multiplies all lengths by 2^exponent.
 void scale_lengths(Sizing& sizing, int exponent) {
-    for (auto* lengths : {&sizing.target_lengths, &sizing.face_lengths}) {
-        for (double& length : *lengths) length = std::ldexp(length, exponent);
-    }
-    for (double* length : {&sizing.min_edge, &sizing.max_edge, &sizing.edge_length,
-                           &sizing.max_error, &sizing.max_distance}) {
-        *length = std::ldexp(*length, exponent);
-    }
+    const auto scale = [&](double& length) { length = std::ldexp(length, exponent); };
+    if (auto* at = std::get_if<VertexLengths>(&sizing.edges))
+        std::ranges::for_each(at->values, scale);
+    if (auto* at = std::get_if<FaceLengths>(&sizing.edges))
+        std::ranges::for_each(at->values, scale);
+    if (auto* mean = std::get_if<MeanEdge>(&sizing.count)) scale(mean->length);
+    if (auto* most = std::get_if<MaxError>(&sizing.count)) scale(most->error);
+    if (auto* most = std::get_if<MaxDistance>(&sizing.count)) scale(most->distance);
+    scale(sizing.min_edge);
+    scale(sizing.max_edge);
 }
 
 void check_options(const RemeshOptions& options, std::size_t num_vertices, std::size_t num_faces) {
@@ -120,7 +122,7 @@ void check_options(const RemeshOptions& options, std::size_t num_vertices, std::
     if (options.sites && locks) {
         throw InvalidOption("sites are given, and vertices or edges are locked; use one of them");
     }
-    check_sizing(options, num_vertices, num_faces);
+    check_sizing(options.sizing, num_vertices, num_faces);
     check_num_threads(options.num_threads);
 }
 

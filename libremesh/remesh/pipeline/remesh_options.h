@@ -13,7 +13,7 @@
 #include "remesh/clean/clean_input.h"
 #include "remesh/curves/find_creases.h"
 #include "remesh/dual/build_dual.h"
-#include "remesh/sites/relax_options.h"
+#include "remesh/sites/relax_sites.h"
 #include "remesh/sites/sample_sites.h"
 #include "remesh/sites/sizing.h"
 

@@ -88,15 +88,18 @@ private:
 // given: the mean of all edges would count those near the seam, too.
 Sizing sizing_of_region(const Sizing& given, const Region& region) {
     Sizing sizing = given;
-    const auto num_vertices = region.vertices.size();
-    if (!given.target_lengths.empty())
-        sizing.target_lengths = take(given.target_lengths, region.vertices);
-    if (!given.face_lengths.empty()) sizing.face_lengths = take(given.face_lengths, region.faces);
-    if (!given.densities.empty()) sizing.densities = take(given.densities, region.vertices);
-    if (!is_uniform(given) || given.max_distance > 0) return sizing;
-    sizing.target_lengths.assign(num_vertices, given.edge_length > 0 ? given.edge_length : 1);
-    sizing.gives_count = given.edge_length > 0;
-    sizing.edge_length = 0;
+    if (auto* lengths = std::get_if<VertexLengths>(&sizing.edges)) {
+        lengths->values = take(lengths->values, region.vertices);
+    } else if (auto* of_faces = std::get_if<FaceLengths>(&sizing.edges)) {
+        of_faces->values = take(of_faces->values, region.faces);
+    } else if (auto* densities = std::get_if<VertexDensities>(&sizing.edges)) {
+        densities->values = take(densities->values, region.vertices);
+    }
+    if (!given.is_even() || std::holds_alternative<MaxDistance>(given.count)) return sizing;
+    const auto* mean = std::get_if<MeanEdge>(&given.count);
+    sizing.edges = VertexLengths{
+        std::vector<double>(region.vertices.size(), mean != nullptr ? mean->length : 1)};
+    if (mean != nullptr) sizing.count = CountOfLengths{};
     return sizing;
 }
 

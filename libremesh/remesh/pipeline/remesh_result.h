@@ -15,7 +15,7 @@
 #include "remesh/dual/build_dual.h"
 #include "remesh/pipeline/remesh_options.h"
 #include "remesh/quality/verdict.h"
-#include "remesh/sites/relax_options.h"
+#include "remesh/sites/relax_sites.h"
 
 namespace remesh {
 
@@ -59,7 +59,7 @@ struct SizingResult {
     double low_ratio = 0;
     double high_ratio = 0;  //!< See low_ratio.
     //! Both ways between result and input, at many points of each; all others are proved to be
-    //! within Sizing::max_distance. 0: not measured, as that is not used.
+    //! within that of MaxDistance. 0: not measured, as that is not used.
     double largest_distance = 0;
 };
 

@@ -15,7 +15,7 @@
 #include "remesh/pipeline/sample_count.h"
 #include "remesh/pipeline/sizes.h"
 #include "remesh/pipeline/work_limit.h"
-#include "remesh/sites/minimum_samples.h"
+#include "remesh/sites/shares.h"
 
 namespace remesh::detail {
 namespace {
@@ -68,8 +68,9 @@ std::vector<SurfacePoint> run_attempt(CleanedInput& cleaned, const FoundCurves& 
         }
         // The surface is needed again if the edges are not as long as asked for, or as parts are
         // thin.
-        const Sizing& sizing = context.options.sizing;
-        if (sizing.edge_length > 0 || sizing.max_distance > 0 || !built.thin_places.empty())
+        const auto& count = context.options.sizing.count;
+        if (std::holds_alternative<MeanEdge>(count) || std::holds_alternative<MaxError>(count) ||
+            !built.thin_places.empty())
             give_back(std::move(domain), cleaned, context);
         return std::move(built.thin_places);
     } catch (const TooFewSamples&) {
@@ -99,8 +100,9 @@ bool is_better(const RemeshResult& result, const RemeshResult& best) {
 // Whether lengths are ours to choose, for a number of samples that is given.
 bool may_shorten(const RemeshOptions& options) {
     const Sizing& sizing = options.sizing;
-    return !options.sites && (sizing.is_adaptive || is_uniform(sizing)) &&
-           sizing.edge_length == 0 && sizing.max_error == 0 && sizing.max_distance == 0;
+    return !options.sites && (sizing.is_adaptive() || sizing.is_even()) &&
+           (std::holds_alternative<NumSamples>(sizing.count) ||
+            std::holds_alternative<NumFaces>(sizing.count));
 }
 
 // A rod that is thinner than the spacing gets shorter by some edges.
@@ -272,17 +274,19 @@ std::string describe_too_few(const TooFewSamples& failure, const EnoughSamples& 
     constexpr double rounds_down = 0.995;  // A bound times this, with three digits, is no larger.
     const std::string most = enough.is_too_few ? "less than " : "at most ";
     const std::string least = enough.is_too_few ? "more than " : "";
-    if (!options.sites && sizing.edge_length > 0) {
-        return "an edge length of " + three_digits(sizing.edge_length) + " is too long" + what +
-               most + three_digits(rounds_down * edge_length_for(enough.count, cleaned, options));
+    const auto* mean = std::get_if<MeanEdge>(&sizing.count);
+    if (!options.sites && mean != nullptr) {
+        return "an edge length of " + three_digits(mean->length) + " is too long" + what + most +
+               three_digits(rounds_down * edge_length_for(enough.count, cleaned, options));
     }
-    if (!options.sites && sizing.gives_count) {
+    if (!options.sites && std::holds_alternative<CountOfLengths>(sizing.count)) {
         const double share = std::sqrt(static_cast<double>(failure.asked) / enough.count);
         return "the edge lengths given are too long" + what + "lengths " + most +
                three_digits(rounds_down * share) + " times as long";
     }
-    if (!options.sites && sizing.num_faces > 0) {
-        return std::to_string(sizing.num_faces) + " faces are too few" + what + least +
+    const auto* faces = std::get_if<NumFaces>(&sizing.count);
+    if (!options.sites && faces != nullptr) {
+        return std::to_string(faces->number) + " faces are too few" + what + least +
                std::to_string(faces_for(enough.count, cleaned)) + " faces";
     }
     const std::string asked = std::to_string(failure.asked);
@@ -327,10 +331,11 @@ RemeshResult run_stages(const InputMesh& input, const RemeshOptions& given) {
             after_cleaning.seconds = made.seconds;
             return made;
         };
-        result = options.sizing.max_distance > 0 ? meet_distance(cleaned, options, run)
-                                                 : run(options, {});
+        const auto* distance = std::get_if<MaxDistance>(&options.sizing.count);
+        result = distance != nullptr ? meet_distance(cleaned, options, distance->distance, run)
+                                     : run(options, {});
         if (const auto length = corrected_edge_length(result.sizing.mean_edge, options)) {
-            options.sizing.edge_length = *length;
+            options.sizing.count = MeanEdge{*length};
             options.num_samples = sample_count(cleaned, options);
             try {
                 require_least_samples(cleaned.topology, options);

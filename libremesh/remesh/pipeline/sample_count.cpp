@@ -7,9 +7,9 @@
 
 #include "agvd/core/edge_key.h"
 #include "agvd/mesh/face_area.h"
-#include "remesh/sites/minimum_samples.h"
 #include "remesh/sites/network_plan.h"
 #include "remesh/sites/prepared_surface.h"
+#include "remesh/sites/shares.h"
 
 namespace remesh::detail {
 namespace {
@@ -66,14 +66,16 @@ double vertices_for_faces(double faces, const CleanedInput& cleaned) {
 
 // The integral of the density over the faces of the input.
 double vertices_for_targets(const CleanedInput& cleaned, const Sizing& sizing) {
+    const auto* at_vertices = std::get_if<VertexLengths>(&sizing.edges);
     const auto target = [&](Index v) {
-        return sizing.target_lengths[cleaned.vertex_origin.empty() ? v : cleaned.vertex_origin[v]];
+        return at_vertices->values[cleaned.vertex_origin.empty() ? v : cleaned.vertex_origin[v]];
     };
     double sum = 0;
     for (Index f = 0; f < cleaned.surface.num_faces(); ++f) {
         const auto& [a, b, c] = cleaned.surface.mesh.triangles[f];
-        const double length = sizing.face_lengths.empty() ? (target(a) + target(b) + target(c)) / 3
-                                                          : face_length(cleaned, sizing, f);
+        const double length = at_vertices != nullptr
+                                  ? (target(a) + target(b) + target(c)) / 3
+                                  : face_length(cleaned, std::get<FaceLengths>(sizing.edges), f);
         sum += face_area(cleaned.surface, f) / (length * length);
     }
     return 2 / std::numbers::sqrt3 * sum;
@@ -86,12 +88,14 @@ double excess_of(const RemeshOptions& options) {
 // As the sizing asks for it, whatever is locked.
 Index count_by_sizing(const CleanedInput& cleaned, const RemeshOptions& options) {
     const Sizing& sizing = options.sizing;
-    if (sizing.edge_length > 0) {
-        return to_count(vertices_for(sizing.edge_length / excess_of(options),
+    if (const auto* mean = std::get_if<MeanEdge>(&sizing.count)) {
+        return to_count(vertices_for(mean->length / excess_of(options),
                                      surface_area(cleaned.surface), measure_boundary(cleaned)));
     }
-    if (sizing.num_faces > 0) return to_count(vertices_for_faces(sizing.num_faces, cleaned));
-    if (sizing.gives_count) {
+    if (const auto* faces = std::get_if<NumFaces>(&sizing.count)) {
+        return to_count(vertices_for_faces(faces->number, cleaned));
+    }
+    if (std::holds_alternative<CountOfLengths>(sizing.count)) {
         return to_count(vertices_for_targets(cleaned, sizing));
     }
     return options.num_samples;
@@ -144,11 +148,11 @@ Index faces_for(Index count, const CleanedInput& cleaned) {
 }
 
 std::optional<double> corrected_edge_length(double mean_edge, const RemeshOptions& options) {
-    const double wanted = options.sizing.edge_length;
-    if (options.sites || !(wanted > 0) || !(mean_edge > 0)) return std::nullopt;
-    const double ratio = wanted / mean_edge;
+    const auto* wanted = std::get_if<MeanEdge>(&options.sizing.count);
+    if (options.sites || wanted == nullptr || !(mean_edge > 0)) return std::nullopt;
+    const double ratio = wanted->length / mean_edge;
     if (std::abs(ratio - 1) < near_enough) return std::nullopt;
-    return wanted * std::clamp(ratio, 1 / most_correction, most_correction);
+    return wanted->length * std::clamp(ratio, 1 / most_correction, most_correction);
 }
 
 double mean_edge(const MeshView& mesh) {

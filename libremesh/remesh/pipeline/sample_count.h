@@ -6,10 +6,10 @@
 
 namespace remesh::detail {
 
-//! Sizing::face_lengths for a face of the cleaned mesh.
-[[nodiscard]] inline double face_length(const CleanedInput& cleaned, const Sizing& sizing,
+//! The length for a face of the cleaned mesh.
+[[nodiscard]] inline double face_length(const CleanedInput& cleaned, const FaceLengths& lengths,
                                         Index face) {
-    return sizing.face_lengths[cleaned.face_origin.empty() ? face : cleaned.face_origin[face]];
+    return lengths.values[cleaned.face_origin.empty() ? face : cleaned.face_origin[face]];
 }
 
 //! The nearest number of samples, at least 1.
@@ -25,8 +25,7 @@ namespace remesh::detail {
 
 //! Whether the number of samples follows from lengths or faces.
 [[nodiscard]] inline bool gives_num_samples(const Sizing& sizing) {
-    return sizing.edge_length > 0 || sizing.num_faces > 0 || sizing.gives_count ||
-           sizing.max_error > 0 || sizing.max_distance > 0;
+    return !std::holds_alternative<NumSamples>(sizing.count);
 }
 
 //! The number of locked edges on the boundary. Cost: O(n).
@@ -36,7 +35,7 @@ namespace remesh::detail {
 //! Cost: O(n).
 [[nodiscard]] Index least_samples(const CleanedInput& cleaned, double spacing);
 
-//! The edge length to ask for so that the mean edge comes nearer to options.sizing.edge_length;
+//! The edge length to ask for so that the mean edge comes nearer to that of MeanEdge;
 //! nothing if it is near enough.
 //!
 //! \param mean_edge  of the result with these options.

@@ -14,7 +14,6 @@
 #include "agvd/mesh/scale.h"
 #include "remesh/pipeline/sample_count.h"
 #include "remesh/pipeline/thin_lengths.h"
-#include "remesh/sites/curvature.h"
 #include "remesh/sites/target_lengths.h"
 
 namespace remesh::detail {
@@ -142,7 +141,7 @@ RunSizes find_sizes(const CleanedInput& cleaned, const FoundCurves& found, doubl
                     const StageContext& context) {
     const auto& [options, result] = context;
     const Sizing& sizing = options.sizing;
-    if (is_uniform(sizing) && thin_places.empty()) return {nullptr, options.num_samples};
+    if (sizing.is_even() && thin_places.empty()) return {nullptr, options.num_samples};
     const StageClock clock(Stage::Clean, result);
     const Progress all = progress_of(Stage::Clean, options);
     const Progress progress = within(all, cleaned_fraction, cleaned_fraction);
@@ -159,22 +158,24 @@ RunSizes find_sizes(const CleanedInput& cleaned, const FoundCurves& found, doubl
         std::move(cut.surface),
         IntrinsicOptions{
             .max_length = longest_edge * spacing,
-            .min_length = sizing.is_adaptive || !thin_places.empty() ? shortest_edge * spacing : 0,
+            .min_length =
+                sizing.is_adaptive() || !thin_places.empty() ? shortest_edge * spacing : 0,
             .most_splits = static_cast<Index>(std::min(
                 most_splits_per_site * (num_sites + 1) + cleaned.surface.num_vertices(), 1e9)),
             .num_threads = options.num_threads,
             .progress = progress});
     std::vector<double> values;
-    if (sizing.is_adaptive) {
+    if (sizing.is_adaptive()) {
         values = patch_curvature(
             *base, static_cast<Index>(std::clamp(cells_per_site * num_sites, 1.0, 1e9)), ticker);
-    } else if (is_uniform(sizing)) {
+    } else if (sizing.is_even()) {
         values.assign(base->surface().num_vertices(), 1);
-    } else if (!sizing.face_lengths.empty()) {
-        values = least_of_faces([&](Index f) { return face_length(cleaned, sizing, f); }, *base);
+    } else if (const auto* lengths = std::get_if<FaceLengths>(&sizing.edges)) {
+        values = least_of_faces([&](Index f) { return face_length(cleaned, *lengths, f); }, *base);
     } else {
+        const auto* densities = std::get_if<VertexDensities>(&sizing.edges);
         const std::vector<double>& given =
-            sizing.target_lengths.empty() ? sizing.densities : sizing.target_lengths;
+            densities != nullptr ? densities->values : std::get<VertexLengths>(sizing.edges).values;
         const auto value_of = [&](Index v) {
             return given[cleaned.vertex_origin.empty() ? v : cleaned.vertex_origin[v]];
         };
@@ -195,20 +196,22 @@ RunSizes find_sizes(const CleanedInput& cleaned, const FoundCurves& found, doubl
     if (!thin_places.empty()) {
         most = thin_lengths(*base, thin_places, joined, spacing, num_sites, ticker);
     }
-    const bool gives_count = !options.sites && (sizing.gives_count || sizing.max_error > 0);
-    const bool is_edge_given = sizing.edge_length > 0 && !options.sites;
+    const bool gives_count =
+        !options.sites && (std::holds_alternative<CountOfLengths>(sizing.count) ||
+                           std::holds_alternative<MaxError>(sizing.count));
+    const auto* mean_edge = options.sites ? nullptr : std::get_if<MeanEdge>(&sizing.count);
     double area = gives_count ? 0 : num_sites * std::numbers::sqrt3 / 2;
-    TargetLengths targets =
+    std::vector<double> targets =
         target_lengths(base->surface(), values, most, joined, sizing, area, ticker, least);
-    for (int i = 0; i < edge_length_tries && is_edge_given; ++i) {
-        const double ratio = mean_length(base->surface(), targets.length) / sizing.edge_length;
+    for (int i = 0; i < edge_length_tries && mean_edge != nullptr; ++i) {
+        const double ratio = mean_length(base->surface(), targets) / mean_edge->length;
         area *= ratio * ratio;
         targets =
             target_lengths(base->surface(), values, most, joined, sizing, area, ticker, least);
     }
     RunSizes sizes{nullptr, options.num_samples};
-    sizes.field = std::make_unique<const SizeField>(base, std::move(targets.length));
-    if (gives_count || is_edge_given) {
+    sizes.field = std::make_unique<const SizeField>(base, std::move(targets));
+    if (gives_count || mean_edge != nullptr) {
         sizes.num_samples = count_for(*sizes.field, cleaned, spacing);
     }
     return sizes;
@@ -218,7 +221,7 @@ SizingResult measure_edges(const MeshView& mesh, std::span<const SurfacePoint> s
                            Index num_samples, const SizeField* sizes) {
     SizingResult result{.num_samples = num_samples, .mean_edge = mean_edge(mesh)};
     if (sizes == nullptr) return result;
-    const std::vector<double> target = sizes->at(sites);
+    const std::vector<double> target = lengths_at(sizes, sites);
     std::vector<double> ratios;  // Each inner edge twice.
     for (const Triangle& t : mesh.triangles) {
         for (std::size_t k = 0; k < 3; ++k) {

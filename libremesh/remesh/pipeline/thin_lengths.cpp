@@ -6,8 +6,7 @@
 #include <numbers>
 
 #include "agvd/mesh/face_area.h"
-#include "remesh/sites/curvature.h"
-#include "remesh/sites/gradation.h"
+#include "remesh/sites/target_lengths.h"
 
 namespace remesh::detail {
 namespace {

@@ -11,8 +11,8 @@
 #include "remesh/placement/shape_quality.h"
 #include "remesh/placement/slide_steps.h"
 #include "remesh/placement/vertex_triangles.h"
-#include "remesh/sites/cell_planes.h"
-#include "remesh/sites/face_parts.h"
+#include "remesh/sites/cell_measures.h"
+#include "remesh/sites/size_field.h"
 #include "remesh/sites/walk.h"
 
 namespace remesh {
@@ -220,7 +220,7 @@ std::vector<detail::CellPlanes> planes_of_cells(const PreparedSurface& surface,
     Poller poller(progress);
     std::vector<detail::CellPlanes> planes(num_vertices);
     const Surface& base = surface.base.surface();
-    const detail::FaceParts parts(base, nearest_vertex, num_threads, poller);
+    const detail::FaceParts parts(base, nearest_vertex, num_threads);
     const auto add_part = [&](Index part, Index, Index) {
         Ticker ticker(poller);
         parts.for_each_face(part, [&](Index f) {

@@ -7,7 +7,7 @@
 
 #include "agvd/core/progress.h"
 #include "remesh/placement/placed_mesh.h"
-#include "remesh/sites/cell_planes.h"
+#include "remesh/sites/cell_measures.h"
 #include "remesh/sites/prepared_surface.h"
 
 namespace remesh {

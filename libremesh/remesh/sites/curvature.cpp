@@ -2,8 +2,6 @@
 // principal curvatures: variances of normals and positions are in the ratio of their mean square.
 // Faces of the input are cut into pieces much smaller than a cell; a piece belongs to the cell of
 // the base's vertex nearest to it in its face.
-#include "remesh/sites/curvature.h"
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -12,7 +10,7 @@
 #include "agvd/core/edge_key.h"
 #include "agvd/mesh/face_area.h"
 #include "agvd/mesh/uniform_points.h"
-#include "remesh/sites/vertex_lines.h"
+#include "remesh/sites/target_lengths.h"
 
 namespace remesh {
 namespace {
@@ -60,82 +58,71 @@ Index nearest_corner(const IntrinsicTriangulation& base, const SurfacePoint& on_
     return base.surface().mesh.triangles[point.face.value()][k];
 }
 
-class CurvatureCells {
-public:
-    CurvatureCells(const IntrinsicTriangulation& base, Index num_cells, Ticker& ticker)
-        : base_(base),
-          surface_(base.surface()),
-          ticker_(ticker),
-          cell_(surface_.num_vertices(), no_index) {
-        place_points(num_cells);
-        spread();
-        piece_area_ = piece_of_cell * surface_area(surface_) / num_cells;
-    }
+struct CurvatureCells {
+    const IntrinsicTriangulation& base;
+    Index num_cells;
+    Ticker& ticker;
+    const Surface& surface = base.surface();
+    double piece_area = piece_of_cell * surface_area(surface) / num_cells;
+    std::vector<Index> cell = std::vector<Index>(surface.num_vertices(), no_index);  // #V
+    std::vector<Index> start = {};  // By cell: its vertex.
+    std::vector<Vec3> origin = {};  // By cell: where that lies.
 
     std::vector<double> run() {
-        std::vector<PatchSums> own(origin_.size());
-        for (Index f = 0; f < base_.input().num_faces(); ++f) add_face(f, own);
+        place_points();
+        spread();
+        std::vector<PatchSums> own(origin.size());
+        for (Index f = 0; f < base.input().num_faces(); ++f) add_face(f, own);
         std::vector<PatchSums> patches = own;
         for (const std::uint64_t pair : adjacent_cells()) {
             const auto to = static_cast<Index>(pair >> 32), from = static_cast<Index>(pair);
-            patches[to].add(own[from], origin_[from] - origin_[to]);
+            patches[to].add(own[from], origin[from] - origin[to]);
         }
         std::vector<double> result;
-        result.reserve(cell_.size());
-        for (const Index c : cell_) result.push_back(c == no_index ? 0 : patches[c].curvature());
+        result.reserve(cell.size());
+        for (const Index c : cell) result.push_back(c == no_index ? 0 : patches[c].curvature());
         return result;
     }
 
-private:
     // The vertices around which the cells lie.
-    void place_points(Index num_cells) {
-        for (const SurfacePoint& point : uniform_points(base_.input(), num_cells, cell_seed)) {
-            ticker_.tick();
-            const Index v = nearest_corner(base_, point);
-            if (cell_[v] != no_index) continue;
-            cell_[v] = static_cast<Index>(origin_.size());
-            origin_.push_back(surface_.mesh.positions[v]);
-            start_.push_back(v);
+    void place_points() {
+        for (const SurfacePoint& point : uniform_points(base.input(), num_cells, cell_seed)) {
+            ticker.tick();
+            const Index v = nearest_corner(base, point);
+            if (cell[v] != no_index) continue;
+            cell[v] = static_cast<Index>(origin.size());
+            origin.push_back(surface.mesh.positions[v]);
+            start.push_back(v);
         }
     }
 
-    // Gives each vertex the cell that is nearest along edges: rounds over the vertices that have
-    // come nearer.
+    // Gives each vertex the cell that is nearest along edges.
     void spread() {
-        std::vector<double> distance(cell_.size(), std::numeric_limits<double>::infinity());
-        for (const Index v : start_) distance[v] = 0;
-        std::vector<Index> now = start_, next;
-        std::vector<std::uint8_t> waits(cell_.size(), 0);
-        while (!now.empty()) {
-            next.clear();
-            for (const Index v : now) {
-                ticker_.tick(4);
-                waits[v] = 0;
-                for_each_edge(surface_, v, [&](Index other, double length) {
-                    const double way = distance[v] + length;
-                    if (!(way < distance[other])) return;
-                    distance[other] = way;
-                    cell_[other] = cell_[v];
-                    if (waits[other] == 0) next.push_back(other);
-                    waits[other] = 1;
-                });
-            }
-            now.swap(next);
-        }
+        std::vector<double> distance(cell.size(), std::numeric_limits<double>::infinity());
+        for (const Index v : start) distance[v] = 0;
+        visit_in_rounds(surface.num_vertices(), start, [&](Index v, const auto& wait) {
+            ticker.tick(4);
+            for_each_edge(surface, v, [&](Index other, double length) {
+                if (!(distance[v] + length < distance[other])) return;
+                distance[other] = distance[v] + length;
+                cell[other] = cell[v];
+                wait(other);
+            });
+        });
     }
 
     void add_face(Index f, std::vector<PatchSums>& sums) {
-        ticker_.tick();
-        const Surface& input = base_.input();
+        ticker.tick();
+        const Surface& input = base.input();
         const Triangle& t = input.mesh.triangles[f];
         const auto& p = input.mesh.positions;
         const Vec3 vector = (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]) / 2;
         const double area = vector.norm();
         const auto add = [&](Index vertex, double share, const Vec3& at) {
-            const Index c = cell_[vertex];
-            if (c != no_index) sums[c].add(share * vector, share * area, at - origin_[c]);
+            const Index c = cell[vertex];
+            if (c != no_index) sums[c].add(share * vector, share * area, at - origin[c]);
         };
-        const double rows = std::ceil(std::sqrt(area / piece_area_));
+        const double rows = std::ceil(std::sqrt(area / piece_area));
         if (rows <= 1) {
             const Vec3 middle = (p[t[0]] + p[t[1]] + p[t[2]]) / 3;
             for (const Index v : t) add(v, 1.0 / 3, middle);
@@ -145,13 +132,12 @@ private:
         const int n = static_cast<int>(std::min<double>(rows, most_rows));
         for (int i = 0; i < n; ++i) {
             for (int j = 0; j < 2 * (n - i) - 1; ++j) {
-                ticker_.tick();
+                ticker.tick();
                 const double third = (j % 2 + 1) / 3.0;
                 const int column = j / 2;
                 const double b1 = (i + third) / n, b2 = (column + third) / n;
                 const SurfacePoint point{FaceId(f), {1 - b1 - b2, b1, b2}};
-                add(nearest_corner(base_, point), 1.0 / (n * n),
-                    position(input.mesh.view(), point));
+                add(nearest_corner(base, point), 1.0 / (n * n), position(input.mesh.view(), point));
             }
         }
     }
@@ -159,33 +145,25 @@ private:
     // Keys of the pairs of cells that share an edge between their vertices, both ways, sorted.
     [[nodiscard]] std::vector<std::uint64_t> adjacent_cells() {
         std::vector<std::uint64_t> pairs;
-        for (Index e = 0; e < surface_.num_edges(); ++e) {
-            ticker_.tick();
-            const Index h = surface_.edge_half[e];
-            const Index a = cell_[surface_.tail(h)], b = cell_[surface_.head(h)];
+        for (Index e = 0; e < surface.num_edges(); ++e) {
+            ticker.tick();
+            const Index h = surface.edge_half[e];
+            const Index a = cell[surface.tail(h)], b = cell[surface.head(h)];
             if (a == b || a == no_index || b == no_index) continue;
             pairs.push_back((std::uint64_t{a} << 32) | b);
             pairs.push_back((std::uint64_t{b} << 32) | a);
         }
-        sort_ticked(pairs, ticker_, std::less<>());
+        sort_ticked(pairs, ticker, std::less<>());
         pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
         return pairs;
     }
-
-    const IntrinsicTriangulation& base_;
-    const Surface& surface_;
-    Ticker& ticker_;
-    std::vector<Index> cell_;   // #V
-    std::vector<Index> start_;  // By cell: its vertex.
-    std::vector<Vec3> origin_;  // By cell: where that lies.
-    double piece_area_ = 0;
 };
 
 }  // namespace
 
 std::vector<double> patch_curvature(const IntrinsicTriangulation& base, Index num_cells,
                                     Ticker& ticker) {
-    return CurvatureCells(base, num_cells, ticker).run();
+    return CurvatureCells{base, num_cells, ticker}.run();
 }
 
 }  // namespace remesh

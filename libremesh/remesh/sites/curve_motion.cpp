@@ -1,6 +1,7 @@
-#include "remesh/sites/curve_motion.h"
-
+// Moves of sites along their curves.
 #include <algorithm>
+
+#include "remesh/sites/relaxation.h"
 
 namespace remesh::detail {
 namespace {

@@ -2,8 +2,6 @@
 // the number of sites in each region with its share by a chi-square test. If the sites are less
 // even than random points, random sites of crowded regions move to random points of others. Regions
 // are the cells of vertices that are far apart.
-#include "remesh/sites/even_out.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -11,11 +9,12 @@
 
 #include "agvd/core/position_hash.h"
 #include "agvd/core/random.h"
-#include "agvd/mesh/components.h"
 #include "agvd/mesh/face_area.h"
 #include "agvd/mesh/point_faces.h"
 #include "agvd/mesh/uniform_points.h"
-#include "remesh/sites/farthest_vertex.h"
+#include "remesh/sites/levels.h"
+#include "remesh/sites/prepared_surface.h"
+#include "remesh/sites/sampling.h"
 #include "remesh/sites/shares.h"
 #include "remesh/sites/walk.h"
 
@@ -37,89 +36,61 @@ constexpr std::uint64_t seed = 0x5eed;
 
 // Parts of the surface, each a set of faces.
 struct Regions {
-    std::vector<Index> of_face;      // #F
-    std::vector<double> area;        // Per region.
-    std::vector<Index> begin;        // #regions + 1, into `faces` and `area_up_to`.
-    std::vector<Index> faces;        // By region.
-    std::vector<double> area_up_to;  // Area of the region up to this face.
+    std::vector<Index> of_face;  // #F: numbers without gaps.
+    std::vector<Component> parts;
 
-    // \param region_of_face  #F: numbers without gaps.
-    // \param area_of_face    #F
-    Regions(std::span<const double> area_of_face, std::vector<Index> region_of_face, Index count)
-        : of_face(std::move(region_of_face)), area(count, 0), begin(count + 1, 0) {
-        for (const Index r : of_face) ++begin[r + 1];
-        std::partial_sum(begin.begin(), begin.end(), begin.begin());
-        faces.resize(of_face.size());
-        area_up_to.resize(of_face.size());
-        std::vector<Index> next(begin.begin(), begin.end() - 1);
+    Regions(std::vector<Index> region_of_face, Index count, std::span<const double> area_of_face)
+        : of_face(std::move(region_of_face)), parts(count) {
         for (Index f = 0; f < of_face.size(); ++f) {
-            const Index r = of_face[f];
-            area[r] += area_of_face[f];
-            faces[next[r]] = f;
-            area_up_to[next[r]++] = area[r];
+            Component& part = parts[of_face[f]];
+            part.area_up_to.push_back(area_of_face[f] + (part.faces.empty() ? 0 : part.area()));
+            part.faces.push_back(f);
         }
-    }
-    [[nodiscard]] Index size() const { return static_cast<Index>(area.size()); }
-
-    // A random point of a region, by area.
-    [[nodiscard]] SurfacePoint draw(Index region, std::uint64_t stream,
-                                    std::uint64_t number) const {
-        const auto unit = [&](std::uint64_t k) {
-            return random_unit(seed, stream, 3 * number + k);
-        };
-        const auto first = area_up_to.begin() + begin[region];
-        const auto last = area_up_to.begin() + begin[region + 1] - 1;
-        const auto found = std::upper_bound(first, last, unit(0) * area[region]);
-        const std::array<double, 3> b = uniform_barycentric(unit(1), unit(2));
-        const Index face = faces[static_cast<std::size_t>(found - area_up_to.begin())];
-        return {FaceId(face), {1 - b[1] - b[2], b[1], b[2]}};
     }
 };
 
+// A random point by area.
+SurfacePoint draw(const Component& part, std::uint64_t stream, std::uint64_t number) {
+    const auto unit = [&](std::uint64_t k) { return random_unit(seed, stream, 3 * number + k); };
+    const Index face = part.faces[pick_by_sums(part.area_up_to, unit(0))];
+    const std::array<double, 3> b = uniform_barycentric(unit(1), unit(2));
+    return {FaceId(face), {1 - b[1] - b[2], b[1], b[2]}};
+}
+
 // Makes regions around vertices that are far apart; a later call adds to those of earlier ones.
-class RegionMaker {
-public:
-    RegionMaker(const Surface& surface, std::span<const double> area_of_face,
-                const SurfaceLayout& layout, int num_threads, const Progress& progress)
-        : surface_(surface),
-          area_of_face_(area_of_face),
-          progress_(progress),
-          search_(surface, layout, num_threads),
-          farthest_(surface, search_) {}
+struct RegionMaker {
+    const Surface& surface;
+    std::span<const double> area_of_face;
+    const Progress& progress;
+    BoundsSearch search;
+    FallingQueue<DistanceOfVertex> farthest = farthest_vertices(surface, {search});
+    Index num_centers = 0;
 
     // At least `count` regions, and one for each component.
     Regions make(Index count) {
-        Poller poller(progress_);
+        Poller poller(progress);
         Ticker ticker(poller);
-        while (!farthest_.is_empty()) {
+        while (!farthest.is_empty()) {
             ticker.tick(search_work);
-            const Index v = farthest_.pop();
-            if (num_centers_ >= count && std::isfinite(search_.distance(v))) {
-                farthest_.push(v);
+            const Index v = farthest.pop();
+            if (num_centers >= count && std::isfinite(search.distance(v))) {
+                farthest.push(v);
                 break;
             }
-            search_.add(point_at(surface_, v), num_centers_++);
-            search_.run(progress_);
+            search.add(point_at(surface, v), num_centers++);
+            search.run(progress);
         }
         // A face belongs to the region of its first corner; regions without a face get no number.
-        std::vector<Index> number(num_centers_, no_index);
-        std::vector<Index> region(surface_.num_faces());
+        std::vector<Index> number(num_centers, no_index);
+        std::vector<Index> region(surface.num_faces());
         Index num_regions = 0;
         for (Index f = 0; f < region.size(); ++f) {
-            Index& n = number[search_.site(surface_.mesh.triangles[f][0])];
+            Index& n = number[search.site(surface.mesh.triangles[f][0])];
             if (n == no_index) n = num_regions++;
             region[f] = n;
         }
-        return {area_of_face_, std::move(region), num_regions};
+        return {std::move(region), num_regions, area_of_face};
     }
-
-private:
-    const Surface& surface_;
-    std::span<const double> area_of_face_;
-    const Progress& progress_;
-    BoundsSearch search_;
-    FarthestVertex farthest_;
-    Index num_centers_ = 0;
 };
 
 class EvenOut {
@@ -144,14 +115,13 @@ public:
             area_ += components_[c].area();
         }
         measure_faces(sizes);
-        is_moved_.assign(sites.size(), 0);
         find_surplus();
     }
 
-    Index run(const SurfaceLayout& layout, int num_threads, const Progress& progress) {
+    void run(const SurfaceLayout& layout, int num_threads, const Progress& progress) {
         const auto num_sites = static_cast<Index>(sites_.size());
-        const Regions components(area_of_face_, component_of_face_,
-                                 static_cast<Index>(components_.size()));
+        const Regions components(component_of_face_, static_cast<Index>(components_.size()),
+                                 area_of_face_);
         std::vector<double> shares;
         if (num_sites >= needed_samples(components_)) {
             const std::vector<double> no_boundary(components_.size(), 0);
@@ -161,16 +131,16 @@ public:
         } else {
             for (const Component& c : components_) shares.push_back(c.area());
         }
-        balance(components, shares, components_.size());
+        balance(components, shares);
 
-        RegionMaker maker(surface_, area_of_face_, layout, num_threads, progress);
+        RegionMaker maker{surface_, area_of_face_, progress,
+                          BoundsSearch(surface_, layout, num_threads)};
         for (const double per_region : sites_per_region) {
             const auto count = static_cast<Index>(num_sites / per_region);
             if (count < 2 || count * vertices_per_region > surface_.num_vertices()) continue;
             const Regions regions = maker.make(count);
-            balance(regions, shares_of(regions), regions.size());
+            balance(regions, shares_of(regions));
         }
-        return static_cast<Index>(std::count(is_moved_.begin(), is_moved_.end(), 1));
     }
 
 private:
@@ -187,14 +157,7 @@ private:
                 sizes->at(base_.to_input(SurfacePoint{FaceId(f), {third, third, third}}));
             area_of_face_.push_back(area / (length * length));
         }
-        if (sizes == nullptr) return;
-        for (Component& component : components_) {
-            double area = 0;
-            for (std::size_t i = 0; i < component.faces.size(); ++i) {
-                area += area_of_face_[component.faces[i]];
-                component.area_up_to[i] = area;
-            }
-        }
+        if (sizes != nullptr) set_areas(components_, area_of_face_);
     }
 
     // Of several sites at one place, all but one wait for a region.
@@ -209,7 +172,6 @@ private:
                 if (!taken.insert(key).second && moves) surplus_.push_back(i);
             }
         }
-        for (const Index i : surplus_) is_moved_[i] = 1;
     }
 
     // The share of each region in the sites of its component, by area.
@@ -217,17 +179,18 @@ private:
         std::vector<double> count(components_.size(), 0);
         for (const SurfacePoint& s : on_base_) ++count[component_of_face_[s.face.value()]];
         std::vector<double> shares;
-        for (Index r = 0; r < regions.size(); ++r) {
-            const Index c = component_of_face_[regions.faces[regions.begin[r]]];
-            shares.push_back(count[c] * regions.area[r] / components_[c].area());
+        for (const Component& part : regions.parts) {
+            const Index c = component_of_face_[part.faces[0]];
+            shares.push_back(count[c] * part.area() / components_[c].area());
         }
         return shares;
     }
 
     // Gives every region its share if the sites are spread less evenly than random points.
-    void balance(const Regions& regions, std::span<const double> shares, std::uint64_t stream) {
+    void balance(const Regions& regions, std::span<const double> shares) {
         const auto num_sites = static_cast<Index>(sites_.size());
-        std::vector<std::vector<Index>> residents(regions.size());  // Ascending.
+        const std::uint64_t stream = regions.parts.size();
+        std::vector<std::vector<Index>> residents(regions.parts.size());  // Ascending.
         std::vector<std::uint8_t> waits(num_sites, 0);
         for (const Index i : surplus_) waits[i] = 1;
         for (Index i = 0; i < num_sites; ++i) {
@@ -238,7 +201,7 @@ private:
         const std::vector<Index> quota = apportion(shares, num_sites);
         std::vector<double> missing;
         Index num_missing = 0;
-        for (Index r = 0; r < regions.size(); ++r) {
+        for (Index r = 0; r < regions.parts.size(); ++r) {
             const auto have = static_cast<Index>(residents[r].size());
             missing.push_back(quota[r] > have ? quota[r] - have : 0);
             num_missing += static_cast<Index>(missing.back());
@@ -248,9 +211,9 @@ private:
         // These are fewer than are missing if surplus sites may not move.
         const std::vector<Index> gets = apportion(missing, static_cast<Index>(surplus_.size()));
         Index next = 0;
-        for (Index r = 0; r < regions.size(); ++r) {
+        for (Index r = 0; r < regions.parts.size(); ++r) {
             for (Index k = 0; k < gets[r]; ++k, ++next) {
-                on_base_[surplus_[next]] = regions.draw(r, stream, next);
+                on_base_[surplus_[next]] = draw(regions.parts[r], stream, next);
                 sites_[surplus_[next]] = base_.to_input(on_base_[surplus_[next]]);
             }
         }
@@ -277,10 +240,7 @@ private:
         }
         std::sort(order.begin(), order.end());
         order.resize(std::min<std::size_t>(order.size(), count));
-        for (const auto& [bits, i] : order) {
-            surplus_.push_back(i);
-            is_moved_[i] = 1;
-        }
+        for (const auto& [bits, i] : order) surplus_.push_back(i);
     }
 
     const IntrinsicTriangulation& base_;
@@ -292,16 +252,15 @@ private:
     std::vector<Index> component_of_face_;  // #F
     double area_ = 0;                       // Square mesh units.
     std::vector<std::uint8_t> may_move_;    // #sites
-    std::vector<std::uint8_t> is_moved_;    // #sites
     std::vector<Index> surplus_;
 };
 
 }  // namespace
 
-Index even_out(const PreparedSurface& surface, std::vector<SurfacePoint>& sites,
-               std::span<const std::uint8_t> is_fixed, int num_threads, const Progress& progress,
-               const SizeField* sizes) {
-    return EvenOut(surface.base, sites, is_fixed, sizes, num_threads, progress)
+void even_out(const PreparedSurface& surface, std::vector<SurfacePoint>& sites,
+              std::span<const std::uint8_t> is_fixed, int num_threads, const Progress& progress,
+              const SizeField* sizes) {
+    EvenOut(surface.base, sites, is_fixed, sizes, num_threads, progress)
         .run(surface.layout, num_threads, progress);
 }
 

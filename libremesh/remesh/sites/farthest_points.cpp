@@ -1,8 +1,6 @@
 // Each component becomes a surface of its own, with long edges split. Upper bounds of the distance
 // from the points are kept at its vertices (BoundsSearch). Each step takes the farthest
 // vertex, draws a random point next to it and updates the bounds ([eldar1997], [moenning2003]).
-#include "remesh/sites/farthest_points.h"
-
 #include <algorithm>
 #include <functional>
 #include <unordered_set>
@@ -13,8 +11,9 @@
 #include "agvd/mesh/point_faces.h"
 #include "agvd/propagation/distance_bounds.h"
 #include "agvd/propagation/propagate.h"
-#include "remesh/sites/farthest_vertex.h"
-#include "remesh/sites/scatter.h"
+#include "remesh/sites/sampling.h"
+#include "remesh/sites/size_field.h"
+#include "remesh/sites/walk.h"
 
 namespace remesh::detail {
 namespace {
@@ -54,56 +53,37 @@ Surface component_surface(const Surface& whole, const Component& component, int 
     return build_surface(mesh.view(), num_threads, progress);
 }
 
-// A component as a surface of its own.
-struct RefinedComponent {
-    RefinedComponent(const Surface& whole, const Component& component, double max_length,
-                     Index most_splits, const SizeField* sizes, int num_threads,
-                     const Progress& progress)
-        : faces(component.faces),
-          input(component_surface(whole, component, num_threads, progress)),
-          base(input, {.max_length = max_length,
-                       .most_splits = most_splits,
-                       .unit_at = unit_of(sizes),
-                       .num_threads = num_threads,
-                       .progress = progress}) {
-        if (sizes == nullptr) return;
-        const IntrinsicOptions options{.unit_at = unit_of(sizes)};
-        for (Index v = 0; v < surface().num_vertices(); ++v) {
-            unit.push_back(options.unit_at(v < input.num_vertices() ? point_at(input, v)
-                                                                    : base.place_of_added(v)));
-        }
-    }
-    RefinedComponent(const RefinedComponent&) = delete;
-
-    std::span<const Index> faces;  // Ascending: faces of the whole surface, by face of `input`.
-    Surface input;
-    IntrinsicTriangulation base;
-
-    std::vector<double> unit;  // #V of the base: local lengths, or empty.
-
-    [[nodiscard]] const Surface& surface() const { return base.surface(); }
-
-private:
-    // The local length at a point of `input`.
-    [[nodiscard]] std::function<double(const SurfacePoint&)> unit_of(const SizeField* sizes) const {
-        if (sizes == nullptr) return {};
-        return [this, sizes](const SurfacePoint& point) {
-            return sizes->at({FaceId(faces[point.face.value()]), point.barycentric});
-        };
-    }
-};
+// The local length at a point of the component's own surface.
+std::function<double(const SurfacePoint&)> unit_on(std::span<const Index> faces,
+                                                   const SizeField* sizes) {
+    if (sizes == nullptr) return {};
+    return [=](const SurfacePoint& point) {
+        return sizes->at({FaceId(faces[point.face.value()]), point.barycentric});
+    };
+}
 
 class FarthestPoints {
 public:
-    FarthestPoints(const Surface& whole, const RefinedComponent& component, std::uint64_t seed,
-                   std::uint64_t stream, int num_threads, const Progress& progress)
+    FarthestPoints(const Surface& whole, const Component& component, double max_length,
+                   Index most_splits, std::uint64_t stream, const SamplingOptions& options)
         : whole_(whole),
-          component_(component),
-          progress_(progress),
-          layout_(component_.surface(), num_threads, progress),
-          search_(component_.surface(), layout_, num_threads),
-          seed_(seed),
-          stream_(stream) {}
+          faces_(component.faces),
+          options_(options),
+          stream_(stream),
+          input_(component_surface(whole, component, options.num_threads, options.progress)),
+          base_(input_, {.max_length = max_length,
+                         .most_splits = most_splits,
+                         .unit_at = unit_on(faces_, options.sizes),
+                         .num_threads = options.num_threads,
+                         .progress = options.progress}),
+          layout_(base_.surface(), options.num_threads, options.progress),
+          search_(base_.surface(), layout_, options.num_threads) {
+        const auto unit_at = unit_on(faces_, options.sizes);
+        for (Index v = 0; unit_at && v < base_.surface().num_vertices(); ++v) {
+            unit_.push_back(
+                unit_at(v < input_.num_vertices() ? point_at(input_, v) : base_.place_of_added(v)));
+        }
+    }
 
     // Adds a given point of the whole surface.
     void add(const SurfacePoint& point) { take(to_component(point), point); }
@@ -111,16 +91,16 @@ public:
     std::vector<SurfacePoint> run(Index count) {
         std::vector<SurfacePoint> result;
         result.reserve(count);
-        search_.run(progress_);
-        Poller poller(progress_);
+        search_.run(options_.progress);
+        Poller poller(options_.progress);
         Ticker ticker(poller);
-        FarthestVertex farthest(component_.surface(), search_, component_.unit);
+        auto farthest = farthest_vertices(base_.surface(), {search_, unit_});
         for (std::uint64_t i = 0; result.size() < count && !farthest.is_empty(); ++i) {
             const Index v = farthest.pop();
             const SurfacePoint near = draw(v, i);
             const SurfacePoint point = to_whole(near);
             if (!take(near, point)) continue;  // No room beside another point.
-            search_.run(progress_);
+            search_.run(options_.progress);
             ticker.tick(search_work);
             result.push_back(point);
             farthest.push(v);
@@ -138,7 +118,7 @@ private:
 
     // A random point next to a vertex, in the face around it whose other corners are farthest.
     [[nodiscard]] SurfacePoint draw(Index vertex, std::uint64_t number) const {
-        const Surface& surface = component_.surface();
+        const Surface& surface = base_.surface();
         const auto reach = [&](Index h) {
             return search_.distance(surface.head(h)) +
                    search_.distance(surface.tail(Surface::previous(h)));
@@ -150,8 +130,8 @@ private:
             if (reach(h) > reach(best)) best = h;
         }
         const auto offset = [&](std::uint64_t k) {
-            return least_offset +
-                   (most_offset - least_offset) * random_unit(seed_, stream_, 2 * number + k);
+            return least_offset + (most_offset - least_offset) *
+                                      random_unit(options_.seed, stream_, 2 * number + k);
         };
         const double ahead = offset(0), aside = offset(1);
         SurfacePoint point{FaceId(Surface::face(best)), {}};
@@ -162,24 +142,26 @@ private:
     }
 
     [[nodiscard]] SurfacePoint to_whole(const SurfacePoint& point) const {
-        SurfacePoint found = component_.base.to_input(point);
-        found.face = FaceId(component_.faces[found.face.value()]);
+        SurfacePoint found = base_.to_input(point);
+        found.face = FaceId(faces_[found.face.value()]);
         keep_inside(found.barycentric);
         return found;
     }
     [[nodiscard]] SurfacePoint to_component(const SurfacePoint& point) const {
-        const auto found =
-            std::lower_bound(component_.faces.begin(), component_.faces.end(), point.face.value());
-        const auto face = static_cast<Index>(found - component_.faces.begin());
-        return component_.base.to_intrinsic(SurfacePoint{FaceId(face), point.barycentric});
+        const auto found = std::lower_bound(faces_.begin(), faces_.end(), point.face.value());
+        const auto face = static_cast<Index>(found - faces_.begin());
+        return base_.to_intrinsic(SurfacePoint{FaceId(face), point.barycentric});
     }
 
     const Surface& whole_;
-    const RefinedComponent& component_;
-    const Progress& progress_;
+    std::span<const Index> faces_;  // Of the whole surface, ascending: by face of `input_`.
+    const SamplingOptions& options_;
+    std::uint64_t stream_;
+    Surface input_;  // The component as a surface of its own.
+    IntrinsicTriangulation base_;
+    std::vector<double> unit_;  // #V of the base: local lengths, or empty.
     const SurfaceLayout layout_;
     BoundsSearch search_;
-    std::uint64_t seed_, stream_;
     std::unordered_set<Vec3, PositionHash> taken_;
     Index num_taken_ = 0;
 };
@@ -188,19 +170,17 @@ private:
 
 std::vector<SurfacePoint> farthest_points(const Surface& surface, const Component& component,
                                           std::span<const SurfacePoint> fixed, Index count,
-                                          double spacing, std::uint64_t seed, std::uint64_t stream,
-                                          int num_threads, const Progress& progress,
-                                          const SizeField* sizes) {
+                                          double spacing, std::uint64_t stream,
+                                          const SamplingOptions& options) {
     if (count == 0) return {};
     const Index most_splits =
         splits_per_point * (count + 1) + static_cast<Index>(component.faces.size());
-    const RefinedComponent refined(surface, component, longest_edge * spacing, most_splits, sizes,
-                                   num_threads, progress);
-    FarthestPoints points(surface, refined, seed, stream, num_threads, progress);
+    FarthestPoints points(surface, component, longest_edge * spacing, most_splits, stream, options);
     for (const SurfacePoint& point : fixed) points.add(point);
     if (!fixed.empty()) return points.run(count);
-    const SurfacePoint first =
-        scatter(surface, component, 1, seed, stream, {}, sizes).front().point;
+    SamplingOptions quiet = options;
+    quiet.progress = {};
+    const SurfacePoint first = scatter(surface, component, 1, stream, quiet).front().point;
     points.add(first);
     std::vector<SurfacePoint> result = points.run(count - 1);
     result.insert(result.begin(), first);

@@ -10,7 +10,8 @@
 #include "agvd/propagation/propagate.h"
 #include "remesh/curves/glue.h"
 #include "remesh/dual/build_dual.h"
-#include "remesh/sites/site_labels.h"
+#include "remesh/sites/site_dual.h"
+#include "remesh/sites/size_field.h"
 
 namespace remesh::detail {
 namespace {
@@ -33,35 +34,6 @@ constexpr double neighbour_error = 1e-2;
 
 bool gives_neighbours(const Surface& surface, std::size_t num_sites) {
     return surface.num_vertices() >= vertices_per_site * num_sites;
-}
-
-namespace {
-
-std::vector<Triangle> neighbours(const PreparedSurface& prepared, const DistanceBounds& labels,
-                                 std::span<const SurfacePoint> sites, int num_threads,
-                                 const Progress& progress) {
-    const Surface& surface = prepared.base.surface();
-    if (gives_neighbours(surface, sites.size())) return label_triangles(surface, labels);
-    const std::vector<SurfacePoint> on_base = prepared.base.to_intrinsic(sites);
-    const Propagation propagation =
-        propagate(surface, prepared.layout, on_base,
-                  {.max_error = neighbour_error, .num_threads = num_threads, .progress = progress});
-    return build_dual(surface,
-                      build_diagram(surface, on_base, propagation,
-                                    {.num_threads = num_threads, .progress = progress}),
-                      progress);
-}
-
-}  // namespace
-
-std::vector<Triangle> triangulate_sites(const PreparedSurface& prepared,
-                                        const DistanceBounds& labels,
-                                        std::span<const SurfacePoint> sites,
-                                        std::span<const ChainEdge> chain, int num_threads,
-                                        const Progress& progress) {
-    std::vector<Triangle> triangles = neighbours(prepared, labels, sites, num_threads, progress);
-    if (!chain.empty()) close_rim(ends_of(chain), triangles);
-    return triangles;
 }
 
 bool is_hopeless(const Relaxation& relaxation) {
@@ -90,7 +62,7 @@ void Levels::run(Relaxation& relaxation, const DistanceBounds* labels,
     level.num_sites = num_sites;
     level.energy.push_back(relaxation.energy().energy);
     if (options_.sizes != nullptr && labels != nullptr) {
-        relaxation.set_density(options_.sizes->at(relaxation.sites()));
+        relaxation.set_density(nullptr, lengths_at(options_.sizes, relaxation.sites()));
     }
     if (labels != nullptr) look(relaxation, *labels, corners);
     double last = relaxation.objective();
@@ -109,6 +81,27 @@ void Levels::run(Relaxation& relaxation, const DistanceBounds* labels,
 
 DistanceBounds Levels::label(std::span<const SurfacePoint> sites) const {
     return label_vertices(prepared_, sites, options_.num_threads, progress_);
+}
+
+std::vector<Triangle> Levels::triangulate(const DistanceBounds& labels,
+                                          std::span<const SurfacePoint> sites,
+                                          std::span<const ChainEdge> chain) const {
+    std::vector<Triangle> triangles;
+    if (gives_neighbours(surface_, sites.size())) {
+        triangles = label_triangles(surface_, labels);
+    } else {
+        const std::vector<SurfacePoint> on_base = prepared_.base.to_intrinsic(sites);
+        const Propagation propagation = propagate(surface_, prepared_.layout, on_base,
+                                                  {.max_error = neighbour_error,
+                                                   .num_threads = options_.num_threads,
+                                                   .progress = progress_});
+        const Diagram diagram =
+            build_diagram(surface_, on_base, propagation,
+                          {.num_threads = options_.num_threads, .progress = progress_});
+        triangles = build_dual(surface_, diagram, progress_);
+    }
+    if (!chain.empty()) close_rim(ends_of(chain), triangles);
+    return triangles;
 }
 
 RelaxResult Levels::finish(std::vector<SurfacePoint> sites) {
@@ -133,11 +126,7 @@ void Levels::look(Relaxation& relaxation, const DistanceBounds& labels,
     }
     const CellMeasures cells =
         measure_cells(prepared_, labels, num_sites, options_.num_threads, progress_);
-    if (options_.sizes != nullptr) {
-        relaxation.set_density(cells, options_.sizes->at(relaxation.sites()));
-    } else {
-        relaxation.set_density(cells);
-    }
+    relaxation.set_density(&cells, lengths_at(options_.sizes, relaxation.sites()));
 }
 
 // Labels and measures the surface again.
@@ -148,14 +137,12 @@ void Levels::sweep(Relaxation& relaxation, std::span<const Index> corners,
     const DistanceBounds labels = label(relaxation.sites());
     const Index flaws = relaxation.num_flaws();
     const bool is_cheap = gives_neighbours(surface_, num_sites);
-    // Not with curves, which hold the triangulation together: fandisk takes 1.3 times the time for
-    // .001 of mean Q.
+    // Not with curves, which hold the triangulation together: it costs more than it gains.
     const bool is_useful =
         chain.empty() && num_mended_ < result_.levels.size() && flaws > most_flaws * num_sites;
     if (flaws > 0 && (is_cheap || is_useful)) {
         if (!is_cheap) num_mended_ = result_.levels.size();
-        relaxation.mend(triangulate_sites(prepared_, labels, relaxation.sites(), chain,
-                                          options_.num_threads, progress_));
+        relaxation.mend(triangulate(labels, relaxation.sites(), chain));
     }
     look(relaxation, labels, corners);
 }

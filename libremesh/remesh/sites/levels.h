@@ -1,31 +1,34 @@
 //! \file
-//! Levels of relaxation: steps on one number of sites, with measurements of the surface between
-//! them.
+//! What relaxation does before its steps, and levels: steps on one number of sites, with
+//! measurements of the surface between them.
 #pragma once
 
-#include <span>
-
-#include "agvd/propagation/distance_bounds.h"
-#include "remesh/curves/curve_sites.h"
-#include "remesh/sites/prepared_surface.h"
-#include "remesh/sites/relax_options.h"
+#include "remesh/sites/relax_sites.h"
 #include "remesh/sites/relaxation.h"
 
 namespace remesh::detail {
 
+//! Moves sites from crowded regions to sparse ones, which would take relaxation long: a Lloyd step
+//! evens out neighbours only, and unevenness over w cells takes some w^2 steps. The surface is
+//! divided into regions of similar size, large ones first. If the sites are spread over these less
+//! evenly than random points, random sites of crowded regions move to random places of the others.
+//! Sites at the place of another one, which relaxation cannot separate, move first. Starts as even
+//! as random ones do not change.
+//!
+//! Sites on the boundary stay. A component keeps its number of sites unless that is further from
+//! its share than chance explains.
+//! \param surface   regions consist of its base's faces.
+//! \param sites     on surface.input().
+//! \param is_fixed  #sites: 1 for sites that stay; or empty.
+//! \param sizes     areas count in squares of the local length; null: in mesh units.
+//! \throw Cancelled  the progress callback returned false; `sites` is unspecified then.
+//! Cost: O(n log n), a few sweeps over the edges.
+void even_out(const PreparedSurface& surface, std::vector<SurfacePoint>& sites,
+              std::span<const std::uint8_t> is_fixed, int num_threads,
+              const Progress& progress = {}, const SizeField* sizes = nullptr);
+
 //! Whether labels of the vertices tell which sites are neighbours.
 [[nodiscard]] bool gives_neighbours(const Surface& surface, std::size_t num_sites);
-
-//! The triangulation of the sites: by labels, or from the diagram if faces are too large for
-//! labels.
-//!
-//! \param labels  of the base's vertices.
-//! \param chain   edges that its rim is to have.
-[[nodiscard]] std::vector<Triangle> triangulate_sites(const PreparedSurface& prepared,
-                                                      const DistanceBounds& labels,
-                                                      std::span<const SurfacePoint> sites,
-                                                      std::span<const ChainEdge> chain,
-                                                      int num_threads, const Progress& progress);
 
 //! Whether triangles are as large as the features of the surface, or too many sites are in none.
 //! Sites that are even on such a triangulation are not even on the surface.
@@ -51,6 +54,15 @@ public:
              std::span<const ChainEdge> chain = {});
 
     [[nodiscard]] DistanceBounds label(std::span<const SurfacePoint> sites) const;
+
+    //! The triangulation of the sites: by labels, or from the diagram if faces are too large for
+    //! labels.
+    //!
+    //! \param labels  of the base's vertices.
+    //! \param chain   edges that its rim is to have.
+    [[nodiscard]] std::vector<Triangle> triangulate(const DistanceBounds& labels,
+                                                    std::span<const SurfacePoint> sites,
+                                                    std::span<const ChainEdge> chain = {}) const;
 
     //! Must be the last call.
     [[nodiscard]] RelaxResult finish(std::vector<SurfacePoint> sites);

@@ -7,11 +7,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "agvd/mesh/components.h"
 #include "agvd/mesh/face_area.h"
 #include "remesh/curves/curve_sites.h"
 #include "remesh/sites/shares.h"
-#include "remesh/sites/sized_components.h"
 
 namespace remesh {
 namespace {
@@ -20,67 +18,65 @@ constexpr int num_halvings = 24;
 // Share of the creases that is dropped at a time if sites are too few.
 constexpr double drop_at_once = 0.1;
 
-struct Patch {
-    double area = 0, boundary_length = 0;
-};
-
-std::vector<Patch> find_patches(const Surface& surface, const SizeField* sizes, int num_threads,
-                                const Progress& progress) {
-    std::vector<Patch> patches;
-    for (const Component& component :
-         detail::sized_components(surface, sizes, num_threads, progress)) {
-        patches.push_back(
-            {component.area(), detail::sized_boundary_length(surface, component, sizes)});
-    }
-    return patches;
-}
-
-UnitAt unit_of(const SizeField* sizes) { return sizes != nullptr ? sizes->function() : UnitAt{}; }
-
-std::vector<std::vector<double>> places_at(const Surface& surface, const CurveNetwork& network,
-                                           double spacing, const UnitAt& unit_at, bool has_guards) {
-    std::vector<std::vector<double>> along = even_places(
-        surface, network, spacing, curve_intervals(surface, network, spacing, unit_at), unit_at);
-    if (has_guards) guard_corners(surface, network, along);
-    return along;
-}
-
-double num_sites_at(const Surface& surface, const CurveNetwork& network,
-                    const std::vector<Patch>& patches, double spacing, const UnitAt& unit_at,
-                    bool has_guards) {
-    const auto along = places_at(surface, network, spacing, unit_at, has_guards);
-    auto count =
-        static_cast<double>(num_curve_vertices(network, intervals_between(network, along)));
-    for (const Patch& p : patches) {
-        count += std::max(detail::inner_sites(p.area, p.boundary_length, spacing), 0.0);
-    }
-    return count;
-}
-
-struct Division {
-    double spacing = 0;
-    std::vector<std::vector<double>> along;  // By curve.
-};
-
-// The least spacing that needs at most num_sites sites.
-Division divide(const Surface& surface, const CurveNetwork& network,
-                const std::vector<Patch>& patches, const UnitAt& unit_at, double num_sites) {
-    double area = 0, length = 0;
-    for (const Patch& p : patches) {
-        area += p.area;
-        length += p.boundary_length;
-    }
-    double low = std::sqrt(area / num_sites) / 4, high = length + std::sqrt(area);
-    bool has_guards = true;
-    const auto num_needed = [&](double spacing) {
-        return num_sites_at(surface, network, patches, spacing, unit_at, has_guards);
+// Finds the least spacing that needs at most a number of sites.
+struct SpacingSearch {
+    struct Patch {
+        double area = 0, boundary_length = 0;
     };
-    has_guards = num_needed(high) <= num_sites;
-    for (int i = 0; i < num_halvings; ++i) {
-        const double middle = (low + high) / 2;
-        (num_needed(middle) > num_sites ? low : high) = middle;
+
+    const Surface& surface;
+    const CurveNetwork& network;
+    const UnitAt unit_at;
+    std::vector<Patch> patches = {};
+    bool has_guards = true;
+
+    [[nodiscard]] std::vector<std::vector<double>> places_at(double spacing) const {
+        std::vector<std::vector<double>> along =
+            even_places(surface, network, spacing,
+                        curve_intervals(surface, network, spacing, unit_at), unit_at);
+        if (has_guards) guard_corners(surface, network, along);
+        return along;
     }
-    return {high, places_at(surface, network, high, unit_at, has_guards)};
+
+    [[nodiscard]] double num_sites_at(double spacing) const {
+        auto count = static_cast<double>(
+            num_curve_vertices(network, intervals_between(network, places_at(spacing))));
+        for (const Patch& p : patches) {
+            count += std::max(detail::inner_sites(p.area, p.boundary_length, spacing), 0.0);
+        }
+        return count;
+    }
+
+    double run(double num_sites) {
+        double area = 0, length = 0;
+        for (const Patch& p : patches) {
+            area += p.area;
+            length += p.boundary_length;
+        }
+        double low = std::sqrt(area / num_sites) / 4, high = length + std::sqrt(area);
+        has_guards = num_sites_at(high) <= num_sites;
+        for (int i = 0; i < num_halvings; ++i) {
+            const double middle = (low + high) / 2;
+            (num_sites_at(middle) > num_sites ? low : high) = middle;
+        }
+        return high;
+    }
+};
+
+// Cuts the surface along the network of a plan and spreads the sites.
+void divide(const Surface& surface, const std::vector<std::uint8_t>& is_crease, Index num_vertices,
+            const SizeField* sizes, int num_threads, const Progress& progress, NetworkPlan& plan) {
+    plan.cut = cut_surface(surface, edges_to_cut(plan.junctions, is_crease), num_threads, progress);
+    SpacingSearch search{surface, plan.network, length_function(sizes)};
+    for (const Component& component :
+         detail::sized_components(plan.cut.surface, sizes, num_threads, progress)) {
+        search.patches.push_back(
+            {component.area(), detail::sized_boundary_length(plan.cut.surface, component, sizes)});
+    }
+    plan.spacing = search.run(num_vertices);
+    plan.along = search.places_at(plan.spacing);
+    plan.intervals = intervals_between(plan.network, plan.along);
+    plan.length = length_of(surface, is_crease);
 }
 
 // Unmarks creases on junctions, which are curves already.
@@ -164,27 +160,15 @@ NetworkPlan plan_network(const Surface& surface, std::vector<std::uint8_t> is_cr
         (void)find();
         drop_shortest(surface, plan.network, drop_share, is_crease);
     }
-    const auto has_creases = [&] {
-        return std::any_of(is_crease.begin(), is_crease.end(), [](auto c) { return c != 0; });
-    };
-    while (has_creases() || !plan.junctions.empty() || !plan.locked.empty()) {
-        if (find() > num_vertices) {
-            // Marked edges of the boundary are no creases: nothing is left that could be dropped.
-            if (!std::ranges::any_of(plan.network.curves, is_free_crease)) break;
-            drop_shortest(surface, plan.network, drop_at_once, is_crease);
-            continue;
+    while (has_creases(is_crease) || !plan.junctions.empty() || !plan.locked.empty()) {
+        if (find() <= num_vertices) {
+            divide(surface, is_crease, num_vertices, sizes, num_threads, progress, plan);
+            plan.dropped_length = length_at_first - plan.length;
+            return plan;
         }
-        plan.cut =
-            cut_surface(surface, edges_to_cut(plan.junctions, is_crease), num_threads, progress);
-        Division division = divide(surface, plan.network,
-                                   find_patches(plan.cut.surface, sizes, num_threads, progress),
-                                   unit_of(sizes), num_vertices);
-        plan.spacing = division.spacing;
-        plan.along = std::move(division.along);
-        plan.intervals = intervals_between(plan.network, plan.along);
-        plan.length = length_of(surface, is_crease);
-        plan.dropped_length = length_at_first - plan.length;
-        return plan;
+        // Marked edges of the boundary are no creases: nothing is left that could be dropped.
+        if (!std::ranges::any_of(plan.network.curves, is_free_crease)) break;
+        drop_shortest(surface, plan.network, drop_at_once, is_crease);
     }
     if (!plan.locked.empty()) {
         plan.sites_for_locked = fewest_locked_vertices(surface, spacing, plan.locked);

@@ -6,18 +6,16 @@
 
 #include "agvd/core/poller.h"
 #include "agvd/mesh/face_area.h"
+#include "remesh/sites/size_field.h"
 
 namespace remesh {
 namespace {
 
 // Longest edge in spacings. Relaxation finds neighbours by the labels of vertices, and Steiner
-// points of longer edges do not resolve cells. Mean Q at N = 2000, with 1 / .85 / .7 / .55:
-// fertility .921 / .930 / .932 / .934, part 58011 .878 / .887 / .890 / .900, fandisk .913 / .914 /
-// .914 / .921; with .7 fandisk takes 1.25 times the instructions of .85.
+// points of longer edges do not resolve cells. Shorter ones cost more than they gain.
 constexpr double longest_edge = 0.85;
-// In spacings: vertices without curvature that are closer are removed. A unit cube under needles of
-// aspect 1e-3 takes .4 of the time and half of the memory, with bases of 14 600 faces for 33 000.
-// This is half the edge length of regular grids that resolve cells, so those do not change.
+// In spacings: vertices without curvature that are closer are removed, which saves time under
+// needles. This is half the edge length of regular grids that resolve cells: those do not change.
 constexpr double shortest_edge = 0.15;
 // Most splits, for each site and each vertex. Regular refinement takes 4 for each site. Without a
 // limit, surfaces thinner than the spacing would get vertices in proportion to their length.
@@ -39,39 +37,40 @@ Index most_splits(const Surface& input, double spacing) {
 
 IntrinsicOptions options_for(const Surface& input, double spacing, const SizeField* sizes,
                              int num_threads, const Progress& progress) {
+    IntrinsicOptions options{.max_length = longest_edge * spacing,
+                             .min_length = std::isfinite(spacing) ? shortest_edge * spacing : 0,
+                             .most_splits = most_splits(input, spacing),
+                             .unit_at = length_function(sizes),
+                             .num_threads = num_threads,
+                             .progress = within(progress, 0, base_share)};
     if (sizes != nullptr) {
-        return {.max_length = longest_edge * spacing_of_edge,
-                .min_length = shortest_edge * spacing_of_edge * sizes->least(),
-                .most_splits = most_splits(input, spacing),
-                .unit_at = sizes->function(),
-                .num_threads = num_threads,
-                .progress = progress};
+        options.max_length = longest_edge * spacing_of_edge;
+        options.min_length = shortest_edge * spacing_of_edge * sizes->least();
     }
-    return {.max_length = longest_edge * spacing,
-            .min_length = std::isfinite(spacing) ? shortest_edge * spacing : 0,
-            .most_splits = most_splits(input, spacing),
-            .num_threads = num_threads,
-            .progress = progress};
+    return options;
 }
 
 }  // namespace
 
-PreparedSurface::PreparedSurface(const Surface& input, double spacing, int num_threads,
-                                 const Progress& progress, const SizeField* sizes)
-    : base(input, options_for(input, spacing, sizes, num_threads, within(progress, 0, base_share))),
+PreparedSurface::PreparedSurface(IntrinsicTriangulation made, double spacing, int num_threads,
+                                 const Progress& progress)
+    : base(std::move(made)),
       piece_area(piece_share * spacing * spacing),
       pieces(std::in_place, base, piece_area, num_threads,
              within(progress, base_share, base_share)),
       layout(base.surface(), num_threads, within(progress, layout_begin, layout_begin)) {}
 
+PreparedSurface::PreparedSurface(const Surface& input, double spacing, int num_threads,
+                                 const Progress& progress, const SizeField* sizes)
+    : PreparedSurface(
+          IntrinsicTriangulation(input, options_for(input, spacing, sizes, num_threads, progress)),
+          spacing, num_threads, progress) {}
+
 PreparedSurface::PreparedSurface(Surface&& input, double spacing, int num_threads,
                                  const Progress& progress, const SizeField* sizes)
-    : base(std::move(input),
-           options_for(input, spacing, sizes, num_threads, within(progress, 0, base_share))),
-      piece_area(piece_share * spacing * spacing),
-      pieces(std::in_place, base, piece_area, num_threads,
-             within(progress, base_share, base_share)),
-      layout(base.surface(), num_threads, within(progress, layout_begin, layout_begin)) {}
+    : PreparedSurface(IntrinsicTriangulation(std::move(input), options_for(input, spacing, sizes,
+                                                                           num_threads, progress)),
+                      spacing, num_threads, progress) {}
 
 void PreparedSurface::find_pieces(int num_threads, const Progress& progress) {
     if (!pieces) pieces.emplace(base, piece_area, num_threads, progress);
@@ -82,23 +81,23 @@ double mean_spacing(const Surface& surface, std::size_t num_sites) {
     return std::sqrt(area / static_cast<double>(std::max<std::size_t>(num_sites, 1)));
 }
 
+Index face_of_input(const IntrinsicTriangulation& base, Index face) {
+    if (!base.is_changed(face)) return face;
+    const Surface& input = base.input();
+    const Index corner = base.surface().mesh.triangles[face][0];
+    return corner < input.num_vertices() ? Surface::face(input.outgoing[corner])
+                                         : base.place_of_added(corner).face.value();
+}
+
 std::vector<Index> parts_of_base(const IntrinsicTriangulation& base, std::span<const Index> of_face,
                                  const Progress& progress) {
     Poller poller(progress);
     Ticker ticker(poller);
-    const Surface& input = base.input();
     std::vector<Index> parts;
     parts.reserve(base.surface().num_faces());
     for (Index f = 0; f < base.surface().num_faces(); ++f) {
         ticker.tick();
-        if (!base.is_changed(f)) {
-            parts.push_back(of_face[f]);
-            continue;
-        }
-        const Index corner = base.surface().mesh.triangles[f][0];
-        parts.push_back(
-            of_face[corner < input.num_vertices() ? Surface::face(input.outgoing[corner])
-                                                  : base.place_of_added(corner).face.value()]);
+        parts.push_back(of_face[face_of_input(base, f)]);
     }
     return parts;
 }

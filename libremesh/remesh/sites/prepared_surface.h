@@ -1,14 +1,19 @@
 //! \file
-//! A surface with the data derived from it once, for sites of a given spacing.
+//! A surface with the data derived from it once, for sites of a given spacing. What was reset is
+//! found again as it was. Held by PreparedSurface.FindsThePiecesAgainThatWereReset in
+//! tests/remesh/sites.
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "agvd/intrinsic/face_pieces.h"
 #include "agvd/propagation/propagate.h"
-#include "remesh/sites/size_field.h"
+#include "remesh/names.h"
 
 namespace remesh {
+
+class SizeField;
 
 //! Labels, propagation and diagram use `base`; operations in space use its input.
 struct PreparedSurface {
@@ -36,10 +41,17 @@ struct PreparedSurface {
     //! Sets `pieces` if they were reset.
     //! \throw Cancelled  the progress callback returned false.
     void find_pieces(int num_threads, const Progress& progress = {});
+
+private:
+    PreparedSurface(IntrinsicTriangulation made, double spacing, int num_threads,
+                    const Progress& progress);
 };
 
 //! The square root of the area for each site, mesh units.
 [[nodiscard]] double mean_spacing(const Surface& surface, std::size_t num_sites);
+
+//! A face of the input in the same patch as a face of the base.
+[[nodiscard]] Index face_of_input(const IntrinsicTriangulation& base, Index face);
 
 //! Transfers numbers of the input's components to the base's faces.
 //!

@@ -15,7 +15,8 @@
 #include "remesh/curves/glue.h"
 #include "remesh/dual/reduce_vertices.h"
 #include "remesh/sites/levels.h"
-#include "remesh/sites/subdivide.h"
+#include "remesh/sites/sampling.h"
+#include "remesh/sites/site_dual.h"
 #include "remesh/sites/walk.h"
 
 namespace remesh {
@@ -40,116 +41,110 @@ std::vector<Index> coarse_intervals(const NetworkPlan& plan) {
 }
 
 // Maps the sites of a coarse level to those of the fine one.
-class Refinement {
-public:
-    Refinement(const NetworkPlan& plan, const CurveSites& coarse, const CurveSites& fine)
-        : plan_(plan), coarse_(coarse), fine_(fine) {}
+struct Refinement {
+    const NetworkPlan& plan;
+    const CurveSites& coarse;
+    const CurveSites& fine;
 
     // The number of a coarse site in the fine level.
     [[nodiscard]] Index number(Index site) const {
-        if (site >= coarse_.sites.size()) {
-            return site + static_cast<Index>(fine_.sites.size() - coarse_.sites.size());
+        if (site >= coarse.sites.size()) {
+            return site + static_cast<Index>(fine.sites.size() - coarse.sites.size());
         }
         const auto group = static_cast<Index>(
-            std::upper_bound(coarse_.first_copy.begin(), coarse_.first_copy.end(), site) -
-            coarse_.first_copy.begin() - 1);
-        return fine_.first_copy[fine_group(group)] + site - coarse_.first_copy[group];
+            std::upper_bound(coarse.first_copy.begin(), coarse.first_copy.end(), site) -
+            coarse.first_copy.begin() - 1);
+        return fine.first_copy[fine_group(group)] + site - coarse.first_copy[group];
     }
 
     // The fine site in the middle of an interval; no_index if there is none.
     [[nodiscard]] Index middle(const ChainEdge& edge) const {
         const Index begin = fine_place(edge.curve, edge.interval);
         if (fine_place(edge.curve, edge.interval + 1) - begin < 2) return no_index;
-        return fine_.first_copy[group_at(fine_, edge.curve, begin + 1)] + edge.side;
+        return fine.first_copy[fine_site(edge.curve, begin + 1)] + edge.side;
     }
 
-private:
     // The index of the k-th vertex of the coarse curve among the vertices of the fine one.
     [[nodiscard]] Index fine_place(Index curve, Index k) const {
-        const std::uint64_t fine = plan_.intervals[curve];
-        return static_cast<Index>(k * fine / num_intervals(coarse_, curve));
+        const std::vector<Index>& first = coarse.first_of_curve;
+        const std::uint64_t intervals = plan.intervals[curve];
+        return static_cast<Index>(k * intervals /
+                                  (first[curve + 1] - first[curve] + num_before(curve)));
     }
-    [[nodiscard]] Index num_intervals(const CurveSites& sites, Index curve) const {
-        const Index inner = sites.first_of_curve[curve + 1] - sites.first_of_curve[curve];
-        return plan_.network.curves[curve].is_closed() ? inner : inner + 1;
+    // Vertices at the start of a curve that are no sites of its own: its first node.
+    [[nodiscard]] Index num_before(Index curve) const {
+        return plan.network.curves[curve].is_closed() ? 0 : 1;
     }
-    [[nodiscard]] Index group_at(const CurveSites& sites, Index curve, Index place) const {
-        const bool is_closed = plan_.network.curves[curve].is_closed();
-        return sites.first_of_curve[curve] + place - (is_closed ? 0 : 1);
+    // The fine group at such a place.
+    [[nodiscard]] Index fine_site(Index curve, Index place) const {
+        return fine.first_of_curve[curve] + place - num_before(curve);
     }
     [[nodiscard]] Index fine_group(Index group) const {
-        if (group < coarse_.num_nodes()) return group;
+        if (group < coarse.num_nodes()) return group;
         const auto curve = static_cast<Index>(
-            std::upper_bound(coarse_.first_of_curve.begin(), coarse_.first_of_curve.end(), group) -
-            coarse_.first_of_curve.begin() - 1);
-        const bool is_closed = plan_.network.curves[curve].is_closed();
-        const Index place = group - coarse_.first_of_curve[curve] + (is_closed ? 0 : 1);
-        return group_at(fine_, curve, fine_place(curve, place));
+            std::upper_bound(coarse.first_of_curve.begin(), coarse.first_of_curve.end(), group) -
+            coarse.first_of_curve.begin() - 1);
+        const Index place = group - coarse.first_of_curve[curve] + num_before(curve);
+        return fine_site(curve, fine_place(curve, place));
     }
-
-    const NetworkPlan& plan_;
-    const CurveSites& coarse_;
-    const CurveSites& fine_;
 };
 
 // Finds the middles of a coarse level's triangulation for the fine level. On curves they are sites
 // of the fine level. Strips narrower than the spacing get no other middles.
-class MiddleFinder {
-public:
-    MiddleFinder(const NetworkPlan& plan, std::span<const ChainEdge> chain,
-                 std::span<const SurfacePoint> sites, const SizeField* sizes)
-        : plan_(plan), chain_(chain), sites_(sites), sizes_(sizes) {
-        for (const ChainEdge& edge : chain) is_chain_.insert(std::minmax({edge.from, edge.to}));
-    }
+struct MiddleFinder {
+    using Pair = std::pair<Index, Index>;
+
+    const NetworkPlan& plan;
+    std::span<const ChainEdge> chain;
+    std::span<const SurfacePoint> sites;
+    const SizeField* sizes;
+    std::set<Pair> is_chain = {};
+    std::map<Pair, detail::Middle> by_pair = {};
 
     void run(const Refinement& refinement, detail::SiteDual& dual) {
+        for (const ChainEdge& edge : chain) is_chain.insert(std::minmax({edge.from, edge.to}));
         for (const Triangle& t : dual.triangles) {
             for (std::size_t k = 0; k < 3; ++k) {
                 const Pair pair = std::minmax({t[k], t[(k + 1) % 3]});
-                if (!by_pair_.contains(pair)) by_pair_[pair] = middle_of(pair);
+                if (!by_pair.contains(pair)) by_pair[pair] = middle_of(pair);
             }
         }
         for (const detail::Middle& m : dual.middles) {
-            const auto found = by_pair_.find({m.low, m.high});
-            if (found != by_pair_.end()) found->second = m;
+            const auto found = by_pair.find({m.low, m.high});
+            if (found != by_pair.end()) found->second = m;
         }
         for (const Triangle& t : dual.triangles) {
             for (std::size_t k = 0; k < 3; ++k) {
                 drop_if_narrow(t[k], t[(k + 1) % 3], t[(k + 2) % 3]);
             }
         }
-        for (const ChainEdge& edge : chain_) take_site(edge, refinement);
+        for (const ChainEdge& edge : chain) take_site(edge, refinement);
         dual.middles.clear();
-        for (const auto& [pair, middle] : by_pair_) dual.middles.push_back(middle);
+        for (const auto& [pair, middle] : by_pair) dual.middles.push_back(middle);
     }
 
-private:
-    using Pair = std::pair<Index, Index>;
-
-    [[nodiscard]] const Surface& surface() const { return plan_.cut.surface; }
-    [[nodiscard]] Vec3 at(Index site) const {
-        return position(surface().mesh.view(), sites_[site]);
-    }
+    [[nodiscard]] const Surface& surface() const { return plan.cut.surface; }
+    [[nodiscard]] Vec3 at(Index site) const { return position(surface().mesh.view(), sites[site]); }
 
     // The middle of an edge for which labels give none.
     [[nodiscard]] detail::Middle middle_of(const Pair& pair) const {
         const Vec3 way = at(pair.second) - at(pair.first);
         return {pair.first, pair.second, way.norm(),
-                detail::walk_straight(surface(), sites_[pair.first], way / 2).end};
+                detail::walk_straight(surface(), sites[pair.first], way / 2).end};
     }
 
     // Drops the middle of edge (a, b) if it is too near to a curve on the side of c.
     void drop_if_narrow(Index a, Index b, Index c) {
         const Pair pair = std::minmax({a, b});
-        const auto found = by_pair_.find(pair);
-        if (found == by_pair_.end() || is_chain_.contains(pair)) return;
+        const auto found = by_pair.find(pair);
+        if (found == by_pair.end() || is_chain.contains(pair)) return;
         const Vec3 middle = position(surface().mesh.view(), found->second.point);
         for (const Index end : {a, b}) {
-            if (!is_chain_.contains(std::minmax({end, c}))) continue;
+            if (!is_chain.contains(std::minmax({end, c}))) continue;
             const double apart = distance_to_segment(middle, at(end), at(c));
-            const double unit = sizes_ != nullptr ? sizes_->at(found->second.point) : 1;
-            if (apart >= least_distance * plan_.spacing * unit) continue;
-            by_pair_.erase(found);
+            const double unit = sizes != nullptr ? sizes->at(found->second.point) : 1;
+            if (apart >= least_distance * plan.spacing * unit) continue;
+            by_pair.erase(found);
             return;
         }
     }
@@ -157,86 +152,15 @@ private:
     // Makes the fine site in the middle of an interval its middle. An interval without one is not
     // divided.
     void take_site(const ChainEdge& edge, const Refinement& refinement) {
-        const auto found = by_pair_.find(std::minmax({edge.from, edge.to}));
-        if (found == by_pair_.end()) return;
+        const auto found = by_pair.find(std::minmax({edge.from, edge.to}));
+        if (found == by_pair.end()) return;
         const Index site = refinement.middle(edge);
         if (site == no_index) {
-            by_pair_.erase(found);
+            by_pair.erase(found);
         } else {
             found->second.site = site;
         }
     }
-
-    const NetworkPlan& plan_;
-    std::span<const ChainEdge> chain_;
-    std::span<const SurfacePoint> sites_;
-    const SizeField* sizes_;
-    std::set<Pair> is_chain_;
-    std::map<Pair, detail::Middle> by_pair_;
-};
-
-// Replaces the triangulation of single patches.
-class Patches {
-public:
-    explicit Patches(const PreparedSurface& surface) : surface_(surface) {
-        Poller never;
-        component_ = label_components(surface.input().twin, 1, never);
-        faces_.resize(component_.count);
-        const std::vector<Index> parts = parts_of_base(surface.base, component_.of_face);
-        for (Index f = 0; f < parts.size(); ++f) faces_[parts[f]].push_back(f);
-    }
-
-    // Replaces the triangles of patches whose rim is not their chain.
-    //
-    // \param instead  gives other triangles for a patch, which may have a wrong rim too.
-    template <typename Instead>
-    void mend(std::span<const ChainEdge> chain, std::span<const SurfacePoint> sites,
-              std::vector<Triangle>& triangles, const Instead& instead) const {
-        const std::vector<std::vector<Triangle>> by_patch = sort(triangles, sites);
-        const auto part_of = [&](Index site) { return patch_of(sites[site]); };
-        const auto wanted = chain_by_part(chain, component_.count, part_of);
-        triangles.clear();
-        for (Index i = 0; i < faces_.size(); ++i) {
-            const bool is_right = rim_of(by_patch[i]) == wanted[i];
-            const std::vector<Triangle> chosen = is_right ? by_patch[i] : instead(i);
-            triangles.insert(triangles.end(), chosen.begin(), chosen.end());
-        }
-    }
-
-    // The triangles by patch.
-    [[nodiscard]] std::vector<std::vector<Triangle>> sort(
-        std::span<const Triangle> triangles, std::span<const SurfacePoint> sites) const {
-        std::vector<std::vector<Triangle>> result(faces_.size());
-        for (const Triangle& t : triangles) result[patch_of(sites[t[0]])].push_back(t);
-        return result;
-    }
-
-    // The patch thinned to its sites; empty if that leaves other vertices.
-    [[nodiscard]] std::vector<Triangle> thin(Index patch,
-                                             std::span<const SurfacePoint> sites) const {
-        std::vector<SurfacePoint> points;
-        std::vector<Index> number;
-        for (Index i = 0; i < sites.size(); ++i) {
-            if (patch_of(sites[i]) != patch) continue;
-            points.push_back(surface_.base.to_intrinsic(sites[i]));
-            number.push_back(i);
-        }
-        ThinnedMesh thinned = thin_patch(surface_.base.surface(), faces_[patch], points);
-        if (!thinned.extra.empty()) return {};
-        for (Triangle& t : thinned.triangles) {
-            for (Index& i : t) i = number[i];
-        }
-        return std::move(thinned.triangles);
-    }
-
-private:
-    [[nodiscard]] Index patch_of(const SurfacePoint& site) const {
-        return component_.of_face[site.face.value()];
-    }
-
-    const PreparedSurface& surface_;
-    FaceLabels component_;                   // Of the input's faces.
-    std::vector<std::vector<Index>> faces_;  // Of the base, by patch.
 };
 
 class NetworkSampler {
@@ -247,9 +171,13 @@ public:
           plan_(plan),
           options_(options),
           levels_(surface, options_, num_levels),
-          patches_(surface),
           fine_(std::move(fine)) {
         options_.boundary = Boundary::Free;
+        Poller never;
+        patch_ = label_components(surface.input().twin, 1, never);
+        faces_.resize(patch_.count);
+        const std::vector<Index> parts = parts_of_base(surface.base, patch_.of_face);
+        for (Index f = 0; f < parts.size(); ++f) faces_[parts[f]].push_back(f);
     }
 
     NetworkSites run_given(std::span<const SurfacePoint> inner) {
@@ -274,6 +202,53 @@ public:
     }
 
 private:
+    // Replaces the triangles of patches whose rim is not their chain.
+    //
+    // \param instead  gives other triangles for a patch, which may have a wrong rim too.
+    template <typename Instead>
+    void mend_patches(std::span<const ChainEdge> chain, std::span<const SurfacePoint> sites,
+                      std::vector<Triangle>& triangles, const Instead& instead) const {
+        const std::vector<std::vector<Triangle>> by_patch = sort_by_patch(triangles, sites);
+        const auto part_of = [&](Index site) { return patch_of(sites[site]); };
+        const auto wanted = chain_by_part(chain, patch_.count, part_of);
+        triangles.clear();
+        for (Index i = 0; i < faces_.size(); ++i) {
+            const bool is_right = rim_of(by_patch[i]) == wanted[i];
+            const std::vector<Triangle> chosen = is_right ? by_patch[i] : instead(i);
+            triangles.insert(triangles.end(), chosen.begin(), chosen.end());
+        }
+    }
+
+    // The triangles by patch.
+    [[nodiscard]] std::vector<std::vector<Triangle>> sort_by_patch(
+        std::span<const Triangle> triangles, std::span<const SurfacePoint> sites) const {
+        std::vector<std::vector<Triangle>> result(faces_.size());
+        for (const Triangle& t : triangles) result[patch_of(sites[t[0]])].push_back(t);
+        return result;
+    }
+
+    // The patch thinned to its sites; empty if that leaves other vertices.
+    [[nodiscard]] std::vector<Triangle> thin(Index patch,
+                                             std::span<const SurfacePoint> sites) const {
+        std::vector<SurfacePoint> points;
+        std::vector<Index> number;
+        for (Index i = 0; i < sites.size(); ++i) {
+            if (patch_of(sites[i]) != patch) continue;
+            points.push_back(surface_.base.to_intrinsic(sites[i]));
+            number.push_back(i);
+        }
+        ThinnedMesh thinned = thin_patch(surface_.base.surface(), faces_[patch], points);
+        if (!thinned.extra.empty()) return {};
+        for (Triangle& t : thinned.triangles) {
+            for (Index& i : t) i = number[i];
+        }
+        return std::move(thinned.triangles);
+    }
+
+    [[nodiscard]] Index patch_of(const SurfacePoint& site) const {
+        return patch_.of_face[site.face.value()];
+    }
+
     NetworkSites finish(const Relaxation& last) {
         return {last.curves()->sites(), last.sites(), levels_.finish({}).levels};
     }
@@ -286,18 +261,22 @@ private:
         return sites;
     }
 
+    std::unique_ptr<Relaxation> make_relaxation(detail::TriangulatedSites sites,
+                                                const CurveSites& curves) {
+        auto relaxation = std::make_unique<Relaxation>(surface_.input(), std::move(sites),
+                                                       std::vector<std::uint8_t>{},
+                                                       options_.num_threads, levels_.progress());
+        relaxation->hold(plan_.network, curves);
+        return relaxation;
+    }
+
     // Relaxes a level from scratch.
     std::unique_ptr<Relaxation> start(const CurveSites& curves, std::vector<SurfacePoint> sites) {
         const std::vector<ChainEdge> chain = chain_edges(plan_.network, plan_.cut, curves);
         const DistanceBounds labels = levels_.label(sites);
-        std::vector<Triangle> triangles = detail::triangulate_sites(
-            surface_, labels, sites, chain, options_.num_threads, levels_.progress());
-        patches_.mend(chain, sites, triangles,
-                      [&](Index patch) { return patches_.thin(patch, sites); });
-        auto relaxation = std::make_unique<Relaxation>(
-            surface_.input(), std::move(sites), std::move(triangles), std::vector<std::uint8_t>{},
-            std::vector<double>{}, options_.num_threads, levels_.progress());
-        relaxation->hold(plan_.network, curves);
+        std::vector<Triangle> triangles = levels_.triangulate(labels, sites, chain);
+        mend_patches(chain, sites, triangles, [&](Index patch) { return thin(patch, sites); });
+        auto relaxation = make_relaxation({std::move(sites), std::move(triangles)}, curves);
         levels_.run(*relaxation, &labels, {}, chain);
         return relaxation;
     }
@@ -305,10 +284,10 @@ private:
     // Relaxes a coarse level and divides it; null if it would have too few sites.
     std::unique_ptr<Relaxation> start_coarse() {
         const std::vector<Index> intervals = coarse_intervals(plan_);
-        const CurveSites coarse = curve_sites_at(
-            plan_.network, plan_.cut,
-            even_places(plan_.cut.surface, plan_.network, plan_.spacing, intervals,
-                        options_.sizes != nullptr ? options_.sizes->function() : UnitAt{}));
+        const CurveSites coarse =
+            curve_sites_at(plan_.network, plan_.cut,
+                           even_places(plan_.cut.surface, plan_.network, plan_.spacing, intervals,
+                                       length_function(options_.sizes)));
         const double euler = euler_of(plan_.cut.surface);
         const double wanted =
             (num_inner_ - static_cast<double>(coarse.sites.size()) + 3 * euler) / 4 + 1;
@@ -323,14 +302,14 @@ private:
 
     std::unique_ptr<Relaxation> divide(const Relaxation& first, const CurveSites& coarse) {
         const std::vector<ChainEdge> chain = chain_edges(plan_.network, plan_.cut, coarse);
-        const Refinement refinement(plan_, coarse, fine_);
+        const Refinement refinement{plan_, coarse, fine_};
         detail::SiteDual dual =
             detail::label_dual(surface_.base, levels_.label(first.sites()), true);
         close_rim(ends_of(chain), dual.triangles);
-        const auto relaxed = patches_.sort(first.triangles(), first.sites());
-        patches_.mend(chain, first.sites(), dual.triangles,
-                      [&](Index patch) { return relaxed[patch]; });
-        MiddleFinder(plan_, chain, first.sites(), options_.sizes).run(refinement, dual);
+        const auto relaxed = sort_by_patch(first.triangles(), first.sites());
+        mend_patches(chain, first.sites(), dual.triangles,
+                     [&](Index patch) { return relaxed[patch]; });
+        MiddleFinder{plan_, chain, first.sites(), options_.sizes}.run(refinement, dual);
         // The sites in the order of the fine level. New curve sites have no triangle yet.
         std::vector<SurfacePoint> sites = fine_.sites;
         std::vector<double> weights(fine_.sites.size(), 1);
@@ -352,20 +331,13 @@ private:
             m.high = pair.second;
             if (m.site != no_index) weights[m.site] = (weights[m.low] + weights[m.high]) / 2;
         }
-        std::sort(dual.middles.begin(), dual.middles.end(), [](const auto& a, const auto& b) {
-            return std::pair(a.low, a.high) < std::pair(b.low, b.high);
-        });
+        std::ranges::sort(dual.middles, {},
+                          [](const detail::Middle& m) { return std::pair(m.low, m.high); });
         const auto count = static_cast<Index>(fine_.sites.size()) + num_inner_;
         std::optional<detail::TriangulatedSites> divided = detail::subdivide(
-            plan_.cut.surface, sites, weights, dual, count,
-            options_.sizes != nullptr ? options_.sizes->at(sites) : std::vector<double>{});
+            plan_.cut.surface, sites, weights, dual, count, lengths_at(options_.sizes, sites));
         if (!divided) return nullptr;
-        auto last = std::make_unique<Relaxation>(
-            surface_.input(), std::move(divided->sites), std::move(divided->triangles),
-            std::vector<std::uint8_t>{}, std::move(divided->weights), options_.num_threads,
-            levels_.progress());
-        last->hold(plan_.network, fine_);
-        return last;
+        return make_relaxation(*std::move(divided), fine_);
     }
 
     const PreparedSurface& surface_;
@@ -373,8 +345,9 @@ private:
     SamplingOptions sampling_;
     RelaxOptions options_;
     detail::Levels levels_;
-    const Patches patches_;
     const CurveSites fine_;
+    FaceLabels patch_;                       // Of the faces of the input.
+    std::vector<std::vector<Index>> faces_;  // Of the base, by patch.
     Index num_inner_ = 0;
 };
 

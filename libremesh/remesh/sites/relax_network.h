@@ -3,6 +3,7 @@
 #pragma once
 
 #include "remesh/sites/network_plan.h"
+#include "remesh/sites/prepared_surface.h"
 #include "remesh/sites/relax_sites.h"
 
 namespace remesh {

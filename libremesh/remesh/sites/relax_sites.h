@@ -1,14 +1,59 @@
 //! \file
-//! Moves sites towards a centroidal Voronoi tessellation.
+//! Moves sites towards a centroidal Voronoi tessellation, so that they are spread evenly.
+//! Held by RelaxSites.TheEnergyFallsAndHardlyEverRises and the other tests of RelaxSites in
+//! tests/remesh/sites.
 #pragma once
 
-#include <span>
+#include <functional>
+#include <optional>
+#include <vector>
 
-#include "remesh/sites/prepared_surface.h"
-#include "remesh/sites/relax_options.h"
+#include "agvd/core/progress.h"
+#include "agvd/mesh/surface_point.h"
 #include "remesh/sites/sample_sites.h"
 
 namespace remesh {
+
+struct PreparedSurface;
+
+//! One level of relaxation.
+struct RelaxLevel {
+    Index num_sites = 0;  //!< Sites of this level.
+    //! Before the first step and after each: the sum over the cells of the integral of the squared
+    //! distance from the site, on the triangulation of the sites; mesh units to the fourth.
+    std::vector<double> energy;
+};
+
+//! The energy after a step as a share of that before the first. None where the first is 0: all
+//! triangles of the sites are too thin for it.
+[[nodiscard]] inline std::optional<double> energy_share(const RelaxLevel& level, std::size_t step) {
+    if (!(level.energy.front() > 0)) return std::nullopt;
+    return level.energy[step] / level.energy.front();
+}
+
+//! `{}` gives the defaults.
+struct RelaxOptions {
+    int steps = 60;  //!< >= 0; on each level.
+    //! Stops when ten steps lower the energy by less than this share, >= 0.
+    double tolerance = 1e-4;
+    //! The caller's own rule besides these two: asked after each step, on the caller's thread, with
+    //! the level so far. False ends the level; its sites stay where they are now. May be empty.
+    std::function<bool(const RelaxLevel&)> goes_on = {};
+    std::vector<std::uint8_t> is_fixed = {};  //!< #sites: 1 for sites that stay; or empty.
+    Boundary boundary = Boundary::Keep;       //!< Keep: inner sites whose cells meet it move to it.
+    std::vector<Index> corners = {};          //!< Boundary vertices: with Keep, sites move there.
+    int num_threads = 0;     //!< >= 0; 0: all cores. The same bytes for any number.
+    Progress progress = {};  //!< Polled during the call; see poll.
+    //! Target lengths: cells get areas in proportion to their squares. Outlives the call; null: all
+    //! are equal, and cells are smaller where they are bent.
+    const SizeField* sizes = nullptr;
+};
+
+//! Sites after relaxation.
+struct RelaxResult {
+    std::vector<SurfacePoint> sites;  //!< On the input, in the order given.
+    std::vector<RelaxLevel> levels;   //!< Coarse to fine.
+};
 
 //! Lloyd's method with momentum: sites move towards the centroids of their cells, along the
 //! surface. Sites on the boundary (barycentric coordinates of exactly 0) stay on it; sites at

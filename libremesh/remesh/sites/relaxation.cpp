@@ -49,18 +49,18 @@ constexpr double degenerate_quality = 0.1;
 
 }  // namespace
 
-Relaxation::Relaxation(const Surface& surface, std::vector<SurfacePoint> sites,
-                       std::vector<Triangle> triangles, std::vector<std::uint8_t> is_fixed,
-                       std::vector<double> weights, int num_threads, const Progress& progress)
+Relaxation::Relaxation(const Surface& surface, TriangulatedSites start,
+                       std::vector<std::uint8_t> is_fixed, int num_threads,
+                       const Progress& progress)
     : surface_(surface),
       num_threads_(num_threads),
       poller_(progress),
       ticker_(poller_),
-      sites_(std::move(sites)),
+      sites_(std::move(start.sites)),
       at_(sites_.size()),
       facing_(sites_.size()),
       move_(sites_.size(), Vec3::Zero()),
-      weight_(std::move(weights)),
+      weight_(std::move(start.weights)),
       is_fixed_(std::move(is_fixed)),
       boundary_(sites_.size()) {
     weight_.resize(sites_.size(), 1);
@@ -72,22 +72,22 @@ Relaxation::Relaxation(const Surface& surface, std::vector<SurfacePoint> sites,
         // The vertex is a corner of the boundary, or as good a place as any on its loop.
         if (boundary_[i] != no_index && vertex_of(surface_, sites_[i])) is_fixed_[i] = 1;
     }
-    take_triangles(std::move(triangles));
+    take_triangles(std::move(start.triangles));
 }
 
 void Relaxation::hold(const CurveNetwork& network, CurveSites curves) {
     curves_.emplace(surface_, network, std::move(curves));
     std::fill(is_fixed_.begin(), is_fixed_.begin() + curves_->num_copies(), 1);
-    measure_energy(mesh_, at_, weight_, true, ticker_, now_);
+    measure();
 }
 
 void Relaxation::take_triangles(std::vector<Triangle> triangles) {
     mesh_ = build_site_mesh(std::move(triangles), static_cast<Index>(sites_.size()), ticker_);
     find_stuck();
-    measure_energy(mesh_, at_, weight_, curves_.has_value(), ticker_, now_);
+    measure();
     for (int round = 0; round < most_flip_rounds; ++round) {
         if (flip_towards_delaunay(mesh_, at_, now_.cotangent, ticker_) == 0) break;
-        measure_energy(mesh_, at_, weight_, curves_.has_value(), ticker_, now_);
+        measure();
     }
     find_turned(mesh_, at_, facing_, turned_);
 }
@@ -108,7 +108,7 @@ void Relaxation::mend(const std::vector<Triangle>& triangles) {
     if (num_flaws() < flaws) return;
     mesh_ = std::move(before);
     find_stuck();
-    measure_energy(mesh_, at_, weight_, curves_.has_value(), ticker_, now_);
+    measure();
     find_turned(mesh_, at_, facing_, turned_);
 }
 
@@ -147,34 +147,27 @@ bool Relaxation::is_degenerate_at_boundary(const Triangle& t) const {
            2 * std::numbers::sqrt3 * normal.norm() < degenerate_quality * squares;
 }
 
-void Relaxation::set_density(const CellMeasures& cells) {
-    set_density(cells, bending_power);
-    measure_energy(mesh_, at_, weight_, curves_.has_value(), ticker_, now_);
-}
-
-void Relaxation::set_density(const CellMeasures& cells, std::span<const double> length) {
-    set_density(cells, 0);
-    multiply_density(length);
-    measure_energy(mesh_, at_, weight_, curves_.has_value(), ticker_, now_);
-}
-
-void Relaxation::set_density(std::span<const double> length) {
-    weight_.assign(sites_.size(), 1);
-    multiply_density(length);
-    measure_energy(mesh_, at_, weight_, curves_.has_value(), ticker_, now_);
-}
-
-// Cells of area A have A^2 in proportion to 1 / density.
-void Relaxation::multiply_density(std::span<const double> length) {
+void Relaxation::set_density(const CellMeasures* cells, std::span<const double> length) {
+    if (cells != nullptr) {
+        weigh_cells(*cells, length.empty() ? bending_power : 0);
+    } else {
+        weight_.assign(sites_.size(), 1);
+    }
+    // Cells of area A have A^2 in proportion to 1 / density.
     double sum = 0;
     for (const double l : length) sum += l;
     const double mean = sum / static_cast<double>(length.size());
     for (std::size_t i = 0; i < length.size(); ++i) {
         weight_[i] *= std::pow(mean / length[i], 4);
     }
+    measure();
 }
 
-void Relaxation::set_density(const CellMeasures& cells, double power_of_bending) {
+void Relaxation::measure() {
+    measure_energy(mesh_, at_, weight_, curves_.has_value(), ticker_, now_);
+}
+
+void Relaxation::weigh_cells(const CellMeasures& cells, double power_of_bending) {
     // Sums over a site and its neighbours: measurements of cells are rough where faces are large,
     // and sizes must not change abruptly.
     struct Sums {
@@ -213,7 +206,7 @@ void Relaxation::step() {
     walk();
     poller_.poll();
     take_back();
-    measure_energy(mesh_, at_, weight_, curves_.has_value(), ticker_, now_);
+    measure();
     // The flips are few; the next step measures what they change.
     flip_towards_delaunay(mesh_, at_, now_.cotangent, ticker_);
 }

@@ -4,13 +4,44 @@
 
 #include <optional>
 
-#include "agvd/mesh/surface.h"
-#include "agvd/mesh/surface_point.h"
-#include "remesh/sites/curve_motion.h"
-#include "remesh/sites/cvt_energy.h"
-#include "remesh/sites/site_labels.h"
+#include "remesh/curves/curve_sites.h"
+#include "remesh/sites/cell_measures.h"
+#include "remesh/sites/site_mesh.h"
 
 namespace remesh::detail {
+
+//! Moves sites along their curves, all copies of a site together.
+class CurveMotion {
+public:
+    //! \param surface  of the network, whole or cut; outlives this, as does the network.
+    CurveMotion(const Surface& surface, const CurveNetwork& network, CurveSites sites);
+
+    [[nodiscard]] const CurveSites& sites() const { return sites_; }
+    [[nodiscard]] Index num_copies() const { return static_cast<Index>(sites_.sites.size()); }
+
+    //! Computes the slope of the energy along the curves from the cells of all copies.
+    //!
+    //! \param cells  #sites; the copies come first.
+    //! \return the sum of slope times last move.
+    double measure(std::span<const CvtEnergy::Cell> cells);
+    //! Moves all groups but nodes by `stretch` times Newton's step plus `keep` times the last move,
+    //! but not past their neighbours.
+    void step(double stretch, double keep);
+    //! Undoes the last move of the group that has this copy.
+    void take_back(Index copy);
+    //! The copies in the group of this one: [first, last).
+    [[nodiscard]] std::pair<Index, Index> copies_with(Index copy) const {
+        return {sites_.first_copy[group_[copy]], sites_.first_copy[group_[copy] + 1]};
+    }
+
+private:
+    const Surface& surface_;
+    const CurveNetwork& network_;
+    CurveSites sites_;
+    std::vector<Index> group_;  // By copy.
+    std::vector<Index> curve_;  // By group; no_index: it does not move.
+    std::vector<double> half_slope_, stiffness_, move_, along_before_;  // By group.
+};
 
 //! Lloyd's method with momentum, on the triangulation of the sites instead of their geodesic
 //! Voronoi diagram: a step costs a few hundredths of a propagation. Cells are those of the
@@ -24,13 +55,12 @@ public:
     //! Sites on the boundary stay on it. Sites at boundary vertices do not move, nor do sites in no
     //! triangle, nor inner sites around which triangles do not close.
     //!
+    //! \param start     its weights are the density at the start.
     //! \param is_fixed  #sites: 1 for sites that stay; or empty.
-    //! \param weights   #sites: the density at the start; or empty.
     //! \param progress  outlives this; polled by all long operations. If one of these throws
     //!                  Cancelled, this object is unspecified then.
-    Relaxation(const Surface& surface, std::vector<SurfacePoint> sites,
-               std::vector<Triangle> triangles, std::vector<std::uint8_t> is_fixed,
-               std::vector<double> weights, int num_threads, const Progress& progress);
+    Relaxation(const Surface& surface, TriangulatedSites start, std::vector<std::uint8_t> is_fixed,
+               int num_threads, const Progress& progress);
 
     //! From now on sites of curves, which come first, slide along these; those at nodes stay.
     //!
@@ -38,14 +68,12 @@ public:
     //! \param curves  its sites: the first ones of all.
     void hold(const CurveNetwork& network, CurveSites curves);
 
-    //! Sets the density by what the cells hold of the surface.
-    void set_density(const CellMeasures& cells);
-    //! The same with target lengths: bent cells are not smaller than others.
+    //! Sets the density by what the cells hold of the surface, by target lengths, or both: then
+    //! bent cells are not smaller than others.
     //!
-    //! \param length  #sites: in any unit.
-    void set_density(const CellMeasures& cells, std::span<const double> length);
-    //! Sets the density by target lengths alone.
-    void set_density(std::span<const double> length);
+    //! \param cells   null: target lengths alone.
+    //! \param length  #sites: in any unit; or empty.
+    void set_density(const CellMeasures* cells, std::span<const double> length);
 
     //! The number of triangles that face against the surface.
     [[nodiscard]] Index num_turned() const { return static_cast<Index>(turned_.size()); }
@@ -76,8 +104,8 @@ public:
     [[nodiscard]] const std::vector<double>& weights() const { return weight_; }
 
 private:
-    void set_density(const CellMeasures& cells, double power_of_bending);
-    void multiply_density(std::span<const double> length);
+    void weigh_cells(const CellMeasures& cells, double power_of_bending);
+    void measure();
     [[nodiscard]] bool is_degenerate_at_boundary(const Triangle& triangle) const;
     void find_stuck();
     void take_triangles(std::vector<Triangle> triangles);

@@ -1,6 +1,6 @@
 // Shares the sites among components by area and boundary length (shares.h). For each component
-// places sites on the boundary loops, then inner sites by one of three methods: scatter.h,
-// eliminate.h or farthest_points.h.
+// places sites on the boundary loops, then inner sites: random ones (scatter), blue noise
+// (eliminate) or farthest points.
 #include "remesh/sites/sample_sites.h"
 
 #include <algorithm>
@@ -9,13 +9,8 @@
 
 #include "agvd/core/error.h"
 #include "agvd/core/parallel.h"
-#include "agvd/mesh/components.h"
-#include "remesh/sites/boundary_curves.h"
-#include "remesh/sites/eliminate.h"
-#include "remesh/sites/farthest_points.h"
-#include "remesh/sites/scatter.h"
+#include "remesh/sites/sampling.h"
 #include "remesh/sites/shares.h"
-#include "remesh/sites/sized_components.h"
 
 namespace remesh {
 namespace {
@@ -26,16 +21,23 @@ constexpr Index candidates_per_site = 5;
 constexpr Index least_candidates = 60;
 constexpr Index most_samples = no_index / candidates_per_site;
 
+// #F
+std::vector<Index> components_of_faces(const Surface& surface,
+                                       const std::vector<Component>& components) {
+    std::vector<Index> component_of(surface.num_faces());
+    for (Index i = 0; i < components.size(); ++i) {
+        for (const Index f : components[i].faces) component_of[f] = i;
+    }
+    return component_of;
+}
+
 // The boundary loops of each component.
 std::vector<std::vector<std::vector<Index>>> find_loops(const Surface& surface,
                                                         const std::vector<Component>& components) {
     std::vector<std::vector<std::vector<Index>>> loops(components.size());
     std::vector<std::vector<Index>> all = boundary_loops(surface);
     if (all.empty()) return loops;
-    std::vector<Index> component_of(surface.num_faces());
-    for (Index i = 0; i < components.size(); ++i) {
-        for (const Index f : components[i].faces) component_of[f] = i;
-    }
+    const std::vector<Index> component_of = components_of_faces(surface, components);
     for (std::vector<Index>& loop : all) {
         loops[component_of[Surface::face(loop[0])]].push_back(std::move(loop));
     }
@@ -59,9 +61,8 @@ std::vector<SurfacePoint> sample_boundary(const Surface& surface,
         std::vector<SurfacePoint> sites;
         for (const std::vector<Index>& loop : loops) {
             const double length = sized_mean(surface, loop, sizes);
-            const auto corners = find_corners(surface, loop, spacing * length);
-            const auto more = sample_loop(surface, loop, corners, spacing,
-                                          sizes != nullptr ? sizes->function() : UnitAt{});
+            const auto more = detail::sample_loop(surface, loop, spacing * length, spacing,
+                                                  length_function(sizes));
             sites.insert(sites.end(), more.begin(), more.end());
         }
         if (sites.size() <= most) return sites;
@@ -72,19 +73,20 @@ std::vector<SurfacePoint> sample_boundary(const Surface& surface,
 
 // `count` points strictly inside faces of a component, besides those on its rim; fewer if it is too
 // small for that many.
+// \param done  the fraction that progress reports.
 std::vector<SurfacePoint> place_inside(const Surface& surface, const Component& component,
                                        const std::vector<SurfacePoint>& rim, Index count,
                                        double spacing, std::uint64_t stream,
-                                       const SamplingOptions& options, const Progress& progress) {
+                                       const SamplingOptions& given, double done) {
+    SamplingOptions options = given;
+    options.progress = within(given.progress, done, done);
     if (options.init == Init::Farthest) {
-        return detail::farthest_points(surface, component, rim, count, spacing, options.seed,
-                                       stream, options.num_threads, progress, options.sizes);
+        return detail::farthest_points(surface, component, rim, count, spacing, stream, options);
     }
     const bool is_blue = options.init == Init::BlueNoise;
     const Index scattered =
         is_blue ? std::max(candidates_per_site * count, least_candidates) : count;
-    auto points = detail::scatter(surface, component, scattered, options.seed, stream, progress,
-                                  options.sizes);
+    auto points = detail::scatter(surface, component, scattered, stream, options);
     if (!is_blue || points.size() < count) {
         std::vector<SurfacePoint> all;
         all.reserve(points.size());
@@ -99,7 +101,41 @@ std::vector<SurfacePoint> place_inside(const Surface& surface, const Component& 
         if (options.sizes != nullptr) unit.push_back(options.sizes->at(p.point));
     }
     return detail::eliminate(surface, points, static_cast<Index>(rim.size()), count, spacing,
-                             options.num_threads, progress, unit);
+                             options.num_threads, options.progress, unit);
+}
+
+// Places at even distances in the unit from `begin` on, before `end`.
+std::vector<double> even_places(const Curve& curve, double begin, double end, double fewest,
+                                double spacing, const UnitAt& unit_at) {
+    const auto intervals_of = [&](double length) {
+        return static_cast<Index>(std::max(fewest, std::round(length / spacing)));
+    };
+    std::vector<double> places;
+    if (!unit_at) {
+        const Index intervals = intervals_of(end - begin);
+        for (Index k = 0; k < intervals; ++k) {
+            places.push_back(begin + (end - begin) * k / intervals);
+        }
+        return places;
+    }
+    // Steps of half a spacing at most, and their sums.
+    std::vector<double> place{begin}, count{0};
+    while (place.back() < end) {
+        const double from = place.back();
+        const double step = spacing * unit_at(point_on_curve(curve, from)) / 2;
+        const double to = end - from < 1.5 * step ? end : from + step;
+        count.push_back(count.back() +
+                        (to - from) / unit_at(point_on_curve(curve, (from + to) / 2)));
+        place.push_back(to);
+    }
+    const Index intervals = intervals_of(count.back());
+    for (Index k = 0, i = 0; k < intervals; ++k) {
+        const double wanted = count.back() * k / intervals;
+        while (i + 2 < place.size() && count[i + 1] < wanted) ++i;
+        const double share = (wanted - count[i]) / (count[i + 1] - count[i]);
+        places.push_back(place[i] + share * (place[i + 1] - place[i]));
+    }
+    return places;
 }
 
 }  // namespace
@@ -159,8 +195,8 @@ std::vector<SurfacePoint> sample_sites(const Surface& surface, const SamplingOpt
         }
         const Index inner = quota[i] - static_cast<Index>(rim.size());
         const double done = static_cast<double>(sites.size()) / options.num_samples;
-        const auto points = place_inside(surface, components[i], rim, inner, spacing, i, options,
-                                         within(options.progress, done, done));
+        const auto points =
+            place_inside(surface, components[i], rim, inner, spacing, i, options, done);
         if (points.size() < inner) {
             throw ConstraintUnmet(
                 "the component of face " + std::to_string(components[i].faces[0]) +
@@ -180,25 +216,9 @@ std::vector<SurfacePoint> sample_inner_sites(const Surface& surface,
     const Progress begin = within(options.progress, 0, 0);
     const std::vector<Component> components =
         detail::sized_components(surface, options.sizes, options.num_threads, begin);
-    std::vector<Index> component_of(surface.num_faces());
-    std::vector<double> lacking;
-    for (Index i = 0; i < components.size(); ++i) {
-        for (const Index f : components[i].faces) component_of[f] = i;
-        const double length = detail::sized_boundary_length(surface, components[i], options.sizes);
-        lacking.push_back(
-            std::max(detail::inner_sites(components[i].area(), length, spacing), 0.0));
-    }
-    if (std::all_of(lacking.begin(), lacking.end(), [](double n) { return n == 0; })) {
-        for (Index i = 0; i < components.size(); ++i) lacking[i] = components[i].area();
-    }
-    std::vector<Index> quota = detail::apportion(lacking, count);
-    // Closed components have no sites on curves.
-    std::vector<Index> wanted;
-    wanted.reserve(components.size());
-    for (const Component& c : components) {
-        wanted.push_back(c.boundary_loops == 0 ? detail::recognisable_samples(c) : 0);
-    }
-    if (components.size() > 1) detail::lift_small(wanted, quota);
+    const std::vector<Index> quota =
+        detail::share_out_inner(surface, components, count, spacing, options.sizes);
+    const std::vector<Index> component_of = components_of_faces(surface, components);
     std::vector<std::vector<SurfacePoint>> rim_of(components.size());
     for (const SurfacePoint& site : rim) {
         rim_of[component_of[site.face.value()]].push_back(site);
@@ -207,9 +227,40 @@ std::vector<SurfacePoint> sample_inner_sites(const Surface& surface,
     for (Index i = 0; i < components.size(); ++i) {
         if (quota[i] == 0) continue;
         const double done = static_cast<double>(sites.size()) / count;
-        const auto points = place_inside(surface, components[i], rim_of[i], quota[i], spacing, i,
-                                         options, within(options.progress, done, done));
+        const auto points =
+            place_inside(surface, components[i], rim_of[i], quota[i], spacing, i, options, done);
         sites.insert(sites.end(), points.begin(), points.end());
+    }
+    return sites;
+}
+
+std::vector<Index> find_corners(const Surface& surface, const std::vector<Index>& loop,
+                                double spacing) {
+    std::vector<Index> corners;
+    for (const std::size_t i : corners_of_curve(surface, curve_of_loop(surface, loop), spacing)) {
+        corners.push_back(surface.tail(loop[i]));
+    }
+    return corners;
+}
+
+std::vector<SurfacePoint> detail::sample_loop(const Surface& surface,
+                                              const std::vector<Index>& loop, double corner_spacing,
+                                              double spacing, const UnitAt& unit_at) {
+    const Curve curve = curve_of_loop(surface, loop);
+    std::vector<double> ends;  // Places on the loop where its pieces begin.
+    for (const std::size_t i : corners_of_curve(surface, curve, corner_spacing)) {
+        ends.push_back(curve.up_to[i]);
+    }
+    if (ends.empty()) ends.push_back(0);
+    // Least number of intervals of a piece, so that the loop gets three sites.
+    const double fewest = std::ceil(3.0 / static_cast<double>(ends.size()));
+    std::vector<SurfacePoint> sites;
+    for (std::size_t i = 0; i < ends.size(); ++i) {
+        const double begin = ends[i];
+        const double end = i + 1 < ends.size() ? ends[i + 1] : ends[0] + curve.length();
+        for (const double place : even_places(curve, begin, end, fewest, spacing, unit_at)) {
+            sites.push_back(point_on_curve(curve, place));
+        }
     }
     return sites;
 }

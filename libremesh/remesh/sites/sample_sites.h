@@ -1,8 +1,9 @@
 //! \file
-//! Initial sites on the surface.
+//! Initial sites on the surface: as many as asked for, no two at one position, and every component
+//! gets its share.
+//! Held by SampleSites.GivesTheExactCountOfDifferentPointsInsideFaces and the other tests of
+//! SampleSites in tests/remesh/sites.
 #pragma once
-
-#include <span>
 
 #include "agvd/core/progress.h"
 #include "agvd/mesh/surface.h"
@@ -47,7 +48,7 @@ struct SamplingOptions {
 //! is shared by area, and by length of boundary if sites lie on it. Of several components small
 //! ones get up to four times what their topology needs, so that they can be recognised. Fewer
 //! samples than all topologies need are shared by size alone: components may get none. Points lie
-//! strictly inside faces, except those of Boundary::Keep, which come first: corners (find_corners),
+//! strictly inside faces, except those of Boundary::Keep, which come first: corners,
 //! and points at equal distances between them. Blue noise is chosen from five times as many
 //! area-uniform points by weighted sample elimination ([yuksel2015]); points on opposite walls of a
 //! thin part do not repel each other. Farthest points use distances on the surface, along edges and
@@ -63,17 +64,5 @@ struct SamplingOptions {
 //! points on 100 000 faces.
 [[nodiscard]] std::vector<SurfacePoint> sample_sites(const Surface& surface,
                                                      const SamplingOptions& options = {});
-
-//! Places sites strictly inside the faces of a surface whose boundary has its sites already.
-//!
-//! \param rim      sites on the boundary, from which inner ones keep a distance.
-//! \param count    of inner sites; shared by how many each component lacks at this spacing.
-//! \param spacing  > 0: of all sites, in mesh units or in local lengths.
-//! \param options  num_samples and boundary are ignored.
-//! \throw as sample_sites.
-[[nodiscard]] std::vector<SurfacePoint> sample_inner_sites(const Surface& surface,
-                                                           std::span<const SurfacePoint> rim,
-                                                           Index count, double spacing,
-                                                           const SamplingOptions& options);
 
 }  // namespace remesh

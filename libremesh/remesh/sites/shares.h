@@ -6,9 +6,40 @@
 #include <vector>
 
 #include "agvd/mesh/components.h"
-#include "remesh/names.h"
+#include "agvd/mesh/topology.h"
+#include "remesh/sites/size_field.h"
 
-namespace remesh::detail {
+namespace remesh {
+
+//! No simplicial surface of this genus and number of boundary loops has fewer vertices: 4 for the
+//! sphere, 7 for the torus, 3 for the disc, 6 for the open tube. Every closed surface can be built
+//! with this number ([jungerman1980]). For surfaces with boundary it is a lower bound from counting
+//! edges.
+//!
+//! \param genus, boundary_loops  >= 0, of one connected component.
+[[nodiscard]] Index minimum_samples(int genus, int boundary_loops);
+
+//! The same for all components together. Cost: O(#components).
+[[nodiscard]] Index minimum_samples(const Topology& topology);
+
+namespace detail {
+
+//! Replaces Component::area_up_to.
+void set_areas(std::vector<Component>& components, std::span<const double> area_of_face);
+
+//! find_components with areas in squares of the local length (SizeField::area_of_face).
+//! \param sizes  null: areas are in mesh units. Likewise below.
+[[nodiscard]] std::vector<Component> sized_components(const Surface& surface,
+                                                      const SizeField* sizes, int num_threads,
+                                                      const Progress& progress = {});
+
+//! The length of a chain of half-edges in local lengths.
+[[nodiscard]] double sized_length(const Surface& surface, std::span<const Index> half_edges,
+                                  const SizeField* sizes);
+
+//! The length of a component's edges with a single face, in local lengths.
+[[nodiscard]] double sized_boundary_length(const Surface& surface, const Component& component,
+                                           const SizeField* sizes);
 
 //! The distance of neighbours in a mesh of equilateral triangles with this number of vertices,
 //! which include those on the boundary.
@@ -22,29 +53,26 @@ namespace remesh::detail {
 //! are rounded up. Cost: O(n log n).
 [[nodiscard]] std::vector<Index> apportion(std::span<const double> weights, Index total);
 
-//! The number of sites with which a component can be recognised: some times minimum_samples, 16 for
-//! a sphere and 28 for a torus.
-[[nodiscard]] Index recognisable_samples(const Component& component);
-
-//! Gives parts that have less than they want as much, from what others have beyond that. At most a
-//! quarter of all is given away; if that is not enough, every part gets the same share of what it
-//! lacks.
-//!
-//! \param wanted  by part.
-//! \param quota   by part; edited in place, the sum stays.
-void lift_small(std::span<const Index> wanted, std::vector<Index>& quota);
-
 //! The sum of minimum_samples over the components.
 [[nodiscard]] std::uint64_t needed_samples(const std::vector<Component>& components);
 
 //! The sites of each component: what its topology needs, and a share of the rest in proportion to
 //! the vertices that a mesh of equilateral triangles would have there. Of several components small
-//! ones get up to recognisable_samples. Fewer samples than needed_samples are all shared in that
-//! proportion, so that some components may get none.
+//! ones get up to four times what their topology needs, so that they can be recognised. Fewer
+//! samples than needed_samples are all shared in that proportion, so that some components may get
+//! none.
 //!
 //! \param boundary_length  #components, mesh units: of the boundary on which sites lie.
 [[nodiscard]] std::vector<Index> share_out(const std::vector<Component>& components,
                                            std::span<const double> boundary_length,
                                            Index num_samples);
 
-}  // namespace remesh::detail
+//! The inner sites of each component, by how many it lacks at this spacing. Small closed ones,
+//! which have no sites on curves, get more as in share_out.
+[[nodiscard]] std::vector<Index> share_out_inner(const Surface& surface,
+                                                 const std::vector<Component>& components,
+                                                 Index count, double spacing,
+                                                 const SizeField* sizes);
+
+}  // namespace detail
+}  // namespace remesh

@@ -1,6 +1,11 @@
 // Flips are one pass over the edges: those with a negative sum of cotangents, as measured before,
 // are tested again and flipped unless that folds the mesh or repeats an edge. In comments a, b are
 // the ends of an edge and c, d the corners opposite.
+//
+// For the energy each triangle is divided at its circumcentre into six right triangles, two for
+// each edge, one in the cell of either end. Energy, mass and gradient are sums over these.
+// Notation: `up` is the unit normal of a triangle, `cotangent` that of the angle opposite an edge,
+// mass the area times density.
 #include "remesh/sites/site_mesh.h"
 
 #include <algorithm>
@@ -19,45 +24,27 @@ constexpr double flip_tolerance = -1e-9;
 // Least cosine between the normals of the triangles before and after a flip.
 constexpr double least_flip_cosine = 0.2;
 
-double cotangent(const Vec3& a, const Vec3& b) {
+double cotangent_between(const Vec3& a, const Vec3& b) {
     const double sine = a.cross(b).norm();
     return a.dot(b) / std::max(sine, 1e-300);
 }
 
-class Flipper {
-public:
-    Flipper(SiteMesh& mesh, std::span<const Vec3> positions, Ticker ticker)
-        : mesh_(mesh), positions_(positions), ticker_(ticker) {}
+struct Flipper {
+    SiteMesh& mesh;
+    std::span<const Vec3> positions;
 
-    Index run(std::span<const double> cotangent) {
-        Index flips = 0;
-        for (Index h = 0; h < mesh_.twin.size(); ++h) {
-            ticker_.tick();
-            const Index twin = mesh_.twin[h];
-            if (twin == no_index || twin < h) continue;
-            if (cotangent[h] + cotangent[twin] >= flip_tolerance) continue;
-            // Another flip may have changed the triangles since.
-            if (is_delaunay(h, twin) || !can_flip(h, twin)) continue;
-            flip(h, twin);
-            ++flips;
-        }
-        return flips;
-    }
-
-private:
-    [[nodiscard]] const Vec3& at(Index site) const { return positions_[site]; }
-    [[nodiscard]] Index apex(Index h) const { return mesh_.tail(SiteMesh::previous(h)); }
+    [[nodiscard]] const Vec3& at(Index site) const { return positions[site]; }
+    [[nodiscard]] Index apex(Index h) const { return mesh.tail(SiteMesh::previous(h)); }
 
     [[nodiscard]] bool is_delaunay(Index h, Index twin) const {
-        const Vec3 &a = at(mesh_.tail(h)), &b = at(mesh_.head(h));
+        const Vec3 &a = at(mesh.tail(h)), &b = at(mesh.head(h));
         const Vec3 &c = at(apex(h)), &d = at(apex(twin));
-        return cotangent(a - c, b - c) + cotangent(a - d, b - d) >= flip_tolerance;
+        return cotangent_between(a - c, b - c) + cotangent_between(a - d, b - d) >= flip_tolerance;
     }
 
     [[nodiscard]] bool can_flip(Index h, Index twin) const {
-        const Index a = mesh_.tail(h), b = mesh_.head(h), c = apex(h), d = apex(twin);
-        if (c == d || are_joined(mesh_.triangles, mesh_.twin, SiteMesh::previous(h), d))
-            return false;
+        const Index a = mesh.tail(h), b = mesh.head(h), c = apex(h), d = apex(twin);
+        if (c == d || are_joined(mesh.triangles, mesh.twin, SiteMesh::previous(h), d)) return false;
         const Vec3 before = (at(b) - at(a)).cross(at(c) - at(a)).normalized() +
                             (at(a) - at(b)).cross(at(d) - at(b)).normalized();
         const Vec3 left = (at(d) - at(c)).cross(at(b) - at(c));
@@ -68,13 +55,13 @@ private:
 
     // Triangles (a, b, c) and (b, a, d) become (c, d, b) and (d, c, a), in place.
     void flip(Index h, Index twin) {
-        const Index a = mesh_.tail(h), b = mesh_.head(h), c = apex(h), d = apex(twin);
-        const Index outer[4] = {mesh_.twin[SiteMesh::next(h)], mesh_.twin[SiteMesh::previous(h)],
-                                mesh_.twin[SiteMesh::next(twin)],
-                                mesh_.twin[SiteMesh::previous(twin)]};
+        const Index a = mesh.tail(h), b = mesh.head(h), c = apex(h), d = apex(twin);
+        const Index outer[4] = {mesh.twin[SiteMesh::next(h)], mesh.twin[SiteMesh::previous(h)],
+                                mesh.twin[SiteMesh::next(twin)],
+                                mesh.twin[SiteMesh::previous(twin)]};
         const Index left = 3 * (h / 3), right = 3 * (twin / 3);
-        mesh_.triangles[h / 3] = {c, d, b};
-        mesh_.triangles[twin / 3] = {d, c, a};
+        mesh.triangles[h / 3] = {c, d, b};
+        mesh.triangles[twin / 3] = {d, c, a};
         join(left, right);
         join(left + 1, outer[3]);   // d b
         join(left + 2, outer[0]);   // b c
@@ -82,14 +69,96 @@ private:
         join(right + 2, outer[2]);  // a d
     }
     void join(Index h, Index other) {
-        mesh_.twin[h] = other;
-        if (other != no_index) mesh_.twin[other] = h;
+        mesh.twin[h] = other;
+        if (other != no_index) mesh.twin[other] = h;
+    }
+};
+
+// Cotangents beyond which a triangle is nearly degenerate. It is left out of the energy, which
+// would be unbounded. Inside the mesh, neighbours compensate for a circumcentre far outside; at the
+// rim there are none, so an angle of 11 or 169 degrees is enough there.
+constexpr double flat_cotangent = 50;
+constexpr double flat_cotangent_at_rim = 5;
+
+// The right triangle between an end of an edge, its midpoint and the circumcentre: half of the part
+// that the edge has of a triangle.
+struct RightTriangle {
+    double area = 0, mass = 0;
+    double spread = 0;  // Mean squared distance from the site; not for sums.
+    Vec3 slope = Vec3::Zero();
+
+    void add(const RightTriangle& more) {
+        area += more.area;
+        mass += more.mass;
+        slope += more.slope;
+    }
+};
+
+// \param edge       from the site whose cell has the part; the triangle lies on its left.
+// \param up         unit normal of the triangle.
+// \param cotangent  of the angle opposite the edge.
+RightTriangle right_triangle(const Vec3& edge, const Vec3& up, double cotangent, double density) {
+    RightTriangle result;
+    const double squared_length = edge.squaredNorm();
+    result.area = cotangent * squared_length / 8;
+    result.mass = density * result.area;
+    result.spread = squared_length * (3 + cotangent * cotangent) / 24;
+    const Vec3 along = (-2.0 / 3 * result.mass) * edge;
+    result.slope = along + 0.5 * cotangent * up.cross(along);
+    return result;
+}
+
+// A triangle with an obtuse angle opposite its rim edge (tail, head). The apex and its mirror image
+// across the rim count as neighbours, whose cells meet at the rim.
+class ClippedTriangle {
+public:
+    ClippedTriangle(const Vec3& tail, const Vec3& head, const Vec3& apex, const Vec3& up,
+                    double density) {
+        const Vec3 rim = head - tail;
+        const double share = std::clamp((apex - tail).dot(rim) / rim.squaredNorm(), 0.0, 1.0);
+        const Vec3 foot = tail + share * rim;
+        const double height = (apex - foot).norm();
+        const double before = (foot - tail).norm(), after = (head - foot).norm();
+        const Vec3 down = 2 * (foot - apex);
+        add(0, tail, apex, height / before, up, density);
+        add(1, head, apex, height / after, up, density);
+        add_apex(down, before / height, up, density);
+        add_apex(down, after / height, -up, density);
     }
 
-    SiteMesh& mesh_;
-    std::span<const Vec3> positions_;
-    Ticker ticker_;
+    std::array<RightTriangle, 3> part;  // Sums for tail, head and apex.
+    double energy = 0, weighted = 0;
+    double steepest = 0;
+
+private:
+    // Adds the edge between an end of the rim and the apex.
+    void add(std::size_t end, const Vec3& at, const Vec3& apex, double cotangent, const Vec3& up,
+             double density) {
+        const Vec3 side = end == 0 ? up : Vec3(-up);
+        take(end, right_triangle(apex - at, -side, cotangent, density));
+        take(2, right_triangle(at - apex, side, cotangent, density));
+        steepest = std::max(steepest, cotangent);
+    }
+    // Adds the apex's half of the edge to its mirror image. The angle opposite that edge, at an end
+    // of the rim, is twice the given one.
+    void add_apex(const Vec3& down, double cotangent_of_half, const Vec3& up, double density) {
+        const double cotangent = (cotangent_of_half - 1 / cotangent_of_half) / 2;
+        take(2, right_triangle(down, -up, cotangent, density));
+    }
+    void take(std::size_t i, const RightTriangle& more) {
+        part[i].add(more);
+        energy += more.area * more.spread;
+        weighted += more.mass * more.spread;
+    }
 };
+
+// Normals become unit vectors, slopes tangential.
+void project_slopes(std::vector<CvtEnergy::Cell>& cells) {
+    for (CvtEnergy::Cell& cell : cells) {
+        cell.normal.normalize();
+        cell.slope -= cell.normal.dot(cell.slope) * cell.normal;
+    }
+}
 
 }  // namespace
 
@@ -118,7 +187,90 @@ SiteMesh build_site_mesh(std::vector<Triangle> triangles, Index num_sites, Ticke
 
 Index flip_towards_delaunay(SiteMesh& mesh, std::span<const Vec3> positions,
                             std::span<const double> cotangent, Ticker ticker) {
-    return Flipper(mesh, positions, ticker).run(cotangent);
+    Flipper flipper{mesh, positions};
+    Index flips = 0;
+    for (Index h = 0; h < mesh.twin.size(); ++h) {
+        ticker.tick();
+        const Index twin = mesh.twin[h];
+        if (twin == no_index || twin < h) continue;
+        if (cotangent[h] + cotangent[twin] >= flip_tolerance) continue;
+        // Another flip may have changed the triangles since.
+        if (flipper.is_delaunay(h, twin) || !flipper.can_flip(h, twin)) continue;
+        flipper.flip(h, twin);
+        ++flips;
+    }
+    return flips;
+}
+
+void measure_energy(const SiteMesh& mesh, std::span<const Vec3> positions,
+                    std::span<const double> weight, bool clips_at_rim, Ticker& ticker,
+                    CvtEnergy& result) {
+    result.energy = 0;
+    result.weighted = 0;
+    result.cells.assign(positions.size(), {Vec3::Zero(), Vec3::Zero(), 0, 0});
+    result.cotangent.assign(3 * mesh.triangles.size(), 0);
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        ticker.tick();
+        const Triangle& t = mesh.triangles[i];
+        const std::array<Vec3, 3> edge{positions[t[1]] - positions[t[0]],
+                                       positions[t[2]] - positions[t[1]],
+                                       positions[t[0]] - positions[t[2]]};
+        const Vec3 normal = edge[0].cross(edge[1]);
+        const double doubled_area = normal.norm();
+        if (!(doubled_area > 0)) continue;
+        const Vec3 up = normal / doubled_area;
+        const double density = (weight[t[0]] + weight[t[1]] + weight[t[2]]) / 3;
+        // The circumcentre lies above the midpoint of each edge by half the edge times the
+        // cotangent: two right triangles, one in the cell of either end.
+        std::array<RightTriangle, 3> part;
+        double energy = 0, weighted = 0;
+        double flat = flat_cotangent, steepest = 0;
+        std::size_t obtuse_at_rim = 3;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double cotangent = -edge[(k + 1) % 3].dot(edge[(k + 2) % 3]) / doubled_area;
+            const RightTriangle at_tail = right_triangle(edge[k], up, cotangent, density);
+            part[k].add(at_tail);
+            part[(k + 1) % 3].add(right_triangle(-edge[k], -up, cotangent, density));
+            energy += 2 * at_tail.area * at_tail.spread;
+            weighted += 2 * at_tail.mass * at_tail.spread;
+            const bool is_rim = mesh.twin[3 * i + k] == no_index;
+            if (is_rim) flat = flat_cotangent_at_rim;
+            if (is_rim && cotangent < 0) obtuse_at_rim = k;
+            steepest = std::max(steepest, std::abs(cotangent));
+            result.cotangent[3 * i + k] = cotangent;
+        }
+        if (clips_at_rim && obtuse_at_rim < 3) {
+            const std::size_t k = obtuse_at_rim;
+            const ClippedTriangle clipped(positions[t[k]], positions[t[(k + 1) % 3]],
+                                          positions[t[(k + 2) % 3]], up, density);
+            for (std::size_t j = 0; j < 3; ++j) part[(k + j) % 3] = clipped.part[j];
+            energy = clipped.energy;
+            weighted = clipped.weighted;
+            steepest = clipped.steepest;
+        }
+        if (steepest <= flat) {
+            result.energy += energy;
+            result.weighted += weighted;
+        }
+        for (std::size_t k = 0; k < 3; ++k) {
+            CvtEnergy::Cell& cell = result.cells[t[k]];
+            cell.slope += part[k].slope;
+            cell.normal += normal;
+            cell.mass += part[k].mass;
+            cell.area += part[k].area;
+        }
+    }
+    project_slopes(result.cells);
+}
+
+void find_turned(const SiteMesh& mesh, std::span<const Vec3> positions,
+                 std::span<const Vec3> facing, std::vector<Index>& turned) {
+    turned.clear();
+    for (Index i = 0; i < mesh.triangles.size(); ++i) {
+        const auto& [a, b, c] = mesh.triangles[i];
+        const Vec3 normal = (positions[b] - positions[a]).cross(positions[c] - positions[b]);
+        if (!(normal.dot(facing[a] + facing[b] + facing[c]) > 0)) turned.push_back(i);
+    }
 }
 
 }  // namespace remesh::detail

@@ -1,5 +1,6 @@
 //! \file
-//! A triangulation of the sites, which gives relaxation their neighbours.
+//! A triangulation of the sites, which gives relaxation their neighbours, and the energy of the
+//! centroidal Voronoi tessellation on it.
 #pragma once
 
 #include <span>
@@ -7,9 +8,17 @@
 
 #include "agvd/core/half_edge.h"
 #include "agvd/core/poller.h"
+#include "agvd/mesh/surface_point.h"
 #include "remesh/names.h"
 
 namespace remesh::detail {
+
+//! Sites and their triangulation.
+struct TriangulatedSites {
+    std::vector<SurfacePoint> sites;
+    std::vector<Triangle> triangles;
+    std::vector<double> weights = {};  //!< #sites: their density; empty: all alike.
+};
 
 //! Half-edge h = 3 t + k runs from corner k to corner k + 1 of triangle t.
 struct SiteMesh {
@@ -34,5 +43,40 @@ struct SiteMesh {
 //! Returns the number of flips. Cost: O(n).
 Index flip_towards_delaunay(SiteMesh& mesh, std::span<const Vec3> positions,
                             std::span<const double> cotangent, Ticker ticker = {});
+
+//! The energy of the Voronoi diagram of the sites on their triangulation, which is taken as a
+//! surface of its own.
+struct CvtEnergy {
+    struct Cell {
+        Vec3 slope;   //!< Gradient of `weighted`; tangential, perpendicular to `normal`.
+        Vec3 normal;  //!< Unit normal of the triangles around, by area.
+        double mass;  //!< Weighted area.
+        double area;
+    };
+    //! Sum over the cells of the integral of |x - site|^2; without nearly degenerate triangles.
+    double energy = 0;
+    double weighted = 0;            //!< The same, weighted by density.
+    std::vector<Cell> cells;        //!< #sites
+    std::vector<double> cotangent;  //!< #H: of the angle opposite.
+};
+
+//! Fills `result` and reuses its memory.
+//!
+//! \param mesh    Delaunay or nearly so: a circumcentre outside its triangle gives negative areas,
+//!                for which neighbours compensate.
+//! \param weight  #sites: density, > 0; linear in between.
+//! \param clips_at_rim  cells end at the rim of the triangulation. Otherwise the cell of a site
+//!                      near the rim reaches beyond it, which draws the site outwards.
+//! Cost: O(n).
+void measure_energy(const SiteMesh& mesh, std::span<const Vec3> positions,
+                    std::span<const double> weight, bool clips_at_rim, Ticker& ticker,
+                    CvtEnergy& result);
+
+//! Fills `turned` with the triangles that face against the surface or are degenerate, ascending.
+//!
+//! \param facing  #sites: normals of the surface.
+//! Cost: O(n).
+void find_turned(const SiteMesh& mesh, std::span<const Vec3> positions,
+                 std::span<const Vec3> facing, std::vector<Index>& turned);
 
 }  // namespace remesh::detail

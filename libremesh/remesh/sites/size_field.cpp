@@ -6,6 +6,7 @@
 
 #include "agvd/mesh/face_area.h"
 #include "agvd/mesh/point_faces.h"
+#include "remesh/sites/prepared_surface.h"
 
 namespace remesh {
 namespace {
@@ -14,15 +15,6 @@ double face_in_lengths(const Surface& surface, Index face, std::span<const doubl
     double density = 0;
     for (const Index v : surface.mesh.triangles[face]) density += 1 / (length[v] * length[v]);
     return face_area(surface, face) * density / 3;
-}
-
-// A face of the input in the same patch as a face of the base.
-Index face_of_input(const IntrinsicTriangulation& base, Index face) {
-    if (!base.is_changed(face)) return face;
-    const Surface& input = base.input();
-    const Index corner = base.surface().mesh.triangles[face][0];
-    return corner < input.num_vertices() ? Surface::face(input.outgoing[corner])
-                                         : base.place_of_added(corner).face.value();
 }
 
 }  // namespace
@@ -62,11 +54,17 @@ double SizeField::at(const SurfacePoint& point) const {
     return std::max(sum, least_of_all_);
 }
 
-std::vector<double> SizeField::at(std::span<const SurfacePoint> points) const {
+std::vector<double> lengths_at(const SizeField* sizes, std::span<const SurfacePoint> points) {
     std::vector<double> result;
+    if (sizes == nullptr) return result;
     result.reserve(points.size());
-    for (const SurfacePoint& point : points) result.push_back(at(point));
+    for (const SurfacePoint& point : points) result.push_back(sizes->at(point));
     return result;
+}
+
+std::function<double(const SurfacePoint&)> length_function(const SizeField* sizes) {
+    if (sizes == nullptr) return {};
+    return [sizes](const SurfacePoint& point) { return sizes->at(point); };
 }
 
 double area_in_lengths(const Surface& surface, std::span<const double> length) {

@@ -23,12 +23,6 @@ public:
 
     //! Cost: that of IntrinsicTriangulation::to_intrinsic.
     [[nodiscard]] double at(const SurfacePoint& point) const;
-    //! The same for many points.
-    [[nodiscard]] std::vector<double> at(std::span<const SurfacePoint> points) const;
-    //! The same as a function; this outlives it.
-    [[nodiscard]] std::function<double(const SurfacePoint&)> function() const {
-        return [this](const SurfacePoint& point) { return at(point); };
-    }
 
     //! #F of the input: area in squares of the local length. A face of the base counts for one face
     //! of the input in the same patch: only sums over patches are exact.
@@ -46,6 +40,12 @@ private:
     std::vector<double> area_, least_;
     double sum_ = 0, least_of_all_ = 0;
 };
+
+//! The lengths at many points. Null: empty.
+[[nodiscard]] std::vector<double> lengths_at(const SizeField* sizes,
+                                             std::span<const SurfacePoint> points);
+//! SizeField::at as a function, which the field outlives. Null: empty.
+[[nodiscard]] std::function<double(const SurfacePoint&)> length_function(const SizeField* sizes);
 
 //! The area of a surface in squares of local lengths. A mesh that follows these has 2 / sqrt(3)
 //! times as many vertices, without what a boundary adds.

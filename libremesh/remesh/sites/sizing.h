@@ -1,8 +1,12 @@
 //! \file
-//! The options of sizing: how long the edges of the result are, and where.
+//! The options of sizing: how long the edges of the result are, and where. The result follows them
+//! as far as topology and bounds allow.
+//! Held by Sizing.EdgesFollowAFieldThatVariesTenfold and the other tests of Sizing in
+//! tests/remesh/pipeline.
 #pragma once
 
 #include <limits>
+#include <variant>
 #include <vector>
 
 #include "agvd/core/types.h"
@@ -10,40 +14,58 @@
 
 namespace remesh {
 
-//! Lengths in mesh units. Where: at most one of is_adaptive, target_lengths, face_lengths and
-//! densities; none: all edges are equally long. How many: at most one of max_error, max_distance,
-//! edge_length, num_faces and gives_count; none: lengths are scaled so that
-//! RemeshOptions::num_samples vertices come out.
+//! All edges are equally long.
+struct EvenEdges {};
+//! Shorter edges where the surface is curved, as the cubic root of the radius of curvature: the RMS
+//! distance of the result is least.
+struct AdaptiveEdges {};
+//! > 0, mesh units: for each of the caller's vertices.
+struct VertexLengths {
+    std::vector<double> values;
+};
+//! > 0, mesh units: for each of the caller's faces. Where faces meet, the least counts.
+struct FaceLengths {
+    std::vector<double> values;
+};
+//! > 0, for each of the caller's vertices: vertices per area, in any unit.
+struct VertexDensities {
+    std::vector<double> values;
+};
+
+//! Lengths are scaled so that RemeshOptions::num_samples vertices come out.
+struct NumSamples {};
+//! > 0, mesh units: the mean edge of the result.
+struct MeanEdge {
+    double length = 0;
+};
+//! > 0: faces of the result, up to a few along the boundary.
+struct NumFaces {
+    Index number = 0;
+};
+//! > 0, mesh units: lengths are those of length_for_error. Needs AdaptiveEdges.
+struct MaxError {
+    double error = 0;
+};
+//! > 0, mesh units: the result and the input lie no farther from each other, and edges are
+//! adaptive. Excludes lengths and densities.
+struct MaxDistance {
+    double distance = 0;
+};
+//! VertexLengths or FaceLengths count as they are, not scaled.
+struct CountOfLengths {};
+
 struct Sizing {
-    //! Shorter edges where the surface is curved, as the cubic root of the radius of curvature: the
-    //! RMS distance of the result is least.
-    bool is_adaptive = false;
-    //! > 0: lengths of adaptive edges are those of length_for_error instead, and the number of
-    //! samples follows. 0: not used.
-    double max_error = 0;
-    //! > 0: the result and the input lie no farther from each other; the number of samples follows,
-    //! and edges are adaptive. 0: not used.
-    double max_distance = 0;
-    std::vector<double> target_lengths = {};  //!< > 0, for each of the caller's vertices; or empty.
-    //! > 0, for each of the caller's faces; or empty. Where faces meet, the least counts.
-    std::vector<double> face_lengths = {};
-    std::vector<double> densities = {};  //!< As target_lengths: vertices per area, in any unit.
-    double min_edge = 0;                 //!< >= 0: no target is shorter ...
+    //! Where edges are how long.
+    std::variant<EvenEdges, AdaptiveEdges, VertexLengths, FaceLengths, VertexDensities> edges = {};
+    //! What gives the number of vertices.
+    std::variant<NumSamples, MeanEdge, NumFaces, MaxError, MaxDistance, CountOfLengths> count = {};
+    double min_edge = 0;  //!< >= 0, mesh units: no target is shorter ...
     double max_edge = std::numeric_limits<double>::infinity();  //!< ... or longer.
     //! >= 1. Over a distance d targets grow by at most d times its logarithm.
     double gradation = 1.3;
-    //! > 0: the mean edge of the result; the number of samples follows. 0: not used.
-    double edge_length = 0;
-    //! > 0: faces of the result, up to a few along the boundary. 0: not used.
-    Index num_faces = 0;
-    //! The number of samples follows from target_lengths or face_lengths, not scaled.
-    bool gives_count = false;
-};
 
-//! Whether all edges have one target.
-[[nodiscard]] inline bool is_uniform(const Sizing& sizing) {
-    return !sizing.is_adaptive && sizing.target_lengths.empty() && sizing.face_lengths.empty() &&
-           sizing.densities.empty();
-}
+    [[nodiscard]] bool is_even() const { return std::holds_alternative<EvenEdges>(edges); }
+    [[nodiscard]] bool is_adaptive() const { return std::holds_alternative<AdaptiveEdges>(edges); }
+};
 
 }  // namespace remesh

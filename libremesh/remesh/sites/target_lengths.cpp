@@ -6,10 +6,9 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <utility>
+#include <numeric>
 
 #include "agvd/mesh/face_area.h"
-#include "remesh/sites/gradation.h"
 #include "remesh/sites/size_field.h"
 
 namespace remesh {
@@ -27,132 +26,129 @@ constexpr double path_excess = 1.25;
 // next.
 constexpr double fall_near_least = 0.5;
 
-class LengthSearch {
-public:
-    LengthSearch(const Surface& surface, std::span<const double> values,
-                 std::span<const double> most, std::span<const std::pair<Index, Index>> joined,
-                 const Sizing& sizing, double area, std::span<const double> least, Ticker& ticker)
-        : surface_(surface),
-          values_(values),
-          most_(most),
-          joined_(joined),
-          sizing_(sizing),
-          area_(area),
-          ticker_(ticker),
-          slope_(std::log(sizing.gradation) / path_excess) {
-        const double real_area = surface_area(surface);
-        mean_ = std::sqrt(real_area / (area > 0 ? area : 1));
-        longest_ = sizing.max_edge;
-        if (sizing.is_adaptive && area > 0) longest_ = std::min(longest_, longest_of_mean * mean_);
-        if (!least.empty()) find_bounds(least);
+// Calls each(other end, length) for the straight lines from a vertex across the opposite edges.
+template <typename Each>
+void for_each_line_across(const Surface& surface, Index vertex, const Each& each) {
+    for_each_outgoing(surface, vertex, [&](Index h) {
+        const Index opposite = Surface::next(h), twin = surface.twin[opposite];
+        if (twin == no_index) return;
+        // In the frame of the opposite edge, whose twin runs the other way.
+        const Vec2 here = surface.apex_of(opposite), across = surface.apex_of(twin);
+        const double length = surface.length_of(opposite);
+        const Vec2 there(length - across.x(), -across.y());
+        const double share = here.y() / (here.y() - there.y());
+        const double crossing = here.x() + share * (there.x() - here.x());
+        if (crossing < 0 || crossing > length) return;
+        each(surface.tail(Surface::previous(twin)), (there - here).norm());
+    });
+}
+
+struct LengthSearch {
+    const Surface& surface;
+    std::span<const double> values, most;
+    std::span<const std::pair<Index, Index>> joined;
+    const Sizing& sizing;
+    double area;
+    Ticker& ticker;
+    double slope = std::log(sizing.gradation) / path_excess;
+    double mean = std::sqrt(surface_area(surface) / (area > 0 ? area : 1));
+    double longest = sizing.is_adaptive() && area > 0
+                         ? std::min(sizing.max_edge, longest_of_mean* mean)
+                         : sizing.max_edge;
+    std::vector<double> lower = {}, upper = {};  // #V; empty: there are no such bounds.
+
+    // What targets must not fall below, and what they must not exceed even so.
+    void find_bounds(std::span<const double> least) {
+        // The growth of the difference from a length above all is limited.
+        double highest = *std::max_element(least.begin(), least.end());
+        // Beside edges much longer than the others hardly any vertex would be left for these.
+        if (area > 0) highest = std::min(highest, longest_of_mean * mean);
+        const double above = 2 * highest;
+        for (const double length : least) lower.push_back(above - std::min(length, highest));
+        limit_growth(surface, joined, fall_near_least, Paths::Lines, lower, ticker);
+        for (double& length : lower) length = above - length;
+        upper.assign(most.begin(), most.end());
+        if (!upper.empty()) limit_growth(surface, joined, slope, Paths::Lines, upper, ticker);
     }
 
-    TargetLengths run() {
-        if (area_ == 0) return finished(at(1));
-        double scale = first_scale(), slope = -2;
-        TargetLengths best = at(scale);
+    std::vector<double> run() const {
+        if (area == 0) return finished(at(1));
+        double scale = first_scale(), steepness = -2;
+        std::vector<double> best = at(scale);
         double error = error_of(best);
         double previous_scale = 0, previous_error = 0;
         for (int i = 1; i < most_tries && std::abs(error) > area_tolerance; ++i) {
             if (i > 1 && scale != previous_scale) {
-                slope = std::clamp((error - previous_error) / std::log(scale / previous_scale),
-                                   -4.0, -0.2);
+                steepness = std::clamp((error - previous_error) / std::log(scale / previous_scale),
+                                       -4.0, -0.2);
             }
             previous_scale = scale;
             previous_error = error;
-            scale *= std::exp(-error / slope);
+            scale *= std::exp(-error / steepness);
             best = at(scale);
             error = error_of(best);
         }
         best = finished(std::move(best));
         const double factor = std::exp(error_of(best) / 2);
-        for (double& length : best.length) length *= factor;
+        for (double& length : best) length *= factor;
         return best;
     }
 
 private:
-    // What targets must not fall below, and what they must not exceed even so.
-    void find_bounds(std::span<const double> least) {
-        // The growth of the difference from a length above all is limited.
-        double most = *std::max_element(least.begin(), least.end());
-        // Beside edges much longer than the others hardly any vertex would be left for these.
-        if (area_ > 0) most = std::min(most, longest_of_mean * mean_);
-        const double above = 2 * most;
-        for (const double length : least) lower_.push_back(above - std::min(length, most));
-        limit_growth(surface_, joined_, fall_near_least, Paths::Lines, lower_, ticker_);
-        for (double& length : lower_) length = above - length;
-        upper_.assign(most_.begin(), most_.end());
-        if (!upper_.empty()) {
-            limit_growth(surface_, joined_, slope_, Paths::Lines, upper_, ticker_);
+    [[nodiscard]] std::vector<double> bounded(std::vector<double> lengths) const {
+        for (std::size_t v = 0; v < lower.size(); ++v) {
+            lengths[v] = std::max(lengths[v], lower[v]);
+            if (!upper.empty()) lengths[v] = std::min(lengths[v], upper[v]);
         }
-    }
-
-    // The lengths within these bounds.
-    [[nodiscard]] std::vector<double> bounded(const std::vector<double>& lengths) const {
-        std::vector<double> result = lengths;
-        for (std::size_t v = 0; v < lower_.size(); ++v) {
-            result[v] = std::max(result[v], lower_[v]);
-            if (!upper_.empty()) result[v] = std::min(result[v], upper_[v]);
-        }
-        return result;
+        return lengths;
     }
 
     // Without bounds and gradation the area is in proportion to 1 / scale^2.
     [[nodiscard]] double first_scale() const {
         double sum = 0, whole = 0;
-        for (Index f = 0; f < surface_.num_faces(); ++f) {
-            const double area = face_area(surface_, f);
-            whole += area;
-            for (const Index v : surface_.mesh.triangles[f]) {
+        for (Index f = 0; f < surface.num_faces(); ++f) {
+            const double of_face = face_area(surface, f);
+            whole += of_face;
+            for (const Index v : surface.mesh.triangles[f]) {
                 const double length = wanted(v, 1);
-                sum += area / 3 / (length * length);
+                sum += of_face / 3 / (length * length);
             }
         }
-        return std::sqrt((sum > 0 ? sum : whole) / area_);
+        return std::sqrt((sum > 0 ? sum : whole) / area);
     }
 
     [[nodiscard]] double wanted(Index v, double scale) const {
-        if (sizing_.max_error > 0) {
-            return length_for_error(std::numbers::sqrt2 * values_[v], sizing_.max_error);
+        if (const auto* largest = std::get_if<MaxError>(&sizing.count)) {
+            return length_for_error(std::numbers::sqrt2 * values[v], largest->error);
         }
-        if (sizing_.is_adaptive) return scale / std::cbrt(values_[v]);
-        if (!sizing_.densities.empty()) return scale / std::sqrt(values_[v]);
-        return scale * values_[v];
+        if (sizing.is_adaptive()) return scale / std::cbrt(values[v]);
+        if (std::holds_alternative<VertexDensities>(sizing.edges)) {
+            return scale / std::sqrt(values[v]);
+        }
+        return scale * values[v];
     }
 
-    [[nodiscard]] TargetLengths at(double scale) {
-        TargetLengths result;
-        result.length.reserve(values_.size());
-        for (Index v = 0; v < values_.size(); ++v) {
-            const double longest = most_.empty() ? longest_ : std::min(longest_, most_[v]);
-            result.length.push_back(
-                std::max(std::min(wanted(v, scale), longest), sizing_.min_edge));
+    [[nodiscard]] std::vector<double> at(double scale) const {
+        std::vector<double> result;
+        result.reserve(values.size());
+        for (Index v = 0; v < values.size(); ++v) {
+            const double most_here = most.empty() ? longest : std::min(longest, most[v]);
+            result.push_back(std::max(std::min(wanted(v, scale), most_here), sizing.min_edge));
         }
-        limit_growth(surface_, joined_, slope_, Paths::Edges, result.length, ticker_);
+        limit_growth(surface, joined, slope, Paths::Edges, result, ticker);
         return result;
     }
 
     // The search measures along edges only, which is quicker and changes the area little.
-    [[nodiscard]] TargetLengths finished(TargetLengths targets) const {
-        limit_growth(surface_, joined_, slope_, Paths::Lines, targets.length, ticker_);
-        targets.length = bounded(targets.length);
-        return targets;
+    [[nodiscard]] std::vector<double> finished(std::vector<double> lengths) const {
+        limit_growth(surface, joined, slope, Paths::Lines, lengths, ticker);
+        return bounded(std::move(lengths));
     }
 
     // The logarithm of the area over that wanted.
-    [[nodiscard]] double error_of(const TargetLengths& lengths) const {
-        return std::log(area_in_lengths(surface_, bounded(lengths.length)) / area_);
+    [[nodiscard]] double error_of(const std::vector<double>& lengths) const {
+        return std::log(area_in_lengths(surface, bounded(lengths)) / area);
     }
-
-    const Surface& surface_;
-    std::span<const double> values_, most_;
-    std::span<const std::pair<Index, Index>> joined_;
-    const Sizing& sizing_;
-    double area_;
-    Ticker& ticker_;
-    double slope_;
-    double mean_ = 0, longest_ = 0;
-    std::vector<double> lower_, upper_;  // #V; empty: there are no such bounds.
 };
 
 }  // namespace
@@ -163,11 +159,43 @@ double length_for_error(double curvature, double error) {
     return std::sqrt(3 * error * (2 * radius - error));
 }
 
-TargetLengths target_lengths(const Surface& surface, std::span<const double> values,
-                             std::span<const double> most,
-                             std::span<const std::pair<Index, Index>> joined, const Sizing& sizing,
-                             double area, Ticker& ticker, std::span<const double> least) {
-    return LengthSearch(surface, values, most, joined, sizing, area, least, ticker).run();
+// The result is the least sum over all paths, whatever the order.
+void limit_growth(const Surface& surface, std::span<const std::pair<Index, Index>> joined,
+                  double slope, Paths paths, std::span<double> length, Ticker& ticker) {
+    std::vector<std::pair<Index, Index>> copies;  // Both ways, sorted.
+    for (const auto& [a, b] : joined) {
+        copies.emplace_back(a, b);
+        copies.emplace_back(b, a);
+    }
+    std::sort(copies.begin(), copies.end());
+    const auto spread = [&](Index v, const auto& wait) {
+        ticker.tick(4);
+        const double here = length[v];
+        const auto reach = [&](Index other, double way) {
+            if (!(here + slope * way < length[other])) return;
+            length[other] = here + slope * way;
+            wait(other);
+        };
+        for (auto copy = std::lower_bound(copies.begin(), copies.end(), std::pair(v, Index{0}));
+             copy != copies.end() && copy->first == v; ++copy) {
+            reach(copy->second, 0);
+        }
+        for_each_edge(surface, v, reach);
+        if (paths == Paths::Lines) for_each_line_across(surface, v, reach);
+    };
+    std::vector<Index> all(length.size());
+    std::iota(all.begin(), all.end(), Index{0});
+    visit_in_rounds(surface.num_vertices(), std::move(all), spread);
+}
+
+std::vector<double> target_lengths(const Surface& surface, std::span<const double> values,
+                                   std::span<const double> most,
+                                   std::span<const std::pair<Index, Index>> joined,
+                                   const Sizing& sizing, double area, Ticker& ticker,
+                                   std::span<const double> least) {
+    LengthSearch search{surface, values, most, joined, sizing, area, ticker};
+    if (!least.empty()) search.find_bounds(least);
+    return search.run();
 }
 
 }  // namespace remesh

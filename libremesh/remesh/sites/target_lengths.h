@@ -8,10 +8,23 @@
 #include <vector>
 
 #include "agvd/core/poller.h"
-#include "agvd/mesh/surface.h"
+#include "agvd/intrinsic/intrinsic_triangulation.h"
+#include "agvd/mesh/one_ring.h"
 #include "remesh/sites/sizing.h"
 
 namespace remesh {
+
+//! The root mean square of the two principal curvatures, averaged over patches: the standard
+//! deviation of the normals over that of the positions. The surface is divided into cells around
+//! evenly spread random vertices; a patch is a cell with those next to it. The result depends on
+//! the surface, not on its triangles. Patches end at the boundary: cut creases first.
+//!
+//! \param num_cells  >= 1; there are no more than vertices of the base.
+//! \return #V of base.surface(): 1 / mesh units, >= 0.
+//! \throw Cancelled  the progress callback returned false.
+//! Cost: O(n).
+[[nodiscard]] std::vector<double> patch_curvature(const IntrinsicTriangulation& base,
+                                                  Index num_cells, Ticker& ticker);
 
 //! The edge of an equilateral triangle whose corners lie on a sphere of this curvature and whose
 //! middle is off by `error`: sqrt(6 e / k - 3 e^2) (pmp and CGAL have it too). Where the radius is
@@ -21,9 +34,50 @@ namespace remesh {
 //! \param error      > 0.
 [[nodiscard]] double length_for_error(double curvature, double error);
 
-struct TargetLengths {
-    std::vector<double> length;  //!< #V; mesh units.
+//! Calls each(other end, length) for the edges at a vertex.
+template <typename Each>
+void for_each_edge(const Surface& surface, Index vertex, const Each& each) {
+    for_each_outgoing(surface, vertex, [&](Index h) {
+        each(surface.head(h), surface.length_of(h));
+        const Index in = Surface::previous(h);
+        if (surface.twin[in] == no_index) each(surface.tail(in), surface.length_of(in));
+    });
+}
+
+//! Calls visit(vertex, wait) for some vertices, then, in rounds, for those that visits have given
+//! to wait(vertex).
+template <typename Visit>
+void visit_in_rounds(Index num_vertices, std::vector<Index> now, const Visit& visit) {
+    std::vector<std::uint8_t> waits(num_vertices, 0);
+    for (std::vector<Index> next; !now.empty(); now.swap(next)) {
+        next.clear();
+        for (const Index v : now) {
+            waits[v] = 0;
+            visit(v, [&](Index other) {
+                if (waits[other] == 0) next.push_back(other);
+                waits[other] = 1;
+            });
+        }
+    }
+}
+
+//! Paths that lengths are measured along.
+enum class Paths {
+    Edges,  //!< Up to twice as long as geodesics.
+    //! Straight lines to the vertices across the opposite edges, too: a few per cent too long in
+    //! most directions, at most a fifth.
+    Lines
 };
+
+//! Lowers lengths until length[u] <= length[v] + slope * d for all vertices u and v, where d is the
+//! length of the shortest path. Lengths that keep this already stay.
+//!
+//! \param joined  pairs of vertices that are one, such as copies on both sides of a cut.
+//! \param slope   >= 0.
+//! \param length  #V, > 0; edited in place.
+//! Cost: O(n), and O(n log n) for the vertices that change.
+void limit_growth(const Surface& surface, std::span<const std::pair<Index, Index>> joined,
+                  double slope, Paths paths, std::span<double> length, Ticker& ticker);
 
 //! \param values  #V: curvatures (patch_curvature), lengths or densities, whichever `sizing` asks
 //!        for.
@@ -34,11 +88,13 @@ struct TargetLengths {
 //! \param area    in squares of the local length, that the result has; 0: as the lengths give it.
 //!        Bounds and gradation hold in the scaled lengths unless no scale gives this area: then all
 //!        are multiplied by one factor in the end.
+//! \return #V; mesh units.
 //! Cost: O(n log n) for each scale that is tried, some five.
-[[nodiscard]] TargetLengths target_lengths(const Surface& surface, std::span<const double> values,
-                                           std::span<const double> most,
-                                           std::span<const std::pair<Index, Index>> joined,
-                                           const Sizing& sizing, double area, Ticker& ticker,
-                                           std::span<const double> least = {});
+[[nodiscard]] std::vector<double> target_lengths(const Surface& surface,
+                                                 std::span<const double> values,
+                                                 std::span<const double> most,
+                                                 std::span<const std::pair<Index, Index>> joined,
+                                                 const Sizing& sizing, double area, Ticker& ticker,
+                                                 std::span<const double> least = {});
 
 }  // namespace remesh

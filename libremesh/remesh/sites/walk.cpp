@@ -4,10 +4,7 @@
 // length of the step, or just before the boundary ([polthier1998]).
 #include "remesh/sites/walk.h"
 
-#include <algorithm>
 #include <cmath>
-
-#include "remesh/sites/scatter.h"
 
 namespace remesh::detail {
 namespace {

@@ -2,6 +2,8 @@
 //! Moves of points along the surface.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <optional>
 
 #include "agvd/mesh/surface.h"
@@ -9,6 +11,17 @@
 #include "remesh/names.h"
 
 namespace remesh::detail {
+
+//! Least barycentric coordinate of a point inside a face. It keeps points off edges by more than
+//! the rounding of any position, and biases the density by no more than this share.
+inline constexpr double interior_margin = 1e-6;
+
+//! Moves a point of a face off its edges by at least that, where it is nearer.
+inline void keep_inside(std::array<double, 3>& barycentric) {
+    double sum = 0;
+    for (double& b : barycentric) sum += b = std::max(b, interior_margin);
+    for (double& b : barycentric) b /= sum;
+}
 
 struct Walk {
     SurfacePoint end;

@@ -119,7 +119,7 @@ TEST(Locked, AllVerticesMayStay) {
     --options.num_samples;
     EXPECT_THROW((void)remesh::remesh(mesh.view(), options), agvd::ConstraintUnmet);
     // A number that follows from lengths is raised.
-    options.sizing.edge_length = 1;
+    options.sizing.count = remesh::MeanEdge{1};
     EXPECT_EQ(remesh::remesh(mesh.view(), options).mesh.positions.size(), mesh.positions.size());
 }
 

@@ -18,6 +18,7 @@
 #include "remesh/pipeline/remesh.h"
 #include "remesh/quality/evaluate.h"
 #include "remesh/quality/self_intersections.h"
+#include "remesh/sites/prepared_surface.h"
 #include "remesh/sites/relax_sites.h"
 #include "support/scratch.h"
 #include "support/shapes.h"

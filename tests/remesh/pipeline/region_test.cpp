@@ -188,7 +188,7 @@ TEST(Region, AnyFacesAreARegion) {
             for (const std::uint64_t seed : {1u, 2u}) {
                 SCOPED_TRACE(std::string(name) + ' ' + std::to_string(share));
                 const Mask mask = random_mask(mesh, share, seed);
-                expect_manifold_region(mesh, mask, {.sizing = {.edge_length = 0.25}});
+                expect_manifold_region(mesh, mask, {.sizing = {.count = remesh::MeanEdge{0.25}}});
                 ++num_tried;
             }
         }
@@ -264,7 +264,7 @@ TEST(Region, PartsThatTouchAtAVertexStayJoinedThere) {
         mesh, [&](const Vec3& p) { return in_square(p, 0.25, 0.5) || in_square(p, 0.5, 0.75); });
     ASSERT_EQ(std::count(mask.begin(), mask.end(), 1), 16);
     const RemeshResult result =
-        expect_manifold_region(mesh, mask, {.sizing = {.edge_length = 0.05}});
+        expect_manifold_region(mesh, mask, {.sizing = {.count = remesh::MeanEdge{0.05}}});
     EXPECT_GT(new_part(result).triangles.size(), 16u);
 }
 
@@ -286,8 +286,8 @@ TEST(Region, TooFewVerticesAreAnErrorThatNamesEnough) {
 
 TEST(Region, EdgesGrowFromAFineSeam) {
     const TriangleMesh mesh = shapes::sphere(5);
-    const RemeshResult result =
-        expect_manifold_region(mesh, upper_half(mesh), {.sizing = {.edge_length = 0.3}});
+    const RemeshResult result = expect_manifold_region(
+        mesh, upper_half(mesh), {.sizing = {.count = remesh::MeanEdge{0.3}}});
     const TriangleMesh part = new_part(result);
     EXPECT_GT(least_angle(part), 24);
     // Less than half of the input's 10 000 faces there.
@@ -297,8 +297,8 @@ TEST(Region, EdgesGrowFromAFineSeam) {
 
 TEST(Region, EdgesShrinkFromACoarseSeam) {
     const TriangleMesh mesh = shapes::sphere(2);
-    const RemeshResult result =
-        expect_manifold_region(mesh, upper_half(mesh), {.sizing = {.edge_length = 0.05}});
+    const RemeshResult result = expect_manifold_region(
+        mesh, upper_half(mesh), {.sizing = {.count = remesh::MeanEdge{0.05}}});
     const TriangleMesh part = new_part(result);
     EXPECT_GT(part.triangles.size(), 1000u);
     EXPECT_GT(least_angle(part), 20);
@@ -306,8 +306,8 @@ TEST(Region, EdgesShrinkFromACoarseSeam) {
 
 TEST(Region, NumbersOfFacesCountInTheRegion) {
     const TriangleMesh mesh = shapes::sphere(4);
-    const RemeshResult result =
-        expect_manifold_region(mesh, upper_half(mesh), {.sizing = {.num_faces = 1000}});
+    const RemeshResult result = expect_manifold_region(
+        mesh, upper_half(mesh), {.sizing = {.count = remesh::NumFaces{1000}}});
     EXPECT_EQ(new_part(result).triangles.size(), 1000u);
 }
 
@@ -337,9 +337,9 @@ TEST(Region, WhatIsGivenForElementsIsCarriedOver) {
         const double y = (mesh.positions[a] + mesh.positions[b] + mesh.positions[c]).y() / 3;
         options.face_labels.push_back(y > 0.5 ? 1 : 0);
     }
-    for (const Vec3& p : mesh.positions) {
-        options.sizing.target_lengths.push_back(0.02 + 0.06 * p.y());
-    }
+    remesh::VertexLengths lengths;
+    for (const Vec3& p : mesh.positions) lengths.values.push_back(0.02 + 0.06 * p.y());
+    options.sizing.edges = lengths;
     const RemeshResult result = expect_manifold_region(mesh, mask, options);
     // The border is a chain of edges: no face lies on both sides.
     for (const auto& [a, b, c] : new_part(result).triangles) {
@@ -437,7 +437,7 @@ TEST(Region, EdgesWithMoreThanTwoFacesKeepTheirFaces) {
         for (const std::uint64_t seed : {1u, 2u, 3u}) {
             SCOPED_TRACE(shape.name);
             const Mask mask = seed == 1 ? half_of(shape.mesh) : random_mask(shape.mesh, 0.5, seed);
-            expect_region(shape.mesh, mask, {.sizing = {.edge_length = 0.3}});
+            expect_region(shape.mesh, mask, {.sizing = {.count = remesh::MeanEdge{0.3}}});
             ++num_tried;
         }
     }

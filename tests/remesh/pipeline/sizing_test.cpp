@@ -17,8 +17,15 @@
 using agvd::Index;
 using agvd::TriangleMesh;
 using agvd::Vec3;
+using remesh::AdaptiveEdges;
+using remesh::CountOfLengths;
+using remesh::FaceLengths;
+using remesh::MeanEdge;
+using remesh::NumFaces;
 using remesh::RemeshOptions;
 using remesh::RemeshResult;
+using remesh::VertexDensities;
+using remesh::VertexLengths;
 
 namespace {
 
@@ -76,9 +83,12 @@ TEST(Sizing, EdgesFollowAFieldThatVariesTenfold) {
     for (const auto& [is_density, init] :
          {std::pair(false, remesh::Init::BlueNoise), {true, remesh::Init::Farthest}}) {
         RemeshOptions options{.num_samples = 2000, .init = init};
-        (is_density ? options.sizing.densities : options.sizing.target_lengths) = values_of(mesh);
+        std::vector<double> values = values_of(mesh);
         if (is_density) {
-            for (double& value : options.sizing.densities) value = 7 / (value * value);
+            for (double& value : values) value = 7 / (value * value);
+            options.sizing.edges = VertexDensities{values};
+        } else {
+            options.sizing.edges = VertexLengths{values};
         }
         const RemeshResult result = remesh::remesh(mesh.view(), options);
         EXPECT_EQ(result.mesh.positions.size(), 2000u);
@@ -97,8 +107,8 @@ TEST(Sizing, AFieldOnBoundaryAndCreasesIsFollowedThere) {
     const TriangleMesh box = parts::open_box({4, 1, 1}, 2);
     std::vector<double> lengths;
     for (const Vec3& p : box.positions) lengths.push_back(0.05 + 0.25 * p.x() / 4);
-    const RemeshResult result =
-        remesh::remesh(box.view(), {.num_samples = 900, .sizing = {.target_lengths = lengths}});
+    const RemeshResult result = remesh::remesh(
+        box.view(), {.num_samples = 900, .sizing = {.edges = VertexLengths{lengths}}});
     EXPECT_EQ(result.mesh.positions.size(), 900u);
     EXPECT_GT(result.sizing.low_ratio, 0.72);
     EXPECT_LT(result.sizing.high_ratio, 1.36);
@@ -114,8 +124,10 @@ TEST(Sizing, AFieldOnBoundaryAndCreasesIsFollowedThere) {
 
 TEST(Sizing, LengthsGiveTheNumber) {
     const TriangleMesh mesh = shapes::torus(160, 64, tube);
-    RemeshOptions options{.sizing = {.target_lengths = values_of(mesh), .gives_count = true}};
-    for (double& length : options.sizing.target_lengths) length *= 0.04;
+    std::vector<double> lengths = values_of(mesh);
+    for (double& length : lengths) length *= 0.04;
+    const RemeshOptions options{
+        .sizing = {.edges = VertexLengths{lengths}, .count = CountOfLengths{}}};
     const RemeshResult result = remesh::remesh(mesh.view(), options);
     const double factor = factor_for(mesh, static_cast<double>(result.mesh.positions.size()));
     EXPECT_NEAR(factor, 0.04, 0.0015);
@@ -124,10 +136,12 @@ TEST(Sizing, LengthsGiveTheNumber) {
 
 TEST(Sizing, FacesHaveLengths) {
     const TriangleMesh mesh = shapes::torus(80, 40);
-    RemeshOptions options{.sizing = {.gradation = 10, .gives_count = true}};
+    FaceLengths lengths;
     for (const Triangle& t : mesh.triangles) {
-        options.sizing.face_lengths.push_back(mesh.positions[t[0]].x() > 0 ? 0.05 : 0.15);
+        lengths.values.push_back(mesh.positions[t[0]].x() > 0 ? 0.05 : 0.15);
     }
+    const RemeshOptions options{
+        .sizing = {.edges = lengths, .count = CountOfLengths{}, .gradation = 10}};
     const RemeshResult result = remesh::remesh(mesh.view(), options);
     std::array<double, 2> sum{}, count{};  // Of edges far from the border, by length.
     for (const Triangle& t : result.mesh.triangles) {
@@ -149,9 +163,8 @@ TEST(Sizing, EdgesHaveTheMeanLengthAskedFor) {
          {shapes::sphere(4), shapes::torus(90, 40), parts::box({1, 1, 1}, 8)}) {
         for (const bool is_adaptive : {false, true}) {
             for (const int steps : {0, 60}) {
-                const RemeshOptions options{
-                    .sizing = {.is_adaptive = is_adaptive, .edge_length = 0.09},
-                    .relax_steps = steps};
+                RemeshOptions options{.sizing = {.count = MeanEdge{0.09}}, .relax_steps = steps};
+                if (is_adaptive) options.sizing.edges = AdaptiveEdges{};
                 const RemeshResult result = remesh::remesh(mesh.view(), options);
                 EXPECT_NEAR(mean_edge(result.mesh) / 0.09, 1, 0.012);
                 EXPECT_NEAR(result.sizing.mean_edge, mean_edge(result.mesh), 1e-12);
@@ -165,7 +178,7 @@ TEST(Sizing, EdgesHaveTheMeanLengthAskedFor) {
 
 TEST(Sizing, ANumberOfFacesComesOut) {
     const auto faces_of = [](const TriangleMesh& mesh, Index num_faces) {
-        return remesh::remesh(mesh.view(), {.sizing = {.num_faces = num_faces}})
+        return remesh::remesh(mesh.view(), {.sizing = {.count = NumFaces{num_faces}}})
             .mesh.triangles.size();
     };
     EXPECT_EQ(faces_of(shapes::sphere(3), 600), 600u);
@@ -187,7 +200,7 @@ TEST(Sizing, AdaptiveEdgesAreShortWhereTheSurfaceIsCurved) {
     }
     const RemeshResult uniform = remesh::remesh(bent.view(), {.num_samples = 1200});
     const RemeshResult adaptive =
-        remesh::remesh(bent.view(), {.num_samples = 1200, .sizing = {.is_adaptive = true}});
+        remesh::remesh(bent.view(), {.num_samples = 1200, .sizing = {.edges = AdaptiveEdges{}}});
     EXPECT_EQ(adaptive.mesh.positions.size(), 1200u);
     EXPECT_GT(adaptive.sizing.largest_target, 2 * adaptive.sizing.least_target);
     const auto num_thin = [](const TriangleMesh& of) {
@@ -212,8 +225,8 @@ TEST(Sizing, ThreadsChangeNothing) {
         for (const bool is_adaptive : {false, true}) {
             for (const remesh::Init init : {remesh::Init::BlueNoise, remesh::Init::Random}) {
                 RemeshOptions options{.num_samples = 500, .init = init};
-                options.sizing.is_adaptive = is_adaptive;
-                if (!is_adaptive) options.sizing.target_lengths = values_of(*mesh);
+                options.sizing.edges = AdaptiveEdges{};
+                if (!is_adaptive) options.sizing.edges = VertexLengths{values_of(*mesh)};
                 options.num_threads = 1;
                 const RemeshResult one = remesh::remesh(mesh->view(), options);
                 options.num_threads = 4;
@@ -231,7 +244,7 @@ TEST(Sizing, LengthsFollowVerticesThatAreWelded) {
     const TriangleMesh mesh = shapes::torus(80, 40, tube);
     const TriangleMesh soup = shapes::unweld(mesh);
     const RemeshResult result = remesh::remesh(
-        soup.view(), {.num_samples = 800, .sizing = {.target_lengths = values_of(soup)}});
+        soup.view(), {.num_samples = 800, .sizing = {.edges = VertexLengths{values_of(soup)}}});
     const auto [low, high] = percentiles(result.mesh, factor_for(mesh, 800));
     EXPECT_GT(low, 0.75);
     EXPECT_LT(high, 1.35);
@@ -241,9 +254,11 @@ TEST(Sizing, LengthsAreScaledWithTheMesh) {
     const TriangleMesh mesh = shapes::torus(60, 30, tube);
     const int exponent = 200;
     RemeshOptions options{.num_samples = 300};
-    options.sizing = {.target_lengths = values_of(mesh), .min_edge = 0.05, .max_edge = 0.4};
+    std::vector<double> lengths = values_of(mesh);
+    options.sizing = {.edges = VertexLengths{lengths}, .min_edge = 0.05, .max_edge = 0.4};
     const RemeshResult result = remesh::remesh(mesh.view(), options);
-    for (double& length : options.sizing.target_lengths) length = std::ldexp(length, exponent);
+    for (double& length : lengths) length = std::ldexp(length, exponent);
+    options.sizing.edges = VertexLengths{lengths};
     options.sizing.min_edge = std::ldexp(0.05, exponent);
     options.sizing.max_edge = std::ldexp(0.4, exponent);
     const RemeshResult large = remesh::remesh(agvd::scaled(mesh.view(), exponent).view(), options);
@@ -259,18 +274,17 @@ TEST(Sizing, WrongOptionsAreRefused) {
     negative[5] = -1;
     infinite[3] = std::numeric_limits<double>::infinity();
     const remesh::Sizing wrong[] = {
-        {.target_lengths = {1, 2}},
-        {.target_lengths = negative},
-        {.densities = infinite},
-        {.is_adaptive = true, .densities = ones},
-        {.target_lengths = ones, .densities = ones},
-        {.max_error = 0.1},
-        {.gives_count = true},
+        {.edges = VertexLengths{{1, 2}}},
+        {.edges = VertexLengths{negative}},
+        {.edges = VertexDensities{infinite}},
+        {.count = remesh::MaxError{0.1}},
+        {.count = CountOfLengths{}},
+        {.edges = VertexDensities{ones}, .count = CountOfLengths{}},
         {.min_edge = 2, .max_edge = 1},
         {.gradation = 0.9},
-        {.edge_length = -1},
-        {.edge_length = 1, .num_faces = 100},
-        {.edge_length = 1e-9},
+        {.count = MeanEdge{-1}},
+        {.count = MeanEdge{1e-9}},
+        {.count = NumFaces{0}},
     };
     for (const remesh::Sizing& sizing : wrong) {
         EXPECT_THROW((void)remesh::remesh(mesh.view(), {.sizing = sizing}), agvd::InvalidOption);

@@ -54,7 +54,7 @@ TEST(Stages, CleaningReportsWhatIsDoneOfThePreparation) {
 
 TEST(Stages, ADistanceIsCheckedOnlyOnceThereIsAResult) {
     const std::vector<Report> reports =
-        reports_of(shapes::sphere(3), {.sizing = {.max_distance = 0.05}});
+        reports_of(shapes::sphere(3), {.sizing = {.count = remesh::MaxDistance{0.05}}});
     EXPECT_LT(first_of(reports, Stage::Place), first_of(reports, Stage::Check));
 }
 

@@ -60,9 +60,10 @@ double distance_in_diagonals(const RemeshResult& result) {
 
 TEST(ThinParts, ARodKeepsItsLength) {
     for (const auto& [radius, is_adaptive] : {std::pair(0.03, false), {0.015, true}}) {
+        remesh::Sizing sizing;
+        if (is_adaptive) sizing.edges = remesh::AdaptiveEdges{};
         const RemeshResult result =
-            remesh::remesh(ball_with_rod(radius).view(),
-                           {.num_samples = 1000, .sizing = {.is_adaptive = is_adaptive}});
+            remesh::remesh(ball_with_rod(radius).view(), {.num_samples = 1000, .sizing = sizing});
         EXPECT_EQ(result.mesh.positions.size(), 1000u);
         EXPECT_EQ(result.components_thinned, 0u);
         // With equal edges: 8 to 12 %.
@@ -87,8 +88,9 @@ TEST(ThinParts, FewVerticesSufficeForARod) {
 TEST(ThinParts, LengthsThatTheCallerGivesStay) {
     const TriangleMesh mesh = ball_with_rod(0.03);
     const RemeshResult result = remesh::remesh(
-        mesh.view(), {.num_samples = 1000,
-                      .sizing = {.target_lengths = std::vector(mesh.positions.size(), 1.0)}});
+        mesh.view(),
+        {.num_samples = 1000,
+         .sizing = {.edges = remesh::VertexLengths{std::vector(mesh.positions.size(), 1.0)}}});
     EXPECT_NEAR(result.sizing.least_target, result.sizing.largest_target,
                 1e-9 * result.sizing.largest_target);
 }

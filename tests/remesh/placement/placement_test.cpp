@@ -14,6 +14,7 @@
 #include "remesh/placement/fit_vertices.h"
 #include "remesh/placement/improve_shape.h"
 #include "remesh/quality/triangle_quality.h"
+#include "remesh/sites/prepared_surface.h"
 #include "remesh/sites/relax_sites.h"
 #include "support/shapes.h"
 

@@ -1,5 +1,5 @@
 // Curvature of patches on surfaces of known curvature, whatever their triangles.
-#include "remesh/sites/curvature.h"
+#include "remesh/sites/target_lengths.h"
 
 #include <gtest/gtest.h>
 

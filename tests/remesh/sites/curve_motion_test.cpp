@@ -1,5 +1,5 @@
 // Sites of curves, drawn along them by slopes made by hand.
-#include "remesh/sites/curve_motion.h"
+#include "remesh/sites/relaxation.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Which of the caller's sites become vertices of curves, and which curves have enough of them.
-#include "remesh/sites/given_network.h"
+#include "remesh/sites/network_plan.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "remesh/sites/gradation.h"
+#include "remesh/sites/target_lengths.h"
 
 #include <gtest/gtest.h>
 

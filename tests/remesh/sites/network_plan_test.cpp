@@ -7,6 +7,7 @@
 #include "agvd/mesh/topology.h"
 #include "remesh/sites/relax_network.h"
 #include "remesh/sites/sample_sites.h"
+#include "remesh/sites/sampling.h"
 #include "support/flag_edges.h"
 #include "support/parts.h"
 #include "support/shapes.h"

@@ -16,9 +16,11 @@
 #include "agvd/propagation/propagate.h"
 #include "remesh/dual/closed_ball.h"
 #include "remesh/meshfile/read_mesh.h"
-#include "remesh/sites/boundary_curves.h"
-#include "remesh/sites/even_out.h"
+#include "remesh/sites/levels.h"
+#include "remesh/sites/prepared_surface.h"
 #include "remesh/sites/relaxation.h"
+#include "remesh/sites/sampling.h"
+#include "remesh/sites/site_dual.h"
 #include "remesh/sites/walk.h"
 #include "support/files.h"
 #include "support/shapes.h"
@@ -308,11 +310,13 @@ TEST(EvenOut, StartsAsEvenAsRandomOnesStayAsTheyAre) {
             for (const Init init : {Init::Random, Init::BlueNoise, Init::Farthest}) {
                 const auto start = sample_sites(surface, {.num_samples = count, .init = init});
                 auto sites = start;
-                EXPECT_EQ(even_out(prepared, sites, {}, 0), 0u) << count;
-                EXPECT_EQ(sites, start);
+                even_out(prepared, sites, {}, 0);
+                EXPECT_EQ(sites, start) << count;
             }
-            auto relaxed = sample_relaxed_sites(prepared, {.num_samples = count}).sites;
-            EXPECT_EQ(even_out(prepared, relaxed, {}, 0), 0u) << count;
+            const auto relaxed = sample_relaxed_sites(prepared, {.num_samples = count}).sites;
+            auto sites = relaxed;
+            even_out(prepared, sites, {}, 0);
+            EXPECT_EQ(sites, relaxed) << count;
         }
     }
 }
@@ -325,7 +329,8 @@ TEST(EvenOut, EveryPartGetsItsShareAndFixedSitesStay) {
     std::vector<SurfacePoint> sites(400, spot);
     std::vector<std::uint8_t> is_fixed(400, 0);
     is_fixed[0] = is_fixed[300] = 1;
-    EXPECT_EQ(even_out(PreparedSurface(surface, unrefined), sites, is_fixed, 0), 398u);
+    even_out(PreparedSurface(surface, unrefined), sites, is_fixed, 0);
+    EXPECT_EQ(std::count(sites.begin(), sites.end(), spot), 2);
     expect_on_surface(surface, sites);
     EXPECT_EQ(sites[0], spot);
     EXPECT_EQ(sites[300], spot);
@@ -431,9 +436,9 @@ TEST(Relaxation, SitesAreDrawnToThePlanesOfTheirCells) {
     const auto distance_after_steps = [&](const remesh::detail::CellMeasures& known) {
         const agvd::Progress none;
         remesh::detail::Relaxation relaxation(
-            surface, sites, remesh::detail::label_dual(prepared.base, labels).triangles, {}, {}, 1,
+            surface, {sites, remesh::detail::label_dual(prepared.base, labels).triangles}, {}, 1,
             none);
-        relaxation.set_density(known);
+        relaxation.set_density(&known, {});
         for (int step = 0; step < 5; ++step) relaxation.step();
         double sum = 0;
         for (std::size_t i = 0; i < sites.size(); ++i) {

@@ -10,9 +10,8 @@
 #include "agvd/mesh/face_area.h"
 #include "agvd/mesh/point_faces.h"
 #include "agvd/propagation/propagate.h"
-#include "remesh/sites/boundary_curves.h"
-#include "remesh/sites/farthest_points.h"
-#include "remesh/sites/minimum_samples.h"
+#include "remesh/sites/sampling.h"
+#include "remesh/sites/shares.h"
 #include "remesh/sites/size_field.h"
 #include "support/shapes.h"
 
@@ -212,7 +211,7 @@ TEST(SampleSites, NarrowStripsAndRoundHoles) {
     const Surface tube = surface_of(shapes::tube(64, 20));
     for (const std::vector<Index>& loop : agvd::boundary_loops(tube)) {
         EXPECT_TRUE(remesh::find_corners(tube, loop, 0.5).empty());
-        EXPECT_EQ(remesh::sample_loop(tube, loop, {}, 100.0).size(), 3u);
+        EXPECT_EQ(remesh::detail::sample_loop(tube, loop, 0.5, 100.0).size(), 3u);
     }
 }
 
@@ -294,7 +293,7 @@ TEST(SampleSites, FarthestPointsKeepAwayFromThoseThatAreFixed) {
     for (const SurfacePoint& p : sample_sites(surface, {.num_samples = 400})) {
         if (agvd::position(surface.mesh.view(), p).z() > 0) fixed.push_back(p);
     }
-    const auto added = remesh::detail::farthest_points(surface, whole, fixed, 100, 0.2, 1, 0, 0);
+    const auto added = remesh::detail::farthest_points(surface, whole, fixed, 100, 0.2, 0, {});
     ASSERT_EQ(added.size(), 100u);
     EXPECT_LT(agvd::position(surface.mesh.view(), added[0]).z(), -0.9);
     for (const SurfacePoint& p : added) {

@@ -14,7 +14,10 @@
 
 using agvd::Index;
 using agvd::Surface;
+using remesh::AdaptiveEdges;
 using remesh::Sizing;
+using remesh::VertexDensities;
+using remesh::VertexLengths;
 
 namespace {
 
@@ -28,8 +31,8 @@ struct TargetLengthsOfATorus : testing::Test {
         }
         return result;
     }
-    remesh::TargetLengths run(const Sizing& sizing, const std::vector<double>& of,
-                              double area) const {
+    std::vector<double> run(const Sizing& sizing, const std::vector<double>& of,
+                            double area) const {
         agvd::Ticker ticker;
         return remesh::target_lengths(surface, of, {}, {}, sizing, area, ticker);
     }
@@ -61,11 +64,11 @@ TEST_F(TargetLengthsOfATorus, TheAreaComesOut) {
     for (const double gradation : {1.05, 1.3, 4.0}) {
         for (const double area : {50.0, 2000.0, 1e5}) {
             for (const int kind : {0, 1, 2}) {
-                Sizing sizing{.is_adaptive = kind == 0, .gradation = gradation};
-                if (kind == 1) sizing.target_lengths = wanted;
-                if (kind == 2) sizing.densities = wanted;
+                Sizing sizing{.edges = AdaptiveEdges{}, .gradation = gradation};
+                if (kind == 1) sizing.edges = VertexLengths{wanted};
+                if (kind == 2) sizing.edges = VertexDensities{wanted};
                 const auto targets = run(sizing, wanted, area);
-                EXPECT_NEAR(remesh::area_in_lengths(surface, targets.length) / area, 1, 1e-9);
+                EXPECT_NEAR(remesh::area_in_lengths(surface, targets) / area, 1, 1e-9);
                 ++num_tried;
             }
         }
@@ -75,34 +78,35 @@ TEST_F(TargetLengthsOfATorus, TheAreaComesOut) {
 
 TEST_F(TargetLengthsOfATorus, AreScaledOrTakenAsTheyAre) {
     const std::vector<double> wanted = values(2);
-    const Sizing loose{.target_lengths = wanted, .gradation = 1000};
-    EXPECT_EQ(run(loose, wanted, 0).length, wanted);
+    const Sizing loose{.edges = VertexLengths{wanted}, .gradation = 1000};
+    EXPECT_EQ(run(loose, wanted, 0), wanted);
     const auto scaled = run(loose, wanted, 800);
-    const Sizing by_density{.densities = wanted, .gradation = 1000};
+    const Sizing by_density{.edges = VertexDensities{wanted}, .gradation = 1000};
     const auto dense = run(by_density, wanted, 800);
-    const Sizing by_curvature{.is_adaptive = true, .gradation = 1000};
+    const Sizing by_curvature{.edges = AdaptiveEdges{}, .gradation = 1000};
     const auto curved = run(by_curvature, wanted, 800);
     for (std::size_t v = 0; v < wanted.size(); ++v) {
-        EXPECT_NEAR(scaled.length[v] / scaled.length[0], wanted[v] / wanted[0], 1e-12);
-        EXPECT_NEAR(dense.length[v] / dense.length[0], std::sqrt(wanted[0] / wanted[v]), 1e-12);
-        EXPECT_NEAR(curved.length[v] / curved.length[0], std::cbrt(wanted[0] / wanted[v]), 1e-12);
+        EXPECT_NEAR(scaled[v] / scaled[0], wanted[v] / wanted[0], 1e-12);
+        EXPECT_NEAR(dense[v] / dense[0], std::sqrt(wanted[0] / wanted[v]), 1e-12);
+        EXPECT_NEAR(curved[v] / curved[0], std::cbrt(wanted[0] / wanted[v]), 1e-12);
     }
 }
 
 TEST_F(TargetLengthsOfATorus, KeepTheirBounds) {
     const std::vector<double> wanted = values(30);
     const double mean = std::sqrt(agvd::surface_area(surface) / 1000);
-    const auto free = range(run({.target_lengths = wanted}, wanted, 1000).length);
+    const auto free = range(run({.edges = VertexLengths{wanted}}, wanted, 1000));
     const auto bounded =
-        run({.target_lengths = wanted, .min_edge = mean / 2, .max_edge = 1.6 * mean}, wanted, 1000);
-    const auto [least, most] = range(bounded.length);
+        run({.edges = VertexLengths{wanted}, .min_edge = mean / 2, .max_edge = 1.6 * mean}, wanted,
+            1000);
+    const auto [least, most] = range(bounded);
     EXPECT_LT(free.first, 0.45 * mean);
     EXPECT_GT(free.second, 1.7 * mean);
     EXPECT_NEAR(least / (mean / 2), 1, 0.01);
     EXPECT_NEAR(most / (1.6 * mean), 1, 0.01);
     // Bounds that exclude the number give way: the lengths are equal then.
     const auto forced =
-        range(run({.target_lengths = wanted, .max_edge = mean / 3}, wanted, 1000).length);
+        range(run({.edges = VertexLengths{wanted}, .max_edge = mean / 3}, wanted, 1000));
     EXPECT_NEAR(forced.first, mean, 1e-9);
     EXPECT_NEAR(forced.second, mean, 1e-9);
 }
@@ -117,9 +121,9 @@ TEST_F(TargetLengthsOfATorus, GrowNoFasterThanTheGradationAlongGeodesics) {
     Index num_tried = 0;
     for (const double gradation : {1.1, 1.3}) {
         agvd::Ticker ticker;
-        const Sizing sizing{.target_lengths = wanted, .gradation = gradation};
+        const Sizing sizing{.edges = VertexLengths{wanted}, .gradation = gradation};
         const auto length =
-            remesh::target_lengths(base.surface(), wanted, {}, {}, sizing, 3000, ticker).length;
+            remesh::target_lengths(base.surface(), wanted, {}, {}, sizing, 3000, ticker);
         for (Index site = 0; site < base.surface().num_vertices(); site += 731) {
             const auto distance =
                 agvd::propagate(base.surface(), std::vector{agvd::point_at(base.surface(), site)},
@@ -136,8 +140,9 @@ TEST_F(TargetLengthsOfATorus, GrowNoFasterThanTheGradationAlongGeodesics) {
 
 TEST_F(TargetLengthsOfATorus, AreThoseOfTheErrorWhereOneIsGiven) {
     const std::vector<double> curvature(surface.num_vertices(), 2);
-    const auto targets = run({.is_adaptive = true, .max_error = 1e-3}, curvature, 0);
-    for (const double length : targets.length) {
+    const auto targets =
+        run({.edges = AdaptiveEdges{}, .count = remesh::MaxError{1e-3}}, curvature, 0);
+    for (const double length : targets) {
         EXPECT_DOUBLE_EQ(length, remesh::length_for_error(2 * std::sqrt(2), 1e-3));
     }
 }

@@ -42,6 +42,13 @@ void add_sizing(OptionsClass& options, const char* name, Value Sizing::*field) {
         [=](RemeshOptions& self, Value value) { self.sizing.*field = std::move(value); });
 }
 
+// Adds a method that sets what gives the number of vertices.
+template <typename Value, typename Count>
+void add_count(OptionsClass& options, const char* name, Count (*count_of)(Value)) {
+    options.def(name,
+                [=](RemeshOptions& self, Value value) { self.sizing.count = count_of(value); });
+}
+
 void add_choices(OptionsClass& options) {
     using remesh::Boundary;
     using remesh::Delaunay;
@@ -184,31 +191,37 @@ void bind_remesh(py::module_& module) {
     options.def(
         "set_target_lengths",
         [](RemeshOptions& self, const Doubles& values) {
-            self.sizing.target_lengths = vector_of(values);
+            self.sizing.edges = remesh::VertexLengths{vector_of(values)};
         },
         py::arg("values").noconvert());
     options.def(
         "set_face_lengths",
         [](RemeshOptions& self, const Doubles& values) {
-            self.sizing.face_lengths = vector_of(values);
+            self.sizing.edges = remesh::FaceLengths{vector_of(values)};
         },
         py::arg("values").noconvert());
     options.def(
         "set_densities",
         [](RemeshOptions& self, const Doubles& values) {
-            self.sizing.densities = vector_of(values);
+            self.sizing.edges = remesh::VertexDensities{vector_of(values)};
         },
         py::arg("values").noconvert());
     add_choices(options);
     add_propagation(options);
-    add_sizing(options, "is_adaptive", &Sizing::is_adaptive);
-    add_sizing(options, "max_distance", &Sizing::max_distance);
     add_sizing(options, "min_edge", &Sizing::min_edge);
     add_sizing(options, "max_edge", &Sizing::max_edge);
     add_sizing(options, "gradation", &Sizing::gradation);
-    add_sizing(options, "edge_length", &Sizing::edge_length);
-    add_sizing(options, "num_faces", &Sizing::num_faces);
-    add_sizing(options, "gives_count", &Sizing::gives_count);
+    options.def("set_adaptive",
+                [](RemeshOptions& self) { self.sizing.edges = remesh::AdaptiveEdges{}; });
+    add_count(
+        options, "set_edge_length", +[](double length) { return remesh::MeanEdge{length}; });
+    add_count(
+        options, "set_num_faces", +[](agvd::Index number) { return remesh::NumFaces{number}; });
+    add_count(
+        options, "set_max_distance",
+        +[](double distance) { return remesh::MaxDistance{distance}; });
+    options.def("set_count_of_lengths",
+                [](RemeshOptions& self) { self.sizing.count = remesh::CountOfLengths{}; });
     module.def("remesh", &run_remesh, py::arg("positions").noconvert(),
                py::arg("triangles").noconvert(), py::arg("options"), py::arg("with_faces"),
                py::arg("strict"), py::arg("memory_limit"), py::arg("progress"));

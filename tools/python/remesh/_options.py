@@ -59,15 +59,22 @@ def set_sizing(options: _remesh.Options, mesh: _kinds.Given, *, has_count: bool,
         raise InvalidOption("min_edge, max_edge and gradation bound edges that differ; add "
                             "adaptive, max_distance, sizing, face_sizing or density, or leave "
                             "them out")
-    options.is_adaptive = bool(adaptive)
+    has_values = [v is not None for v in (sizing, face_sizing, density)]
+    if sum(has_values) + bool(adaptive) > 1:
+        raise InvalidOption("several of adaptive, sizing, face_sizing and density are given; use "
+                            "one of them")
+    if max_distance is not None and any(has_values):
+        raise InvalidOption("max_distance excludes sizing, face_sizing and density")
+    if adaptive:
+        options.set_adaptive()
+    if not has_count and (sizing is not None or face_sizing is not None):
+        options.set_count_of_lengths()
     if sizing is not None:
         options.set_target_lengths(_at_vertices(mesh, sizing, "sizing"))
-        options.gives_count = not has_count
     if face_sizing is not None:
         if isinstance(face_sizing, str):
             face_sizing = _named(mesh.data()[1], face_sizing, "face_sizing", "faces")
         options.set_face_lengths(_arrays.one_each(face_sizing, len(mesh.F), "face_sizing", "faces"))
-        options.gives_count = not has_count
     if density is not None:
         options.set_densities(_at_vertices(mesh, density, "density"))
     if min_edge is not None:

@@ -203,11 +203,11 @@ def remesh(
         if value is not None:
             options.num_samples = _options.count(num_vertices, value, name)
     if faces is not None:
-        options.num_faces = _arrays.whole(faces, "faces", 1)
+        options.set_num_faces(_arrays.whole(faces, "faces", 1))
     if edge_length is not None:
-        options.edge_length = _options.length(mesh, edge_length, "edge_length")
+        options.set_edge_length(_options.length(mesh, edge_length, "edge_length"))
     if max_distance is not None:
-        options.max_distance = _options.length(mesh, max_distance, "max_distance")
+        options.set_max_distance(_options.length(mesh, max_distance, "max_distance"))
     has_count = any(v is not None for v in (n, n_clusters, faces, edge_length, max_distance, sites))
     _options.set_sizing(options, mesh, has_count=has_count, adaptive=adaptive, sizing=sizing,
                         face_sizing=face_sizing, density=density, max_distance=max_distance,

@@ -1,4 +1,4 @@
-#include "remesh/sites/eliminate.h"
+#include "remesh/sites/sampling.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "remesh/sites/farthest_vertex.h"
+#include "remesh/sites/sampling.h"
 
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ TEST(FarthestVertex, GoesByDistanceAndLeavesOutVerticesWithoutFaces) {
     agvd::BoundsSearch search(surface, layout, 1);
     search.add(agvd::point_at(surface, 1), 0);
     search.run();
-    remesh::detail::FarthestVertex farthest(surface, search);
+    auto farthest = remesh::detail::farthest_vertices(surface, {search});
     EXPECT_EQ(farthest.pop(), 10u);
     EXPECT_EQ(farthest.pop(), 9u);
     // Distances that a new site has lowered count.

@@ -1,15 +1,13 @@
 //! \file
-//! Quick labels of the vertices, and what relaxation derives from them: which sites are neighbours,
-//! and how much of the surface belongs to each site.
+//! Quick labels of the vertices, the triangulation of the sites that they give, and sites between
+//! those.
 #pragma once
 
 #include <optional>
-#include <span>
-#include <vector>
 
 #include "agvd/propagation/distance_bounds.h"
-#include "remesh/sites/cell_planes.h"
 #include "remesh/sites/prepared_surface.h"
+#include "remesh/sites/site_mesh.h"
 
 namespace remesh::detail {
 
@@ -20,22 +18,6 @@ namespace remesh::detail {
 [[nodiscard]] DistanceBounds label_vertices(const PreparedSurface& surface,
                                             std::span<const SurfacePoint> sites, int num_threads,
                                             const Progress& progress = {});
-
-//! What cells hold of the surface.
-struct CellMeasures {
-    std::vector<double> area;  //!< #sites, square mesh units.
-    //! #sites, in [0, 1]: the share of the area that the largest projection onto a plane lacks. 0
-    //! for a planar cell, half for a hemisphere.
-    std::vector<double> bending;
-    std::vector<CellPlanes> planes;  //!< #sites
-};
-
-//! Measures the cells given by labels. Faces with two labels are cut where these meet. The same for
-//! any number of threads.
-//! Cost: O(#F and pieces).
-[[nodiscard]] CellMeasures measure_cells(const PreparedSurface& surface,
-                                         const DistanceBounds& labels, Index num_sites,
-                                         int num_threads, const Progress& progress = {});
 
 //! A point halfway between two sites whose labels meet.
 struct Middle {
@@ -74,5 +56,18 @@ struct SiteDual {
 [[nodiscard]] std::vector<std::optional<SurfacePoint>> boundary_places(
     const IntrinsicTriangulation& base, const DistanceBounds& labels, Index num_sites,
     std::span<const Index> corners);
+
+//! Adds sites in the middles between neighbours, so that most sites have six neighbours. If these
+//! are too many, the closest pairs get none; if they are too few, the largest triangles get one
+//! site each. Nothing if that is not enough for `count` sites.
+//!
+//! \param weights  #sites; new ones get the mean of the sites around them.
+//! \param unit     #sites: of lengths at each; empty: mesh units.
+//! Cost: O(n log n).
+[[nodiscard]] std::optional<TriangulatedSites> subdivide(const Surface& surface,
+                                                         const std::vector<SurfacePoint>& sites,
+                                                         const std::vector<double>& weights,
+                                                         const SiteDual& dual, Index count,
+                                                         std::span<const double> unit = {});
 
 }  // namespace remesh::detail

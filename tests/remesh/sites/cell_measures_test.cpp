@@ -1,14 +1,18 @@
-#include "remesh/sites/cell_planes.h"
+#include "remesh/sites/cell_measures.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
+
 #include "agvd/propagation/distance_bounds.h"
-#include "remesh/sites/site_labels.h"
+#include "remesh/sites/site_dual.h"
 #include "support/shapes.h"
 
 using agvd::Vec3;
 using remesh::detail::CellPlanes;
+using remesh::detail::FaceParts;
 
 TEST(CellPlanes, TheIntegralIsThatOfSquaredDistances) {
     CellPlanes planes;  // z = 1 on an area of 2, x = 3 on one of 5.
@@ -56,4 +60,29 @@ TEST(PreparedSurface, FindsThePiecesAgainThatWereReset) {
     prepared.pieces.reset();
     prepared.find_pieces(2);
     EXPECT_EQ(list(), first);
+}
+
+TEST(FaceParts, EachPartHasTheFacesOfItsLabelsInTheirOrder) {
+    const agvd::Surface surface = agvd::build_surface(shapes::torus(40, 30).view());
+    std::vector<agvd::Index> label(surface.num_vertices());
+    for (agvd::Index v = 0; v < label.size(); ++v) label[v] = v % 7 == 0 ? agvd::no_index : v / 11;
+    for (const int num_threads : {1, 2, 8}) {
+        const FaceParts parts(surface, label, num_threads);
+        std::vector<agvd::Index> owners(surface.num_vertices(), 0);
+        for (agvd::Index part = 0; part < parts.count(); ++part) {
+            for (agvd::Index v = 0; v < label.size(); ++v)
+                owners[v] += parts.has(part, label[v]) ? 1 : 0;
+            std::vector<agvd::Index> expected, found;
+            for (agvd::Index f = 0; f < surface.num_faces(); ++f) {
+                const agvd::Triangle& t = surface.mesh.triangles[f];
+                const bool is_of_part = std::any_of(
+                    t.begin(), t.end(), [&](agvd::Index v) { return parts.has(part, label[v]); });
+                if (is_of_part) expected.push_back(f);
+            }
+            parts.for_each_face(part, [&](agvd::Index f) { found.push_back(f); });
+            EXPECT_EQ(found, expected) << "part " << part << " of " << parts.count();
+        }
+        for (agvd::Index v = 0; v < label.size(); ++v)
+            EXPECT_EQ(owners[v], label[v] == agvd::no_index ? 0 : 1);
+    }
 }

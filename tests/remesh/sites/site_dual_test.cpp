@@ -1,4 +1,4 @@
-#include "remesh/sites/subdivide.h"
+#include "remesh/sites/site_dual.h"
 
 #include <gtest/gtest.h>
 
