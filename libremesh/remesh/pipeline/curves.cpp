@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "agvd/mesh/distinct_points.h"
-#include "remesh/clean/carry_edges.h"
+#include "remesh/clean/carry.h"
 #include "remesh/curves/prune_seams.h"
 #include "remesh/pipeline/given_sites.h"
 #include "remesh/sites/given_network.h"

@@ -19,7 +19,6 @@
 #include "remesh/meshfile/write_diagram.h"
 #include "remesh/pipeline/remesh.h"
 #include "remesh/quality/evaluate.h"
-#include "remesh/quality/self_intersections.h"
 #include "remesh/sites/relax_sites.h"
 #include "support/scratch.h"
 #include "support/shapes.h"
