@@ -8,7 +8,7 @@
 #include "expected_stages.h"
 #include "help.h"
 #include "paper/compare_diagrams.h"
-#include "remesh/clean/carry_sites.h"
+#include "remesh/clean/carry.h"
 #include "remesh/meshfile/atomic_file.h"
 #include "remesh/meshfile/diagram_file.h"
 #include "remesh/meshfile/read_mesh.h"

@@ -6,7 +6,7 @@
 #include "declined.h"
 #include "help.h"
 #include "remesh/meshfile/write_mesh.h"
-#include "remesh/transfer/transfer_attributes.h"
+#include "remesh/transfer/transfer.h"
 
 namespace cli {
 namespace {

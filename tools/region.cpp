@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "help.h"
-#include "remesh/transfer/transfer_attributes.h"
+#include "remesh/transfer/transfer.h"
 
 namespace cli {
 

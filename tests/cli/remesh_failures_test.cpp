@@ -2,7 +2,7 @@
 #include <signal.h>
 
 #include "cli/remesh_program.h"
-#include "remesh/quality/self_intersections.h"
+#include "remesh/quality/evaluate.h"
 #include "support/shapes.h"
 
 namespace fs = std::filesystem;

@@ -1,4 +1,4 @@
-// A mesh on its own surface, as input for mend_shape and EditedMesh.
+// A mesh on its own surface, as input for repair_shape and EditedMesh.
 #pragma once
 
 #include <vector>
@@ -6,7 +6,7 @@
 #include "agvd/mesh/surface.h"
 #include "remesh/curves/glue.h"
 #include "remesh/placement/edited_mesh.h"
-#include "remesh/placement/placed_mesh.h"
+#include "remesh/placement/placement.h"
 
 // The vertices of a surface where they are; those on the boundary stay on it.
 struct MovableMesh {

@@ -8,7 +8,7 @@
 
 #include "remesh/meshfile/read_mesh.h"
 #include "remesh/pipeline/remesh.h"
-#include "remesh/transfer/map_to_input.h"
+#include "remesh/transfer/transfer.h"
 #include "report/report.h"
 
 int main(int argc, char** argv) {

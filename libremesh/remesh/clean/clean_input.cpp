@@ -115,7 +115,7 @@ void check_not_empty(const Soup& soup) {
 
 }  // namespace
 
-void check_elements(const MeshView& mesh, Ticker& ticker) {
+void check_elements(const MeshView& mesh, Ticker ticker) {
     if (mesh.triangles.size() > no_index / 3 || mesh.positions.size() >= no_index) {
         throw InvalidInput("the mesh has more than 2^32 / 3 faces; split it into parts");
     }
@@ -134,6 +134,39 @@ void check_elements(const MeshView& mesh, Ticker& ticker) {
                                " vertices, counted from 0; correct or delete the face");
         }
     }
+}
+
+void erase_faces(Soup& soup, const std::vector<bool>& is_dead, std::vector<Index>& twin) {
+    std::vector<Index> new_face(soup.triangles.size(), no_index);
+    Index count = 0;
+    for (Index f = 0; f < new_face.size(); ++f) {
+        soup.ticker.tick();
+        if (is_dead[f]) continue;
+        new_face[f] = count;
+        soup.triangles[count] = soup.triangles[f];
+        soup.face_origin[count] = soup.face_origin[f];
+        ++count;
+    }
+    soup.triangles.resize(count);
+    soup.face_origin.resize(count);
+    if (twin.empty()) return;
+    for (Index f = 0; f < new_face.size(); ++f) {
+        soup.ticker.tick();
+        if (new_face[f] == no_index) continue;
+        for (Index k = 0; k < 3; ++k) {
+            const Index across = twin[3 * f + k];
+            const bool is_open = across == no_index || new_face[across / 3] == no_index;
+            twin[3 * new_face[f] + k] = is_open ? no_index : 3 * new_face[across / 3] + across % 3;
+        }
+    }
+    twin.resize(3 * std::size_t{count});
+}
+
+Index drop_faces(Soup& soup, const std::vector<bool>& is_dead) {
+    const auto dropped = static_cast<Index>(std::count(is_dead.begin(), is_dead.end(), true));
+    std::vector<Index> no_twins;
+    if (dropped > 0) erase_faces(soup, is_dead, no_twins);
+    return dropped;
 }
 
 bool drop_repeated_corners(Soup& soup) {
@@ -169,6 +202,29 @@ void drop_isolated_vertices(Soup& soup) {
     for (Triangle& t : soup.triangles) {
         for (Index& v : t) v = new_vertex[v];
     }
+}
+
+Index drop_components(CleanResult& clean, const Topology& topology, double least_share) {
+    double area = 0;
+    for (const ComponentTopology& c : topology.components) area += c.area;
+    const auto goes = [&](const ComponentTopology& c) { return !(c.area >= least_share * area); };
+    const auto dropped = std::ranges::count_if(topology.components, goes);
+    if (dropped == 0) return 0;
+    if (dropped == std::ssize(topology.components)) {
+        throw InvalidOption("no component has " + std::to_string(100 * least_share) +
+                            " % of the area or more; use a smaller drop_components");
+    }
+    clean.connectivity = {};
+    Soup soup{std::move(clean.mesh.positions), std::move(clean.mesh.triangles),
+              std::move(clean.vertex_origin), std::move(clean.face_origin)};
+    std::vector<bool> is_dead;
+    for (const Index c : topology.face_component) is_dead.push_back(goes(topology.components[c]));
+    (void)drop_faces(soup, is_dead);
+    drop_isolated_vertices(soup);
+    clean.mesh = {std::move(soup.positions), std::move(soup.triangles)};
+    clean.vertex_origin = std::move(soup.vertex_origin);
+    clean.face_origin = std::move(soup.face_origin);
+    return static_cast<Index>(dropped);
 }
 
 }  // namespace detail

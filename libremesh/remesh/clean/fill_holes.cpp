@@ -5,7 +5,6 @@
 
 #include "agvd/core/edge_key.h"
 #include "agvd/core/error.h"
-#include "remesh/clean/hole_triangles.h"
 #include "remesh/clean/soup.h"
 
 namespace remesh::detail {

@@ -1,4 +1,4 @@
-#include "remesh/clean/hole_triangles.h"
+#include "remesh/clean/soup.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>

@@ -3,13 +3,13 @@
 #include "remesh/clean/places.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 
 #include "agvd/core/position_hash.h"
 #include "agvd/core/union_find.h"
 #include "agvd/mesh/scale.h"
+#include "remesh/clean/point_grid.h"
 
 namespace remesh::detail {
 namespace {
@@ -70,52 +70,6 @@ double median(std::vector<double> values) {
     return *middle;
 }
 
-// Vertices by cell. A slot may hold those of several cells.
-class Grid {
-public:
-    Grid(const Vec3& low, double cell, std::size_t num_vertices)
-        : low_(low), cell_(cell), first_(std::bit_ceil(2 * num_vertices), no_index) {}
-
-    // Calls visit(vertex) for all that were added within `radius` of p, and maybe some others.
-    // \param radius  less than half a cell.
-    template <typename Visit>
-    void visit_near(const Vec3& p, double radius, const Visit& visit) const {
-        std::array<std::size_t, 8> seen;
-        std::size_t num_seen = 0;
-        for (int corner = 0; corner < 8; ++corner) {
-            const Vec3 side(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
-            const std::size_t slot = slot_of(p + radius * side);
-            const auto end = seen.begin() + static_cast<std::ptrdiff_t>(num_seen);
-            if (std::find(seen.begin(), end, slot) != end) continue;
-            seen[num_seen++] = slot;
-            for (Index i = first_[slot]; i != no_index; i = entries_[i].next) {
-                visit(entries_[i].vertex);
-            }
-        }
-    }
-
-    void add(const Vec3& p, Index vertex) {
-        Index& first = first_[slot_of(p)];
-        entries_.push_back({vertex, first});
-        first = static_cast<Index>(entries_.size() - 1);
-    }
-
-private:
-    struct Entry {
-        Index vertex, next;
-    };
-
-    [[nodiscard]] std::size_t slot_of(const Vec3& p) const {
-        const Vec3 cell = ((p - low_) / cell_).array().floor();
-        return PositionHash{}(cell) & (first_.size() - 1);
-    }
-
-    Vec3 low_;
-    double cell_;
-    std::vector<Index> first_;  // By slot: the entry added last.
-    std::vector<Entry> entries_;
-};
-
 }  // namespace
 
 std::vector<Index> find_places(const MeshView& mesh, const std::vector<bool>& is_wanted,
@@ -134,7 +88,7 @@ std::vector<Index> find_places(const MeshView& mesh, const std::vector<bool>& is
     if (!(most > 0)) return place;
 
     UnionFind sets(place.size());
-    Grid grid(box.low, cell_size * most, place.size());
+    PointGrid grid(box.low, cell_size * most, place.size());
     for (Index v = 0; v < place.size(); ++v) {
         ticker.tick();
         if (place[v] != v || reach[v] < least_reach * most) continue;

@@ -1,3 +1,8 @@
+// Orients faces and decides which belong together.
+//
+// Gives each patch one orientation. A patch is a set of faces connected through edges of exactly
+// two faces.
+//
 // Decides which faces belong together at non-manifold edges and vertices: the flattest pairs.
 // Vertices are then copied until vertex indices alone give these pairs. Among equally flat pairs
 // the one that bounds a convex wedge is taken, so that boxes that touch along an edge stay apart.
@@ -6,12 +11,78 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <tuple>
 
+#include "agvd/core/error.h"
 #include "remesh/clean/soup.h"
 
 namespace remesh::detail {
 namespace {
+
+// If this share of a closed patch agrees, its orientation is kept; otherwise the patch is turned
+// outward. The first keeps the inner wall of a hollow body, the second serves files without any
+// orientation.
+constexpr double clear_majority = 0.75;
+
+struct Patch {
+    std::vector<Index> faces;  // In the order in which they were reached.
+    Index turned = 0;          // Number of faces oriented against the first one.
+    bool is_closed = true;
+};
+
+// Collects the patch of `seed`; `is_turned` is relative to it.
+Patch spread(const Soup& soup, const std::vector<Index>& across, Index seed,
+             std::vector<bool>& is_seen, std::vector<bool>& is_turned, Ticker& ticker) {
+    Patch patch;
+    patch.faces.push_back(seed);
+    is_seen[seed] = true;
+    for (std::size_t i = 0; i < patch.faces.size(); ++i) {
+        ticker.tick();
+        const Index face = patch.faces[i];
+        if (is_turned[face]) ++patch.turned;
+        for (Index h = 3 * face; h < 3 * face + 3; ++h) {
+            if (across[h] == no_index) {
+                patch.is_closed = false;
+                continue;
+            }
+            const Index other = across[h] / 3;
+            const bool turned = is_turned[face] != (soup.runs_up(h) == soup.runs_up(across[h]));
+            if (!is_seen[other]) {
+                is_seen[other] = true;
+                is_turned[other] = turned;
+                patch.faces.push_back(other);
+            } else if (is_turned[other] != turned) {
+                throw InvalidInput(
+                    "the surface is not orientable (one-sided like a Moebius strip) at face " +
+                    std::to_string(soup.face_origin[other]) +
+                    "; cut it open along a line that crosses this face");
+            }
+        }
+    }
+    return patch;
+}
+
+// Six times the signed volume between a face and a point.
+double volume_to(const Soup& soup, Index face, const Vec3& origin) {
+    const auto& [a, b, c] = soup.triangles[face];
+    return (soup.positions[a] - origin)
+        .dot((soup.positions[b] - origin).cross(soup.positions[c] - origin));
+}
+
+// Whether the first face, and those oriented like it, are to be turned.
+bool first_side_yields(const Soup& soup, const Patch& patch, const std::vector<bool>& is_turned) {
+    const auto total = static_cast<double>(patch.faces.size());
+    const bool is_minority = 2 * static_cast<double>(patch.turned) > total;
+    const double majority = (is_minority ? patch.turned : total - patch.turned) / total;
+    if (!patch.is_closed || majority >= clear_majority) return is_minority;
+    const Vec3& origin = soup.positions[soup.triangles[patch.faces[0]][0]];
+    double volume = 0;  // If the turned faces were turned back.
+    for (const Index face : patch.faces) {
+        volume += (is_turned[face] ? -1 : 1) * volume_to(soup, face, origin);
+    }
+    return volume < 0;
+}
 
 // All faces at an edge of more faces than this are cut apart: the number of pairs grows with the
 // square.
@@ -33,34 +104,30 @@ void join(std::vector<Index>& twin, Index a, Index b) {
 
 // The angle between two faces that traverse their common edge in opposite directions, through the
 // body that they bound: about 2 pi where they lie on each other.
-// \param is_inside_out  bodies lie on the side of the normals.
-double angle_inside(const Soup& soup, Index a, Index b, bool is_inside_out) {
+// \param is_turned  bodies lie on the side of the normals.
+double angle_inside(const Soup& soup, Index a, Index b, bool is_turned) {
     const Vec3& origin = soup.positions[soup.tail(a)];
     const Vec3 along = (soup.positions[soup.head(a)] - origin).normalized();
     const Vec3 normal = along.cross(soup.positions[soup.apex(a)] - origin).normalized();
     const Vec3 up = soup.positions[soup.apex(b)] - origin;
-    const double below = (is_inside_out ? 1 : -1) * normal.dot(up);
+    const double below = (is_turned ? 1 : -1) * normal.dot(up);
     const double angle = std::atan2(below, normal.cross(along).dot(up));
     return angle < folded_angle ? angle + 2 * std::numbers::pi : angle;
 }
 
-// Six times the volume that the faces enclose.
-double enclosed_volume(Soup& soup) {
+// Whether the faces enclose a negative volume. A surface where an edge has an odd number of faces
+// is open, and encloses none.
+bool is_inside_out(Soup& soup, std::span<const EdgeSide> sides) {
+    bool is_closed = true;
+    for_each_edge(sides, [&](auto edge) { is_closed &= edge.size() % 2 == 0; });
+    if (!is_closed) return false;
     const Vec3& origin = soup.positions[soup.triangles[0][0]];
     double volume = 0;
-    for (const auto& [a, b, c] : soup.triangles) {
+    for (Index f = 0; f < soup.triangles.size(); ++f) {
         soup.ticker.tick();
-        volume += (soup.positions[a] - origin)
-                      .dot((soup.positions[b] - origin).cross(soup.positions[c] - origin));
+        volume += volume_to(soup, f, origin);
     }
-    return volume;
-}
-
-// Whether each edge has an even number of faces: an open surface encloses no volume.
-bool is_closed(std::span<const EdgeSide> sides) {
-    bool result = true;
-    for_each_edge(sides, [&](std::span<const EdgeSide> edge) { result &= edge.size() % 2 == 0; });
-    return result;
+    return volume < 0;
 }
 
 // Whether the faces have the same corners. They are the walls of two bodies, and stay apart.
@@ -75,7 +142,7 @@ double fitness(double angle, bool has_walls) {
     return -std::cos(angle) + (angle < std::numbers::pi ? convex_bonus : 0);
 }
 
-void pair_faces(const Soup& soup, std::span<const EdgeSide> edge, bool is_inside_out,
+void pair_faces(const Soup& soup, std::span<const EdgeSide> edge, bool is_turned,
                 std::vector<Index>& twin) {
     if (edge.size() > most_sheets) return;
     struct Pair {
@@ -92,7 +159,7 @@ void pair_faces(const Soup& soup, std::span<const EdgeSide> edge, bool is_inside
                 has_walls = true;
                 continue;
             }
-            const double angle = angle_inside(soup, up.half_edge, down.half_edge, is_inside_out);
+            const double angle = angle_inside(soup, up.half_edge, down.half_edge, is_turned);
             has_walls = has_walls || angle >= 2 * std::numbers::pi - folded_angle;
             pairs.push_back({angle, 0, up.half_edge, down.half_edge});
         }
@@ -147,9 +214,39 @@ bool is_told_by_indices(const Soup& soup, std::span<const EdgeSide> edge) {
 
 }  // namespace
 
+bool orient_faces(Soup& soup, std::span<const EdgeSide> sides) {
+    std::vector<Index> across(soup.num_half_edges(), no_index);
+    bool is_consistent = true;
+    for_each_edge(sides, [&](std::span<const EdgeSide> edge) {
+        soup.ticker.tick();
+        if (edge.size() != 2) return;
+        const Index a = edge[0].half_edge, b = edge[1].half_edge;
+        across[a] = b;
+        across[b] = a;
+        if (soup.runs_up(a) == soup.runs_up(b)) is_consistent = false;
+    });
+    if (is_consistent) return false;
+
+    const auto num_faces = static_cast<Index>(soup.triangles.size());
+    std::vector<bool> is_seen(num_faces, false), is_turned(num_faces, false);
+    std::vector<Index> to_turn;
+    for (Index seed = 0; seed < num_faces; ++seed) {
+        if (is_seen[seed]) continue;
+        const Patch patch = spread(soup, across, seed, is_seen, is_turned, soup.ticker);
+        if (patch.turned == 0) continue;
+        const bool first_yields = first_side_yields(soup, patch, is_turned);
+        for (const Index face : patch.faces) {
+            if (is_turned[face] != first_yields) to_turn.push_back(face);
+        }
+    }
+    for (const Index face : to_turn) std::swap(soup.triangles[face][1], soup.triangles[face][2]);
+    soup.counts.flipped_faces += static_cast<Index>(to_turn.size());
+    return true;
+}
+
 std::vector<Index> pair_sheets(Soup& soup, std::span<const EdgeSide> sides) {
     std::vector<Index> twin(soup.num_half_edges(), no_index);
-    const bool is_inside_out = is_closed(sides) && enclosed_volume(soup) < 0;
+    const bool is_turned = is_inside_out(soup, sides);
     for_each_edge(sides, [&](std::span<const EdgeSide> edge) {
         soup.ticker.tick(edge.size());
         if (edge.size() == 2 && !are_opposite(soup, edge[0], edge[1])) {
@@ -157,7 +254,7 @@ std::vector<Index> pair_sheets(Soup& soup, std::span<const EdgeSide> sides) {
         }
         if (edge.size() <= 2) return;
         ++soup.counts.split_edges;
-        pair_faces(soup, edge, is_inside_out, twin);
+        pair_faces(soup, edge, is_turned, twin);
     });
     return twin;
 }

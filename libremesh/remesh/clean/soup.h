@@ -6,12 +6,14 @@
 //! at a non-manifold edge or vertex belong to one sheet.
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "agvd/core/poller.h"
 #include "agvd/mesh/edge_sides.h"
 #include "agvd/mesh/surface.h"
-#include "remesh/clean/clean_counts.h"
+#include "agvd/mesh/topology.h"
+#include "remesh/clean/clean_input.h"
 
 namespace remesh::detail {
 
@@ -21,7 +23,7 @@ struct Soup {
     std::vector<Index> vertex_origin;         //!< #V: input vertex.
     std::vector<Index> face_origin;           //!< #F: input face.
     std::vector<Vec3> welded_positions = {};  //!< See CleanResult.
-    CleanCounts counts;
+    CleanCounts counts = {};
     double slit_length = 0;  //!< See CleanResult.
     Ticker ticker = {};      //!< Of clean_input(): every pass ticks it.
 
@@ -36,7 +38,7 @@ struct Soup {
 
 //! \throw InvalidInput  the mesh has too many faces, a coordinate that is not finite, or an
 //!        index out of range.
-void check_elements(const MeshView& mesh, Ticker& ticker);
+void check_elements(const MeshView& mesh, Ticker ticker = {});
 
 //! Removes the marked faces and updates `twin` (may be empty).
 void erase_faces(Soup& soup, const std::vector<bool>& is_dead, std::vector<Index>& twin);
@@ -71,5 +73,24 @@ void drop_isolated_vertices(Soup& soup);
 //! Closes boundary loops of at most `most_edges` edges. A new face has the origin of one beside it.
 //! \throw InvalidOption  there is such a loop, and the build is without CGAL.
 void fill_holes(Soup& soup, Index most_edges);
+
+//! Triangulates a hole as CGAL's triangulate_hole_polyline does: the largest dihedral angle, then
+//! the area, is as small as it can be.
+//!
+//! \param rim     the corners, in the order of the triangles to make.
+//! \param beyond  the third corner of the face at each side of the rim; as many.
+//! \return indices into rim; no triangles if none were found; unset in a build without CGAL.
+//! Cost: O(n^2) where the Delaunay triangulation of the rim has a solution; otherwise O(n^3).
+[[nodiscard]] std::optional<std::vector<Triangle>> triangulate_hole(std::span<const Vec3> rim,
+                                                                    std::span<const Vec3> beyond);
+
+//! Drops every component with less than this share of the surface's area, and the vertices that
+//! only it uses.
+//! \param least_share  in [0, 1].
+//! \param topology  of clean.mesh.
+//! \return the number of components dropped.
+//! \throw InvalidOption  none would be left.
+[[nodiscard]] Index drop_components(CleanResult& clean, const Topology& topology,
+                                    double least_share);
 
 }  // namespace remesh::detail

@@ -13,7 +13,7 @@
 #include "remesh/dual/closed_ball.h"
 #include "remesh/pipeline/place_vertices.h"
 #include "remesh/pipeline/vertex_count.h"
-#include "remesh/placement/flat_faces.h"
+#include "remesh/placement/placement.h"
 
 namespace remesh::detail {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "remesh/clean/drop_components.h"
+#include "remesh/clean/soup.h"
 #include "remesh/pipeline/locked.h"
 
 namespace remesh::detail {

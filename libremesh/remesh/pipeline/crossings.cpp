@@ -1,7 +1,7 @@
 #include "remesh/pipeline/crossings.h"
 
 #include "remesh/curves/glue.h"
-#include "remesh/quality/self_intersections.h"
+#include "remesh/quality/evaluate.h"
 
 namespace remesh::detail {
 namespace {

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "agvd/mesh/distinct_points.h"
-#include "remesh/clean/carry_edges.h"
+#include "remesh/clean/carry.h"
 #include "remesh/curves/crease_chains.h"
 #include "remesh/pipeline/given_sites.h"
 #include "remesh/sites/network_plan.h"

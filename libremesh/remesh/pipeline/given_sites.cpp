@@ -4,7 +4,7 @@
 
 #include "agvd/core/error.h"
 #include "agvd/mesh/distinct_points.h"
-#include "remesh/clean/carry_sites.h"
+#include "remesh/clean/carry.h"
 
 namespace remesh::detail {
 namespace {

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "agvd/mesh/point_faces.h"
-#include "remesh/placement/mend_shape.h"
+#include "remesh/placement/placement.h"
 #include "remesh/sites/sampling.h"
 
 namespace remesh::detail {
@@ -74,7 +74,7 @@ std::optional<MendedMesh> mend(const Domain& domain, MendableMesh mendable,
         {
             const StageClock clock(Stage::Place, context.result);
             const Progress progress = progress_of(Stage::Place, context.options);
-            numbers = mend_shape(domain.prepared.input(), mendable.mobility, mendable.hard,
+            numbers = repair_shape(domain.prepared.input(), mendable.mobility, mendable.hard,
                                  mended.mesh, within(progress, 1, 1));
         }
         if (numbers.empty()) return std::nullopt;

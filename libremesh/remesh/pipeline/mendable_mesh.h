@@ -3,7 +3,7 @@
 #pragma once
 
 #include "remesh/pipeline/crossings.h"
-#include "remesh/placement/edited_mesh.h"
+#include "remesh/placement/placement.h"
 
 namespace remesh::detail {
 
@@ -17,7 +17,7 @@ struct MendableMesh {
 //! Which vertices may move: those of components that were thinned or have a boundary. Corners of
 //! the boundary that turn by more than 45 degrees over a whole spacing stay. Others, and those of
 //! small holes, are no larger than the teeth that the triangles of a scan make at its rim; they may
-//! move as far as mend_shape() moves the boundary.
+//! move as far as repair_shape() moves the boundary.
 //!
 //! \param is_thinned  by component.
 //! \return nothing if there is no such component. With given sites only thinned ones count: the
@@ -33,12 +33,12 @@ struct MendedMesh {
     std::optional<CrossingCounts> self_intersections;  //!< Unset without CGAL.
 };
 
-//! Mends thin triangles (mend_shape). If mended triangles intersect, fixes their corners and tries
+//! Mends thin triangles (repair_shape). If mended triangles intersect, fixes their corners and tries
 //! again.
 //!
 //! \param most_crossings  self-intersecting pairs that the mesh may have; unset: not known.
 //! \return nothing if no mended mesh is better.
-//! Cost: that of mend_shape, twice at most.
+//! Cost: that of repair_shape, twice at most.
 [[nodiscard]] std::optional<MendedMesh> mend(const Domain& domain, MendableMesh mendable,
                                              std::optional<Index> most_crossings,
                                              CrossingFinder& finder, const StageContext& context);

@@ -2,9 +2,7 @@
 
 #include <utility>
 
-#include "remesh/placement/fit_curves.h"
-#include "remesh/placement/fit_vertices.h"
-#include "remesh/placement/improve_shape.h"
+#include "remesh/placement/placement.h"
 
 namespace remesh::detail {
 namespace {

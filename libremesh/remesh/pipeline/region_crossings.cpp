@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "agvd/core/poller.h"
-#include "remesh/quality/self_intersections.h"
+#include "remesh/quality/evaluate.h"
 
 namespace remesh::detail {
 namespace {

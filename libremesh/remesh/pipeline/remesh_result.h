@@ -11,10 +11,10 @@
 #include "agvd/mesh/mesh_view.h"
 #include "agvd/mesh/surface_point.h"
 #include "agvd/mesh/topology.h"
-#include "remesh/clean/clean_counts.h"
+#include "remesh/clean/clean_input.h"
 #include "remesh/dual/build_dual.h"
 #include "remesh/pipeline/remesh_options.h"
-#include "remesh/quality/verdict.h"
+#include "remesh/quality/evaluate.h"
 #include "remesh/sites/relax_sites.h"
 
 namespace remesh {

@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "remesh/clean/carry_sites.h"
+#include "remesh/clean/carry.h"
 #include "remesh/pipeline/check_result.h"
 #include "remesh/pipeline/crossings.h"
 #include "remesh/pipeline/meet_distance.h"

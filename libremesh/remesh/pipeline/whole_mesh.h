@@ -5,7 +5,7 @@
 #include "remesh/curves/glue.h"
 #include "remesh/pipeline/place_sites.h"
 #include "remesh/pipeline/valid_dual.h"
-#include "remesh/placement/placed_mesh.h"
+#include "remesh/placement/placement.h"
 
 namespace remesh::detail {
 

@@ -9,12 +9,9 @@
 
 #include "agvd/mesh/surface.h"
 #include "remesh/curves/glue.h"
-#include "remesh/placement/placed_mesh.h"
+#include "remesh/placement/placement.h"
 
 namespace remesh::detail {
-
-//! Where a vertex may go: along the surface, along its boundary, or nowhere.
-enum class Mobility : std::uint8_t { Free, Boundary, Fixed };
 
 //! Every edit keeps the topology, and chains of hard edges stay chains of hard edges. No normal
 //! turns by more than 60 degrees, and no edge becomes sharper than both 60 degrees and the edges
@@ -23,21 +20,13 @@ class EditedMesh {
 public:
     struct Face {
         Triangle corner;
-        //! Bit k: the edge from corner k to the next one is hard.
-        std::uint8_t hard = 0;
+        std::array<bool, 3> is_hard{};  //!< k: the edge from corner k to the next one.
         bool is_there = false;
         double quality = 0;  //!< shape_quality(); 1 less if the face points against the surface.
-
-        [[nodiscard]] bool is_hard(Index k) const { return (hard >> k & 1U) != 0; }
-        //! `hard` for edges from corner 0, 1 and 2.
-        [[nodiscard]] static std::uint8_t hard_bits(bool first, bool second, bool third) {
-            return static_cast<std::uint8_t>((first ? 1U : 0U) | (second ? 2U : 0U) |
-                                             (third ? 4U : 0U));
-        }
     };
     //! A state to which edits can be undone.
     struct Mark {
-        std::size_t faces = 0, places = 0, fans = 0;  // Sizes of the journals.
+        std::size_t faces = 0, vertices = 0, fans = 0;  // Sizes of the journals.
         Index num_faces = 0, num_vertices = 0;
     };
 
@@ -49,12 +38,12 @@ public:
                std::span<const DirectedEdge> hard);
 
     [[nodiscard]] Index num_faces() const { return static_cast<Index>(faces_.size()); }
-    [[nodiscard]] Index num_vertices() const { return static_cast<Index>(places_.size()); }
+    [[nodiscard]] Index num_vertices() const { return static_cast<Index>(vertices_.size()); }
     [[nodiscard]] const Face& face(Index f) const { return faces_[f]; }
     //! In no order; empty: the vertex was removed.
     [[nodiscard]] std::span<const Index> faces_at(Index v) const { return fans_[v]; }
-    [[nodiscard]] const Vec3& at(Index v) const { return places_[v].at; }
-    [[nodiscard]] Mobility mobility(Index v) const { return places_[v].mobility; }
+    [[nodiscard]] const Vec3& at(Index v) const { return vertices_[v].at; }
+    [[nodiscard]] Mobility mobility(Index v) const { return vertices_[v].mobility; }
     [[nodiscard]] double worst_at(Index v) const;
     //! The neighbours before and after a vertex along its hard edges; no_index: none.
     [[nodiscard]] std::array<Index, 2> hard_neighbours(Index v) const;
@@ -84,7 +73,7 @@ public:
     [[nodiscard]] PlacedMesh result(std::vector<Index>& numbers) const;
 
 private:
-    struct Place {
+    struct Vertex {
         SurfacePoint point;
         Vec3 offset = Vec3::Zero(), at = offset, facing = offset;
         Mobility mobility = Mobility::Free;
@@ -93,12 +82,12 @@ private:
         Index face = no_index, k = 0;
     };
 
-    void locate(Place& place) const;
+    void locate(Vertex& vertex) const;
     [[nodiscard]] double quality_of(const Triangle& t) const;
     [[nodiscard]] Vec3 normal_of(const Triangle& t) const;
-    void put_face(Index f, const Triangle& corner, std::uint8_t hard);
+    void put_face(Index f, const Triangle& corner, const std::array<bool, 3>& is_hard);
     void drop_face(Index f);
-    void put_place(Index v, const Place& place);
+    void put_vertex(Index v, const Vertex& vertex);
     void log_fan(Index v) { old_fans_.emplace_back(v, fans_[v]); }
     void measure_around(Index v);
     [[nodiscard]] bool has_corner(Index f, Index v) const;
@@ -106,7 +95,7 @@ private:
     [[nodiscard]] bool are_joined(Index a, Index b) const;
     [[nodiscard]] bool folds(const std::array<Index, 4>& quad, Half first, Half second) const;
     [[nodiscard]] bool may_collapse(Index gone, Index into) const;
-    [[nodiscard]] bool place_between(Index a, Index b, bool is_hard, Place& place) const;
+    [[nodiscard]] bool find_between(Index a, Index b, bool is_hard, Vertex& vertex) const;
     void split_side(Half side, Index vertex);
     [[nodiscard]] double bend(Index from, Index to) const;
     [[nodiscard]] double largest_bend_at(Index v) const;
@@ -116,10 +105,10 @@ private:
     double mean_length_ = 0;  // Of the initial edges.
     std::size_t num_crossings_ = 0;
     std::vector<Face> faces_;
-    std::vector<Place> places_;             // By vertex.
+    std::vector<Vertex> vertices_;          // By vertex.
     std::vector<std::vector<Index>> fans_;  // By vertex: its faces.
     std::vector<std::pair<Index, Face>> old_faces_;
-    std::vector<std::pair<Index, Place>> old_places_;
+    std::vector<std::pair<Index, Vertex>> old_vertices_;
     std::vector<std::pair<Index, std::vector<Index>>> old_fans_;
 };
 

@@ -1,4 +1,4 @@
-#include "remesh/placement/fit_curves.h"
+#include "remesh/placement/placement.h"
 
 #include <algorithm>
 
@@ -36,27 +36,26 @@ Chain chain_of(const Surface& surface, const Curve& curve, const CurveSites& sit
 std::array<Vec3, 2> pulls(const Surface& surface, const Curve& curve, const Chain& chain,
                           std::size_t i) {
     const double begin = chain.along[i], end = chain.along[i + 1];
-    // Places of the curve's own vertices between them.
-    std::vector<double> places{begin};
+    // Lengths along the curve: of both, and of the curve's own vertices between them.
+    std::vector<double> stops{begin};
     for (const double turn : {0.0, curve.is_closed() ? curve.length() : 0.0}) {
         for (const double up_to : curve.up_to) {
-            const double place = up_to + turn;
-            if (place > places.back() && place < end) places.push_back(place);
+            const double stop = up_to + turn;
+            if (stop > stops.back() && stop < end) stops.push_back(stop);
         }
     }
-    places.push_back(end);
+    stops.push_back(end);
     const auto off_chain = [&](double along) {
         const double share = (along - begin) / (end - begin);
         const Vec3 on_chain = (1 - share) * chain.at[i] + share * chain.at[i + 1];
         return Vec3(position(surface.mesh.view(), point_on_curve(curve, along)) - on_chain);
     };
     std::array<Vec3, 2> result{Vec3::Zero(), Vec3::Zero()};
-    for (std::size_t k = 0; k + 1 < places.size(); ++k) {
+    for (std::size_t k = 0; k + 1 < stops.size(); ++k) {
         // Simpson's rule is exact: both factors are linear.
-        const double width = places[k + 1] - places[k], middle = places[k] + width / 2;
-        for (const auto& [at, weight] : {std::pair(places[k], width / 6),
-                                         {middle, 4 * width / 6},
-                                         {places[k + 1], width / 6}}) {
+        const double width = stops[k + 1] - stops[k], middle = stops[k] + width / 2;
+        for (const auto& [at, weight] :
+             {std::pair(stops[k], width / 6), {middle, 4 * width / 6}, {stops[k + 1], width / 6}}) {
             const double share = (at - begin) / (end - begin);
             const Vec3 off = weight * off_chain(at);
             result[0] += (1 - share) * off;

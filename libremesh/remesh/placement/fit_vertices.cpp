@@ -6,19 +6,19 @@
 //
 // A: area that a sample stands for. n: normal of its triangle. h: distance from the triangle's
 // plane along n (Gap::from_plane). b_k: barycentric coordinates of the triangle's nearest point.
-#include "remesh/placement/fit_vertices.h"
+#include "remesh/placement/placement.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
+#include "agvd/core/groups.h"
 #include "agvd/core/parallel.h"
 #include "agvd/mesh/closest_point.h"
 #include "agvd/mesh/face_area.h"
 #include "agvd/mesh/point_faces.h"
 #include "remesh/placement/nearest_in_cells.h"
-#include "remesh/placement/vertex_triangles.h"
 
 namespace remesh {
 namespace {
@@ -94,7 +94,7 @@ public:
           poller_(poller),
           ticker_(poller),
           mesh_(mesh),
-          around_(mesh.triangles, mesh.points.size()),
+          around_(triangles_by_vertex(mesh.triangles, mesh.points.size())),
           ground_(base, nearest_vertex, num_vertices()),
           samples_(std::move(samples)) {
         for (Index v = 0; v < num_vertices(); ++v) {
@@ -392,7 +392,7 @@ private:
     Poller& poller_;
     Ticker ticker_;
     PlacedMesh& mesh_;
-    detail::VertexTriangles around_;
+    Groups around_;  // #V: the triangles there.
     detail::NearestInCells ground_;
     std::vector<CellSample> samples_;
     Field at_;                         // #V
@@ -445,14 +445,6 @@ void fit_vertices(const IntrinsicTriangulation& base, std::span<const Index> nea
     mesh.offsets.resize(mesh.points.size(), Vec3::Zero());
     Fit(base, nearest_vertex, std::move(samples), mesh, least_way, stays, num_threads, poller)
         .run();
-}
-
-void fit_vertices(const PreparedSurface& surface, std::span<const Index> nearest_vertex,
-                  PlacedMesh& mesh, int num_threads, const Progress& progress, double least_way) {
-    const auto num_vertices = static_cast<Index>(mesh.points.size());
-    fit_vertices(surface.base, nearest_vertex,
-                 sample_cells(surface, nearest_vertex, num_vertices, progress), mesh, num_threads,
-                 progress, least_way);
 }
 
 }  // namespace remesh

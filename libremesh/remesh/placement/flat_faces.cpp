@@ -1,6 +1,6 @@
 // Sites on a straight curve may be neighbours in pairs: three of them then form a triangle without
 // area, the middle one on the edge between the others.
-#include "remesh/placement/flat_faces.h"
+#include "remesh/placement/placement.h"
 
 #include <algorithm>
 

@@ -1,16 +1,15 @@
 // Vertices of bad triangles try steps along the surface in a few directions and lengths, the worst
 // triangles first. A step is kept if the worst triangle around the vertex gains more quality than
 // it costs to leave the planes of the cell ([garland1997]).
-#include "remesh/placement/improve_shape.h"
+#include "remesh/placement/placement.h"
 
 #include <algorithm>
 #include <cmath>
 
+#include "agvd/core/groups.h"
 #include "agvd/core/parallel.h"
 #include "agvd/mesh/point_faces.h"
 #include "remesh/placement/shape_quality.h"
-#include "remesh/placement/slide_steps.h"
-#include "remesh/placement/vertex_triangles.h"
 #include "remesh/sites/cell_measures.h"
 #include "remesh/sites/size_field.h"
 #include "remesh/sites/walk.h"
@@ -19,9 +18,7 @@ namespace remesh {
 namespace {
 
 // Triangles below detail::low_quality are improved first; then those below this, without
-// plane_cost. Medians of nine meshes at N = 2000, with .63 and .62, then with .7 and .66: smallest
-// quality .633 and .682, smallest angle 33.0 and 35.6, largest angle 97.7 and 92.7 degrees. The RMS
-// distance is the same.
+// plane_cost: better angles at the same distance.
 constexpr double poor_quality = 0.66;
 // Quality that a move must gain if it leaves the planes of the cell by the mean length of the edges
 // around the vertex; at other distances in proportion to the square.
@@ -29,16 +26,14 @@ constexpr double plane_cost = 30;
 constexpr int most_rounds = 8;
 // A fixed side shorter than short_side times the mean edge length, or the target length, makes its
 // triangle slim wherever the third corner is. Vertices within three spacings would crowd around it,
-// so the quality of its triangle is divided by slim_quality. Bunny with five given edges of .2
-// spacings: mean quality .908 to .923 (without them .927), RMS distance .069 to .061 % (.060),
-// smallest angle 28 to 9 degrees.
+// so the quality of its triangle is divided by slim_quality.
 constexpr double short_side = 0.25;
 constexpr double slim_quality = 0.3;
 // Least gain in quality of a move.
 constexpr double least_gain = 1e-4;
 // The walks of all steps cross at most so many faces, per face of the surface and vertex of the
-// mesh. Around long spikes a walk circles through thousands of faces: an armadillo with spikes took
-// minutes; meshes without spikes take at most 2 a face or 370 a vertex.
+// mesh. Around long spikes a walk circles through thousands of faces; elsewhere they cross at most
+// 2 a face or 370 a vertex.
 constexpr std::size_t most_crossings_per_face = 20;
 constexpr std::size_t most_crossings_per_vertex = 600;
 
@@ -50,7 +45,7 @@ public:
         : surface_(input),
           ticker_(poller),
           mesh_(mesh),
-          around_(mesh.triangles, mesh.points.size()),
+          around_(triangles_by_vertex(mesh.triangles, mesh.points.size())),
           at_(mesh.points.size()),
           facing_(mesh.points.size()),
           planes_(planes),
@@ -198,7 +193,7 @@ private:
     const Surface& surface_;
     Ticker ticker_;
     PlacedMesh& mesh_;
-    detail::VertexTriangles around_;
+    Groups around_;                               // #V: the triangles there.
     std::vector<Vec3> directions_;                // Of the vertex at hand.
     std::vector<Vec3> at_, facing_;               // #V: positions, and normals of the surface.
     std::span<const detail::CellPlanes> planes_;  // #V
@@ -245,15 +240,6 @@ void improve_shape(const Surface& input, std::span<const detail::CellPlanes> pla
                    std::span<const std::uint8_t> stays) {
     Poller poller(progress);
     Improvement(input, planes, sizes, stays, poller, mesh).run();
-}
-
-void improve_shape(const PreparedSurface& surface, std::span<const Index> nearest_vertex,
-                   PlacedMesh& mesh, int num_threads, const Progress& progress,
-                   const SizeField* sizes) {
-    const auto num_vertices = static_cast<Index>(mesh.points.size());
-    improve_shape(surface.input(),
-                  planes_of_cells(surface, nearest_vertex, num_vertices, num_threads, progress),
-                  mesh, progress, sizes);
 }
 
 }  // namespace remesh

@@ -2,10 +2,11 @@
 //! Points spread evenly over the area of a mesh.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
-#include "agvd/mesh/mesh_view.h"
-#include "agvd/mesh/surface_point.h"
+#include "agvd/core/random.h"
+#include "agvd/mesh/uniform_points.h"
 #include "remesh/names.h"
 
 namespace remesh::detail {
@@ -14,10 +15,23 @@ namespace remesh::detail {
 class AreaSamples {
 public:
     //! \param mesh  at least one face has an area; faces without get no point. Cost: O(#F).
-    explicit AreaSamples(const MeshView& mesh);
+    explicit AreaSamples(const MeshView& mesh) {
+        area_up_to_.reserve(mesh.triangles.size());
+        double area = 0;
+        for (const auto& [a, b, c] : mesh.triangles) {
+            const Vec3& p = mesh.positions[a];
+            area += (mesh.positions[b] - p).cross(mesh.positions[c] - p).norm() / 2;
+            area_up_to_.push_back(area);
+        }
+    }
 
     //! \param i  below n; the same point in each call. Cost: O(log #F).
-    [[nodiscard]] SurfacePoint at(Index i, Index n) const;
+    [[nodiscard]] SurfacePoint at(Index i, Index n) const {
+        const double area = (i + random_unit(0, 0, i)) / n * area_up_to_.back();
+        const auto face = std::upper_bound(area_up_to_.begin(), area_up_to_.end() - 1, area);
+        return {FaceId(static_cast<Index>(face - area_up_to_.begin())),
+                uniform_barycentric(random_unit(0, 1, i), random_unit(0, 2, i))};
+    }
 
 private:
     std::vector<double> area_up_to_;  // #F: of a face and all before it.

@@ -7,38 +7,21 @@
 #include "agvd/core/error.h"
 #include "agvd/mesh/scale.h"
 #include "agvd/mesh/surface.h"
+#include "remesh/clean/soup.h"
 #include "remesh/curves/find_creases.h"
-#include "remesh/quality/self_intersections.h"
 #include "remesh/sites/prepared_surface.h"
 #include "remesh/sites/sample_sites.h"
 
 namespace remesh {
 namespace {
 
-CleanResult clean_original(const MeshView& original, int num_threads, const Progress& progress) {
+// Puts the name of the mesh before the text of errors.
+template <typename Use>
+auto naming(const std::string& mesh, const Use& use) {
     try {
-        return clean_input(original, {.num_threads = num_threads, .progress = progress});
+        return use();
     } catch (const InvalidInput& error) {
-        throw InvalidInput(std::string("original: ") + error.what());
-    }
-}
-
-// The result is not repaired, since its defects are measured. This checks only that it can be
-// measured.
-void check_result(const MeshView& mesh) {
-    const auto fail = [](const std::string& text) { throw InvalidInput("result: " + text); };
-    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-        if (mesh.positions[v].allFinite()) continue;
-        fail("vertex " + std::to_string(v) +
-             " has a coordinate that is not finite; correct or delete the vertex");
-    }
-    for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
-        for (const Index v : mesh.triangles[f]) {
-            if (v < mesh.positions.size()) continue;
-            fail("face " + std::to_string(f) + " names vertex " + std::to_string(v) +
-                 ", but the mesh has only " + std::to_string(mesh.positions.size()) +
-                 " vertices, counted from 0; correct or delete the face");
-        }
+        throw InvalidInput(mesh + ": " + error.what());
     }
 }
 
@@ -61,11 +44,15 @@ MeshFigures measure(const MeshView& mesh, int num_threads, const Progress& progr
 // \param original  of a size that can be computed on.
 Evaluation evaluate_in_scale(const MeshView& original, const MeshView& result,
                              const EvaluationOptions& options) {
-    check_result(result);
+    // The result is not repaired, since its defects are measured: only that can be checked.
+    naming("result", [&] { detail::check_elements(result); });
     const Progress& all = options.progress;
-    const CleanResult clean = clean_original(original, options.num_threads, within(all, 0, 0.1));
+    const CleanResult clean = naming("original", [&] {
+        return clean_input(original,
+                           {.num_threads = options.num_threads, .progress = within(all, 0, 0.1)});
+    });
     Evaluation evaluation;
-    DistanceOptions measuring = options;
+    EvaluationOptions measuring = options;
     measuring.progress = within(all, 0.1, 0.5);
     evaluation.distance = surface_distance(clean.mesh.view(), result, measuring);
     evaluation.cleaned = clean.counts;

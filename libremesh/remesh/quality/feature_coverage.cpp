@@ -1,20 +1,21 @@
 // Compares sharp edges by points: points at equal distances along the sharp edges of one mesh
 // count as covered if they lie near the blunt edges of the other. Corners count as kept if a
 // vertex of the result is near.
-#include "remesh/quality/feature_coverage.h"
+#include "remesh/quality/evaluate.h"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <unordered_map>
 
-#include "remesh/quality/edge_dihedrals.h"
+#include "agvd/core/position_hash.h"
+#include "agvd/mesh/edge_sides.h"
+#include "agvd/mesh/scale.h"
 #include "remesh/quality/point_distances.h"
 
 namespace remesh {
 namespace {
-
-using detail::EdgeDihedral;
 
 constexpr double sharp = 40 * degree;
 constexpr double blunt = 25 * degree;
@@ -26,6 +27,138 @@ constexpr double near = 1e-3, very_near = 2e-4, near_corner = 5e-4;
 constexpr double thin_original = 1e-6, thin_result = 1e-9;
 
 constexpr Index num_points = 20'000;
+
+double angle_between(const Vec3& a, const Vec3& b) {
+    return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+constexpr int most_steps = 6;  // Over thin faces.
+
+struct EdgeDihedral {
+    Index ends[2];
+    // Between the normals of the two faces, both seen from the same side of the surface for any
+    // orientation, radians; pi for any other number of faces.
+    double angle;
+    Index num_faces;
+};
+
+// Normals of faces as seen from their edges. A thin face has no reliable normal: it takes the one
+// of the face across its longest other side, over a few such steps.
+class FaceNormals {
+public:
+    FaceNormals(const MeshView& mesh, std::span<const EdgeSide> sides, double thin, Ticker& ticker)
+        : across_(sides.size(), no_index), is_forward_(sides.size()), length_(sides.size()) {
+        for_each_edge(sides, [&](std::span<const EdgeSide> edge) {
+            ticker.tick();
+            const double length =
+                (mesh.positions[edge[0].low()] - mesh.positions[edge[0].high()]).norm();
+            for (const EdgeSide& side : edge) {
+                is_forward_[side.half_edge] = side.forward;
+                length_[side.half_edge] = length;
+            }
+            if (edge.size() != 2) return;
+            across_[edge[0].half_edge] = edge[1].half_edge;
+            across_[edge[1].half_edge] = edge[0].half_edge;
+        });
+        for (Index f = 0; f < mesh.triangles.size(); ++f) {
+            ticker.tick();
+            const auto& [a, b, c] = mesh.triangles[f];
+            const auto& p = mesh.positions;
+            const Vec3 area = (p[b] - p[a]).cross(p[c] - p[a]);
+            const double twice = area.norm();
+            const double longest =
+                std::max({length_[3 * f], length_[3 * f + 1], length_[3 * f + 2]});
+            is_thin_.push_back(twice <= thin * longest);
+            normals_.push_back(twice > 0 ? Vec3(area / twice) : Vec3(Vec3::Zero()));
+        }
+    }
+
+    // Normal of the surface at this side, on the left of its edge from the lower vertex to the
+    // higher; zero if there is none.
+    [[nodiscard]] Vec3 normal(Index h) const {
+        bool is_up = is_forward_[h];
+        for (int step = 0; is_thin_[h / 3] && step <= most_steps; ++step) {
+            const Index exit = longest_other_side(h);
+            if (exit == no_index) break;
+            h = across_[exit];
+            // The face across is oriented the other way.
+            if (is_forward_[h] == is_forward_[exit]) is_up = !is_up;
+        }
+        return is_up ? normals_[h / 3] : Vec3(-normals_[h / 3]);
+    }
+
+private:
+    // The longest other half-edge of the face that has exactly one face across.
+    [[nodiscard]] Index longest_other_side(Index h) const {
+        Index best = no_index;
+        for (Index k = 3 * (h / 3); k < 3 * (h / 3) + 3; ++k) {
+            if (k == h || across_[k] == no_index) continue;
+            if (best == no_index || length_[k] > length_[best]) best = k;
+        }
+        return best;
+    }
+
+    std::vector<Index> across_;     // #H: the other side of an edge with two; otherwise no_index.
+    std::vector<bool> is_forward_;  // #H.
+    std::vector<double> length_;    // #H.
+    std::vector<bool> is_thin_;     // #F.
+    std::vector<Vec3> normals_;     // #F.
+};
+
+// \param thin  mesh units: a lower face takes the normal of one beside it.
+std::vector<EdgeDihedral> edge_dihedrals(const MeshView& mesh, double thin, Ticker& ticker) {
+    const std::vector<EdgeSide> sides = sorted_edge_sides(mesh.triangles, ticker);
+    const FaceNormals normals(mesh, sides, thin, ticker);
+    std::vector<EdgeDihedral> edges;
+    for_each_edge(sides, [&](std::span<const EdgeSide> edge) {
+        ticker.tick();
+        double angle = std::numbers::pi;
+        if (edge.size() == 2) {
+            // Seen from the edge, the other face lies on the other side, so its normal is turned.
+            const Vec3 a = normals.normal(edge[0].half_edge),
+                       b = -normals.normal(edge[1].half_edge);
+            angle = angle_between(a, b);
+        }
+        edges.push_back({{edge[0].low(), edge[0].high()}, angle, static_cast<Index>(edge.size())});
+    });
+    return edges;
+}
+
+// The mesh without copies: vertices with equal coordinates are one, faces that repeat a vertex or
+// another face are dropped.
+TriangleMesh without_copies(const MeshView& mesh, Ticker& ticker) {
+    TriangleMesh result;
+    std::unordered_map<Vec3, Index, PositionHash> indices;
+    std::vector<Index> index_of(mesh.positions.size(), no_index);
+    std::vector<std::pair<Triangle, Index>> faces;  // Sorted corners, face.
+    std::vector<Triangle> kept;
+    for (const Triangle& t : mesh.triangles) {
+        ticker.tick(8);
+        Triangle face;
+        for (int k = 0; k < 3; ++k) {
+            Index& index = index_of[t[k]];
+            if (index == no_index) {
+                const auto [it, is_new] = indices.try_emplace(
+                    mesh.positions[t[k]], static_cast<Index>(result.positions.size()));
+                if (is_new) result.positions.push_back(mesh.positions[t[k]]);
+                index = it->second;
+            }
+            face[k] = index;
+        }
+        if (face[0] == face[1] || face[1] == face[2] || face[2] == face[0]) continue;
+        Triangle corners = face;
+        std::sort(corners.begin(), corners.end());
+        faces.emplace_back(corners, static_cast<Index>(kept.size()));
+        kept.push_back(face);
+    }
+    sort_ticked(faces, ticker, std::less<>());
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+        ticker.tick();
+        if (i > 0 && faces[i].first == faces[i - 1].first) continue;
+        result.triangles.push_back(kept[faces[i].second]);
+    }
+    return result;
+}
 
 enum class BoundaryEdges { Counts, DoesNot };
 
@@ -51,16 +184,6 @@ struct Edges {
         return sum;
     }
 };
-
-double diagonal_of(const TriangleMesh& mesh) {
-    if (mesh.positions.empty()) return 0;
-    Vec3 low = mesh.positions[0], high = low;
-    for (const Vec3& p : mesh.positions) {
-        low = low.cwiseMin(p);
-        high = high.cwiseMax(p);
-    }
-    return (high - low).norm();
-}
 
 // Points at equal distances along all sharp edges, one edge after the other.
 std::vector<Vec3> points_on_sharp(const Edges& edges, double length, Ticker& ticker) {
@@ -89,7 +212,7 @@ struct Shares {
 
 Shares shares_near(std::vector<Vec3> points, const Edges& edges, BoundaryEdges boundary,
                    double diagonal, Ticker& ticker) {
-    detail::PointDistances distances(std::move(points), near * diagonal, ticker);
+    detail::PointDistances distances(std::move(points), near * diagonal);
     edges.for_each_above(blunt, boundary, [&](Index a, Index b) {
         distances.pass(edges.mesh.positions[a], edges.mesh.positions[b], ticker);
     });
@@ -105,10 +228,6 @@ Shares shares_near(std::vector<Vec3> points, const Edges& edges, BoundaryEdges b
 struct Corners {
     std::vector<Vec3> all, acute;
 };
-
-double angle_between(const Vec3& a, const Vec3& b) {
-    return std::atan2(a.cross(b).norm(), a.dot(b));
-}
 
 Corners corners_of(const Edges& edges, Ticker& ticker) {
     const auto& p = edges.mesh.positions;
@@ -144,7 +263,7 @@ Corners corners_of(const Edges& edges, Ticker& ticker) {
 // Corners with a vertex of the result nearby.
 Index count_kept(const std::vector<Vec3>& corners, const TriangleMesh& result, double reach,
                  Ticker& ticker) {
-    detail::PointDistances distances(corners, reach, ticker);
+    detail::PointDistances distances(corners, reach);
     for (const Vec3& p : result.positions) distances.pass(p, p, ticker);
     const auto& found = distances.distances();
     return static_cast<Index>(
@@ -154,7 +273,7 @@ Index count_kept(const std::vector<Vec3>& corners, const TriangleMesh& result, d
 // The smallest angle of triangles without a vertex near any of the points.
 double min_angle_off(const std::vector<Vec3>& points, const TriangleMesh& mesh, double reach,
                      Ticker& ticker) {
-    detail::PointDistances distances(mesh.positions, reach, ticker);
+    detail::PointDistances distances(mesh.positions, reach);
     for (const Vec3& p : points) distances.pass(p, p, ticker);
     const auto is_near = [&](Index v) { return std::isfinite(distances.distances()[v]); };
     double least = std::numbers::pi;
@@ -176,14 +295,16 @@ std::optional<FeatureCoverage> feature_coverage(const MeshView& original, const 
                                                 const Progress& progress) {
     Poller poller(progress);
     Ticker ticker(poller);
-    Edges before{detail::without_copies(original, ticker), {}};
-    const double diagonal = diagonal_of(before.mesh);
-    before.all = detail::edge_dihedrals(before.mesh.view(), thin_original * diagonal, ticker);
+    Edges before{without_copies(original, ticker), {}};
+    MeshBox box;
+    for (const Vec3& p : before.mesh.positions) box.add(p);
+    const double diagonal = box.is_empty() ? 0 : (box.high - box.low).norm();
+    before.all = edge_dihedrals(before.mesh.view(), thin_original * diagonal, ticker);
     FeatureCoverage coverage{.length = before.sharp_length(), .diagonal = diagonal};
     const Corners corners = corners_of(before, ticker);
     if (coverage.length == 0 && corners.all.empty()) return std::nullopt;
-    Edges after{detail::without_copies(result, ticker), {}};
-    after.all = detail::edge_dihedrals(after.mesh.view(), thin_result * diagonal, ticker);
+    Edges after{without_copies(result, ticker), {}};
+    after.all = edge_dihedrals(after.mesh.view(), thin_result * diagonal, ticker);
     coverage.result_length = after.sharp_length();
     if (coverage.length > 0) {
         const Shares shares = shares_near(points_on_sharp(before, coverage.length, ticker), after,

@@ -2,7 +2,7 @@
 // pair with exact predicates. Uses vertex indices instead of a half-edge structure, so that it
 // works on non-manifold meshes: the test depends on the corners that two faces have in common.
 // Candidates are tested in batches of bounded memory, in parallel chunks.
-#include "remesh/quality/self_intersections.h"
+#include "remesh/quality/evaluate.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/box_intersection_d.h>

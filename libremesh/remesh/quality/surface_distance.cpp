@@ -1,7 +1,7 @@
 // Draws samples from each surface, stratified by area, and finds the closest points on the other
 // one with CGAL's AABB tree. Sums are taken by chunk in a fixed order, so that they do not depend
 // on the threads.
-#include "remesh/quality/surface_distance.h"
+#include "remesh/quality/evaluate.h"
 
 #include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_tree.h>
@@ -114,7 +114,7 @@ OneSidedDistance measure(Index count, int num_threads, Poller& poller, const Fac
 }
 
 OneSidedDistance one_sided(const MeshView& mesh, const Faces& from, const Faces& to,
-                           const DistanceOptions& options, Poller& poller) {
+                           const EvaluationOptions& options, Poller& poller) {
     OneSidedDistance result = measure(options.samples, options.num_threads, poller, to,
                                       [&](Index i) { return from.sample(i, options.samples); });
     std::vector<bool> used(mesh.positions.size(), false);
@@ -153,7 +153,7 @@ Index count_flipped(const Faces& original, const Faces& result, int num_threads,
 }  // namespace
 
 std::optional<SurfaceDistance> surface_distance(const MeshView& original, const MeshView& result,
-                                                const DistanceOptions& options) {
+                                                const EvaluationOptions& options) {
     if (options.samples < 1) throw InvalidOption("samples is 0; use 1 or more");
     check_num_threads(options.num_threads);
     Poller poller(options.progress);

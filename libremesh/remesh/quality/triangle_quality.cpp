@@ -1,13 +1,14 @@
 // One pass over the faces for shapes and angles, one over the edges for the Delaunay condition and
 // lengths, one for valences.
-#include "remesh/quality/triangle_quality.h"
-#include "remesh/placement/flat_faces.h"
+#include "remesh/quality/evaluate.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "agvd/mesh/edge_sides.h"
+#include "remesh/placement/placement.h"
+#include "remesh/placement/placement.h"
 
 namespace remesh {
 namespace {

@@ -2,7 +2,7 @@
 // the nearest point is the vertex itself, unless another sheet lies nearer. If that sheet
 // faces the other way, it is the far side of a wall. Walls of which only one side is in the result
 // are not seen, and a face that is turned over at the vertex is no far side.
-#include "remesh/quality/verdict.h"
+#include "remesh/quality/evaluate.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,6 @@
 #include "agvd/core/union_find.h"
 #include "agvd/mesh/closest_point.h"
 #include "agvd/mesh/scale.h"
-#include "remesh/quality/triangle_quality.h"
 
 namespace remesh {
 namespace {

@@ -1,12 +1,11 @@
 // What needs CGAL, for a build without it: these functions return nothing.
-#include "remesh/clean/hole_triangles.h"
-#include "remesh/quality/self_intersections.h"
-#include "remesh/quality/surface_distance.h"
+#include "remesh/clean/soup.h"
+#include "remesh/quality/evaluate.h"
 
 namespace remesh {
 
 std::optional<SurfaceDistance> surface_distance(const MeshView&, const MeshView&,
-                                                const DistanceOptions&) {
+                                                const EvaluationOptions&) {
     return std::nullopt;
 }
 

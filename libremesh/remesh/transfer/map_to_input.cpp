@@ -1,4 +1,4 @@
-#include "remesh/transfer/map_to_input.h"
+#include "remesh/transfer/transfer.h"
 
 #include <string>
 

@@ -19,6 +19,16 @@ constexpr double rounding_share = 16 * std::numeric_limits<double>::epsilon();
 // The ball reaches farther than the start by this share, so that edges through the start meet it.
 constexpr double margin = 1e-9;
 
+// Vertices at equal positions become the first of them.
+std::vector<Triangle> welded(const MeshView& mesh, Ticker ticker) {
+    const std::vector<Index> first = first_at_position(mesh.positions, ticker);
+    std::vector<Triangle> triangles(mesh.triangles.begin(), mesh.triangles.end());
+    for_each_ticked(triangles, ticker, [&](Triangle& t) {
+        for (Index& v : t) v = first[v];
+    });
+    return triangles;
+}
+
 }  // namespace
 
 bool NearestOnSheet::Seen::insert(Index face) {
@@ -44,30 +54,18 @@ void NearestOnSheet::Seen::grow() {
 
 NearestOnSheet::NearestOnSheet(const MeshView& mesh, Ticker ticker)
     : mesh_(mesh),
-      point_(first_at_position(mesh.positions, ticker)),
-      begin_(mesh.positions.size() + 1, 0) {
+      points_(welded(mesh, ticker)),
+      faces_(triangles_by_vertex(points_, mesh.positions.size())) {
     double largest = 0;
     for (const Vec3& p : mesh.positions) largest = std::max(largest, p.cwiseAbs().maxCoeff());
     rounding_ = rounding_share * largest;
-    for_each_ticked(mesh.triangles, ticker, [&](const Triangle& t) {
-        for (const Index v : t) ++begin_[point_[v] + 1];
-    });
-    for (std::size_t v = 0; v + 1 < begin_.size(); ++v) begin_[v + 1] += begin_[v];
-    faces_.resize(begin_.back());
-    std::vector<Index> next(begin_.begin(), begin_.end() - 1);
-    for (Index f = 0; f < mesh.triangles.size(); ++f) {
-        ticker.tick();
-        for (const Index v : mesh.triangles[f]) faces_[next[point_[v]]++] = f;
-    }
 }
 
 // The other faces at edge k of a face, but for those beyond a seam.
 template <typename Visit>
 void NearestOnSheet::for_each_neighbor(Index face, std::size_t k, const Visit& visit) const {
-    const Triangle& t = mesh_.triangles[face];
-    const Index a = point_[t[k]], b = point_[t[(k + 1) % 3]];
-    for (Index i = begin_[a]; i < begin_[a + 1]; ++i) {
-        const Index other = faces_[i];
+    const Index a = points_[face][k], b = points_[face][(k + 1) % 3];
+    for (const Index other : faces_.of(a)) {
         const std::size_t at_b = corner_at(other, b);
         if (at_b == 3 || other == face) continue;
         if (agree_ != nullptr && !((*agree_)(face, k, other, corner_at(other, a)) &&
@@ -80,10 +78,8 @@ void NearestOnSheet::for_each_neighbor(Index face, std::size_t k, const Visit& v
 
 // The corner of a face at a point; 3: it has none there.
 std::size_t NearestOnSheet::corner_at(Index face, Index point) const {
-    const Triangle& t = mesh_.triangles[face];
-    std::size_t k = 0;
-    while (k < 3 && point_[t[k]] != point) ++k;
-    return k;
+    const Triangle& t = points_[face];
+    return static_cast<std::size_t>(std::find(t.begin(), t.end(), point) - t.begin());
 }
 
 ClosestPoint NearestOnSheet::closest(Index face, const Vec3& point) const {

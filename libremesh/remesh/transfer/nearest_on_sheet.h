@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "agvd/core/groups.h"
 #include "agvd/core/poller.h"
 #include "agvd/mesh/closest_point.h"
 #include "remesh/meshfile/read_mesh.h"
@@ -72,10 +73,9 @@ private:
     void flood(const Vec3& point, double reach, Index start, Seen& seen, const Visit& visit) const;
 
     MeshView mesh_;
-    std::vector<Index> point_;  // #V: the first vertex at the same position.
-    std::vector<Index> begin_;  // #V + 1: of the faces at each such vertex.
-    std::vector<Index> faces_;
-    double rounding_ = 0;                     // Lengths up to this are rounding.
+    std::vector<Triangle> points_;  // #F: for each corner the first vertex at its position.
+    Groups faces_;                  // At each such vertex.
+    double rounding_ = 0;           // Lengths up to this are rounding.
     const CornerAgreement* agree_ = nullptr;  // Null: seams do not count.
 };
 

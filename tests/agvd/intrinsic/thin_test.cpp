@@ -13,7 +13,7 @@
 #include "agvd/mesh/distinct_points.h"
 #include "agvd/mesh/topology.h"
 #include "remesh/pipeline/remesh.h"
-#include "remesh/quality/triangle_quality.h"
+#include "remesh/quality/evaluate.h"
 #include "support/points.h"
 #include "support/random_surfaces.h"
 #include "support/shapes.h"

@@ -1,4 +1,4 @@
-#include "remesh/clean/carry_sites.h"
+#include "remesh/clean/carry.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "remesh/clean/drop_components.h"
+#include "remesh/clean/soup.h"
 
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ remesh::CleanResult three_rectangles() {
 }
 
 Index drop(remesh::CleanResult& clean, double least_share) {
-    return drop_components(clean, remesh::analyze_topology(clean.mesh.view()), least_share);
+    return remesh::detail::drop_components(clean, remesh::analyze_topology(clean.mesh.view()), least_share);
 }
 
 TEST(DropComponents, AComponentWithTheLeastShareStays) {

@@ -8,7 +8,7 @@
 
 #include "agvd/core/union_find.h"
 #include "agvd/mesh/topology.h"
-#include "remesh/clean/carry_sites.h"
+#include "remesh/clean/carry.h"
 #include "remesh/clean/clean_input.h"
 #include "support/dice.h"
 #include "support/dirty_shapes.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "remesh/meshfile/write_mesh.h"
-#include "remesh/transfer/transfer_attributes.h"
+#include "remesh/transfer/transfer.h"
 #include "support/read_text.h"
 #include "support/shapes.h"
 

@@ -7,7 +7,7 @@
 #include "remesh/pipeline/crossing_places.h"
 #include "remesh/pipeline/place_sites.h"
 #include "remesh/pipeline/remesh.h"
-#include "remesh/quality/self_intersections.h"
+#include "remesh/quality/evaluate.h"
 #include "support/parts.h"
 #include "support/shapes.h"
 

@@ -13,7 +13,7 @@
 #include "remesh/clean/clean_input.h"
 #include "remesh/pipeline/locked.h"
 #include "remesh/pipeline/remesh.h"
-#include "remesh/quality/triangle_quality.h"
+#include "remesh/quality/evaluate.h"
 #include "support/dice.h"
 #include "support/dirty_shapes.h"
 #include "support/junction_shapes.h"

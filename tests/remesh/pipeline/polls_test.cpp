@@ -17,7 +17,6 @@
 #include "remesh/meshfile/read_sites.h"
 #include "remesh/pipeline/remesh.h"
 #include "remesh/quality/evaluate.h"
-#include "remesh/quality/self_intersections.h"
 #include "remesh/sites/prepared_surface.h"
 #include "remesh/sites/relax_sites.h"
 #include "support/scratch.h"

@@ -14,7 +14,7 @@
 #include "agvd/mesh/topology.h"
 #include "remesh/meshfile/read_mesh.h"
 #include "remesh/pipeline/remesh.h"
-#include "remesh/quality/triangle_quality.h"
+#include "remesh/quality/evaluate.h"
 #include "support/dice.h"
 #include "support/dirty_shapes.h"
 #include "support/files.h"

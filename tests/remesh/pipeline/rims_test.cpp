@@ -9,7 +9,7 @@
 
 #include "agvd/core/random.h"
 #include "remesh/pipeline/remesh.h"
-#include "remesh/quality/triangle_quality.h"
+#include "remesh/quality/evaluate.h"
 #include "support/shapes.h"
 
 using namespace agvd;

@@ -9,7 +9,7 @@
 #include "agvd/mesh/scale.h"
 #include "agvd/mesh/topology.h"
 #include "remesh/pipeline/remesh.h"
-#include "remesh/quality/surface_distance.h"
+#include "remesh/quality/evaluate.h"
 #include "support/dirty_shapes.h"
 #include "support/parts.h"
 #include "support/shapes.h"

@@ -141,7 +141,7 @@ TEST(EditedMesh, AnyCollapsesKeepTheBoundaryHard) {
     std::size_t num_hard = 0;
     for (Index f = 0; f < edited.num_faces(); ++f) {
         if (!edited.face(f).is_there) continue;
-        for (unsigned k = 0; k < 3; ++k) num_hard += edited.face(f).hard >> k & 1U;
+        for (const bool is_hard : edited.face(f).is_hard) num_hard += is_hard ? 1 : 0;
     }
     EXPECT_EQ(num_hard, remesh::rim_of(result.triangles).size());
 }

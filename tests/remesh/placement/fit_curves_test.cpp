@@ -1,5 +1,5 @@
 // Vertices of creases leave them so that the chain lies nearer.
-#include "remesh/placement/fit_curves.h"
+#include "remesh/placement/placement.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "remesh/placement/flat_faces.h"
+#include "remesh/placement/placement.h"
 
 #include <gtest/gtest.h>
 

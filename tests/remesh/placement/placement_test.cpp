@@ -11,9 +11,8 @@
 #include "agvd/mesh/point_faces.h"
 #include "agvd/propagation/propagate.h"
 #include "remesh/dual/build_dual.h"
-#include "remesh/placement/fit_vertices.h"
-#include "remesh/placement/improve_shape.h"
-#include "remesh/quality/triangle_quality.h"
+#include "remesh/placement/placement.h"
+#include "remesh/quality/evaluate.h"
 #include "remesh/sites/prepared_surface.h"
 #include "remesh/sites/relax_sites.h"
 #include "support/shapes.h"
@@ -53,6 +52,21 @@ std::unique_ptr<Remeshed> remeshed(const TriangleMesh& input, Index count, int s
     return result;
 }
 
+void fit_vertices(const Remeshed& r, PlacedMesh& mesh, int num_threads = 0) {
+    const auto num_vertices = static_cast<Index>(mesh.points.size());
+    remesh::fit_vertices(r.prepared.base, r.nearest_vertex,
+                         remesh::sample_cells(r.prepared, r.nearest_vertex, num_vertices, {}), mesh,
+                         num_threads, {}, 0, {});
+}
+
+void improve_shape(Remeshed& r) {
+    const auto num_vertices = static_cast<Index>(r.mesh.points.size());
+    remesh::improve_shape(
+        r.prepared.input(),
+        remesh::planes_of_cells(r.prepared, r.nearest_vertex, num_vertices, 0, {}), r.mesh, {},
+        nullptr, {});
+}
+
 TriangleMesh shape_of(const Remeshed& r) {
     TriangleMesh mesh{{}, r.mesh.triangles};
     for (Index v = 0; v < r.mesh.points.size(); ++v) {
@@ -85,7 +99,7 @@ TEST(FitVertices, TheMeshComesNearerToTheSurface) {
         const auto owner = remeshed(input, 300, 20);
         Remeshed& r = *owner;
         const double before = mean_square_distance(r);
-        remesh::fit_vertices(r.prepared, r.nearest_vertex, r.mesh);
+        fit_vertices(r, r.mesh);
         // Vertices on the boundary cannot help.
         const double share = boundary_loops(r.surface).empty() ? 0.4 : 0.9;
         EXPECT_LT(mean_square_distance(r), share * before);
@@ -96,10 +110,10 @@ TEST(FitVertices, OffsetsAreTheSameForAnyNumberOfThreads) {
     const auto owner = remeshed(shapes::sphere(5), 300, 20);
     const Remeshed& r = *owner;
     remesh::PlacedMesh alone = r.mesh;
-    remesh::fit_vertices(r.prepared, r.nearest_vertex, alone, 1);
+    fit_vertices(r, alone, 1);
     for (const int threads : {2, 8}) {
         remesh::PlacedMesh shared = r.mesh;
-        remesh::fit_vertices(r.prepared, r.nearest_vertex, shared, threads);
+        fit_vertices(r, shared, threads);
         EXPECT_EQ(shared.offsets, alone.offsets);
     }
 }
@@ -107,7 +121,7 @@ TEST(FitVertices, OffsetsAreTheSameForAnyNumberOfThreads) {
 TEST(FitVertices, AFlatMeshStaysFlatAndVerticesOnTheBoundaryStay) {
     const auto owner = remeshed(shapes::grid(40), 200, 20);
     Remeshed& r = *owner;
-    remesh::fit_vertices(r.prepared, r.nearest_vertex, r.mesh);
+    fit_vertices(r, r.mesh);
     int num_boundary = 0;
     for (Index v = 0; v < r.mesh.points.size(); ++v) {
         EXPECT_NEAR(r.mesh.offsets[v].z(), 0, 1e-9);
@@ -124,7 +138,7 @@ TEST(FitVertices, ItFindsTheEdgesOfACube) {
     const auto owner = remeshed(cube, 500, 20);
     Remeshed& r = *owner;
     const double before = mean_square_distance(r);
-    remesh::fit_vertices(r.prepared, r.nearest_vertex, r.mesh);
+    fit_vertices(r, r.mesh);
     EXPECT_LT(mean_square_distance(r), 0.4 * before);
 }
 
@@ -133,7 +147,7 @@ TEST(FitVertices, ShapesGetBetter) {
         const auto owner = remeshed(input, 300, 20);
         Remeshed& r = *owner;
         const double before = remesh::measure_triangles(shape_of(r).view()).mean_quality;
-        remesh::fit_vertices(r.prepared, r.nearest_vertex, r.mesh);
+        fit_vertices(r, r.mesh);
         EXPECT_GT(remesh::measure_triangles(shape_of(r).view()).mean_quality, before + 0.005);
     }
 }
@@ -144,7 +158,7 @@ TEST(FitVertices, NoVertexGoesFarOffTheSurface) {
     for (Vec3& p : lens.positions) p.z() *= 0.1;
     const auto owner = remeshed(lens, 300, 20);
     Remeshed& r = *owner;
-    remesh::fit_vertices(r.prepared, r.nearest_vertex, r.mesh);
+    fit_vertices(r, r.mesh);
     const ClosestPointTree tree(lens.view());
     const double spacing = std::sqrt(2 * std::numbers::pi / 300);
     for (const Vec3& p : shape_of(r).positions) {
@@ -158,7 +172,7 @@ TEST(FitVertices, NoTriangleTurnsOver) {
         const auto owner = remeshed(input, 400, 5);
         Remeshed& r = *owner;
         const TriangleMesh before = shape_of(r);
-        remesh::fit_vertices(r.prepared, r.nearest_vertex, r.mesh);
+        fit_vertices(r, r.mesh);
         const TriangleMesh after = shape_of(r);
         for (const auto& [a, b, c] : r.mesh.triangles) {
             const auto normal = [&](const std::vector<Vec3>& p) {
@@ -176,7 +190,7 @@ TEST(ImproveShape, TheWorstTriangleGetsBetterAndVerticesStayOnTheSurface) {
         const std::vector<SurfacePoint> points = r.mesh.points;
         const double before = remesh::measure_triangles(shape_of(r).view()).min_quality;
         ASSERT_LT(before, 0.55);
-        remesh::improve_shape(r.prepared, r.nearest_vertex, r.mesh);
+        improve_shape(r);
         EXPECT_GT(remesh::measure_triangles(shape_of(r).view()).min_quality, before + 0.05);
         for (Index v = 0; v < points.size(); ++v) {
             EXPECT_EQ(r.mesh.offsets[v], Vec3(Vec3::Zero()));
@@ -206,7 +220,7 @@ TEST(ImproveShape, NoTriangleTurnsOver) {
         r.mesh.offsets.emplace_back(Vec3::Zero());
         r.nearest_vertex.push_back(v);
     }
-    remesh::improve_shape(r.prepared, r.nearest_vertex, r.mesh);
+    improve_shape(r);
     const TriangleMesh after = shape_of(r);
     for (const auto& [a, b, c] : after.triangles) {
         const auto& p = after.positions;
@@ -219,10 +233,10 @@ TEST(ImproveShape, VerticesStayAtTheEdgesOfACube) {
     for (int i = 0; i < 5; ++i) cube = shapes::subdivide(cube);
     const auto owner = remeshed(cube, 500, 0);
     Remeshed& r = *owner;
-    remesh::fit_vertices(r.prepared, r.nearest_vertex, r.mesh);
+    fit_vertices(r, r.mesh);
     const double distance = mean_square_distance(r);
     const double quality = remesh::measure_triangles(shape_of(r).view()).min_quality;
-    remesh::improve_shape(r.prepared, r.nearest_vertex, r.mesh);
+    improve_shape(r);
     EXPECT_GT(remesh::measure_triangles(shape_of(r).view()).min_quality, quality + 0.02);
     EXPECT_LT(mean_square_distance(r), 2 * distance);
 }
@@ -230,10 +244,10 @@ TEST(ImproveShape, VerticesStayAtTheEdgesOfACube) {
 TEST(ImproveShape, WhatIsGoodStays) {
     const auto owner = remeshed(shapes::sphere(5), 300, 100);
     Remeshed& r = *owner;
-    remesh::improve_shape(r.prepared, r.nearest_vertex, r.mesh);
+    improve_shape(r);
     const std::vector<SurfacePoint> points = r.mesh.points;
     ASSERT_GE(remesh::measure_triangles(shape_of(r).view()).min_quality, 0.6);
-    remesh::improve_shape(r.prepared, r.nearest_vertex, r.mesh);
+    improve_shape(r);
     for (Index v = 0; v < points.size(); ++v) {
         EXPECT_EQ(r.mesh.points[v].face, points[v].face);
         EXPECT_EQ(r.mesh.points[v].barycentric, points[v].barycentric);

@@ -1,5 +1,5 @@
 // How well sharp edges are kept, on shapes where that is known.
-#include "remesh/quality/feature_coverage.h"
+#include "remesh/quality/evaluate.h"
 
 #include <gtest/gtest.h>
 
@@ -181,7 +181,7 @@ TEST(PointDistances, FindWhatIsWithinReach) {
     for (int i = 0; i < 20000; ++i) points.push_back(point(1.5));
     const double reach = 0.1;
     Ticker ticker;
-    remesh::detail::PointDistances found(points, reach, ticker);
+    remesh::detail::PointDistances found(points, reach);
     std::vector<double> nearest(points.size(), HUGE_VAL);
     for (int i = 0; i < 60; ++i) {
         const Vec3 a = point(1);

@@ -1,4 +1,4 @@
-#include "remesh/quality/self_intersections.h"
+#include "remesh/quality/evaluate.h"
 
 #include <gtest/gtest.h>
 

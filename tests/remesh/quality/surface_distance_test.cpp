@@ -1,4 +1,4 @@
-#include "remesh/quality/surface_distance.h"
+#include "remesh/quality/evaluate.h"
 
 #include <gtest/gtest.h>
 

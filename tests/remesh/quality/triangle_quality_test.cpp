@@ -1,4 +1,4 @@
-#include "remesh/quality/triangle_quality.h"
+#include "remesh/quality/evaluate.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // What a result is too coarse to show, on meshes of known thickness, size and distance.
-#include "remesh/quality/verdict.h"
+#include "remesh/quality/evaluate.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "remesh/quality/self_intersections.h"
-#include "remesh/quality/surface_distance.h"
+#include "remesh/quality/evaluate.h"
 #include "support/shapes.h"
 
 TEST(WithoutCgal, WhatItMeasuresIsAbsent) {

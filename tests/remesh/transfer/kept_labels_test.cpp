@@ -13,7 +13,7 @@
 #include "agvd/mesh/surface.h"
 #include "agvd/mesh/uniform_points.h"
 #include "remesh/pipeline/remesh.h"
-#include "remesh/transfer/transfer_values.h"
+#include "remesh/transfer/transfer.h"
 #include "support/shapes.h"
 
 using agvd::Index;

@@ -1,4 +1,4 @@
-#include "remesh/transfer/transfer_corners.h"
+#include "remesh/transfer/transfer.h"
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,6 @@
 #include "agvd/core/random.h"
 #include "remesh/meshfile/read_mesh.h"
 #include "remesh/pipeline/remesh.h"
-#include "remesh/transfer/map_to_input.h"
 #include "support/dirty_shapes.h"
 #include "support/shapes.h"
 

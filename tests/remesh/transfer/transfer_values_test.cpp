@@ -1,4 +1,4 @@
-#include "remesh/transfer/transfer_values.h"
+#include "remesh/transfer/transfer.h"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 #include "binding/terms.h"
 #include "expected_stages.h"
 #include "remesh/pipeline/remesh.h"
-#include "remesh/transfer/map_to_input.h"
+#include "remesh/transfer/transfer.h"
 #include "report/report.h"
 #include "shortfalls.h"
 

@@ -4,8 +4,7 @@
 #include "agvd/mesh/vertex_normals.h"
 #include "binding/arrays.h"
 #include "binding/bindings.h"
-#include "remesh/transfer/transfer_corners.h"
-#include "remesh/transfer/transfer_values.h"
+#include "remesh/transfer/transfer.h"
 
 namespace python {
 namespace {

@@ -1,6 +1,6 @@
 #include "binding/given_surface.h"
 
-#include "remesh/clean/carry_sites.h"
+#include "remesh/clean/carry.h"
 
 namespace python {
 

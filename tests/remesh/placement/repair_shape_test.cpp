@@ -1,5 +1,5 @@
-// Thin triangles are mended, and what is good stays.
-#include "remesh/placement/mend_shape.h"
+// Thin triangles are repaired, and what is good stays.
+#include "remesh/placement/placement.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "agvd/mesh/topology.h"
-#include "remesh/quality/triangle_quality.h"
+#include "remesh/quality/evaluate.h"
 #include "support/movable_mesh.h"
 #include "support/shapes.h"
 
@@ -31,11 +31,11 @@ TriangleMesh uneven_tube() {
     return mesh;
 }
 
-// How often mending polls: its work, whatever the machine.
-Index polls_of_mending(MovableMesh& mesh) {
+// How often the repair polls: its work, whatever the machine.
+Index polls_of_repair(MovableMesh& mesh) {
     Index polls = 0;
-    (void)mend_shape(mesh.surface, mesh.mobility, mesh.hard, mesh.placed,
-                     [&](double) { return ++polls > 0; });
+    (void)repair_shape(mesh.surface, mesh.mobility, mesh.hard, mesh.placed,
+                       [&](double) { return ++polls > 0; });
     return polls;
 }
 
@@ -43,34 +43,34 @@ Index polls_of_mending(MovableMesh& mesh) {
 Index polls_beside_a_ball(TriangleMesh needle) {
     for (Vec3& p : needle.positions) p = Vec3(3 + p.x() / 100, p.y() / 100, 4 * p.z());
     MovableMesh placed(shapes::join(shapes::sphere(3), needle));
-    return polls_of_mending(placed);
+    return polls_of_repair(placed);
 }
 
-TEST(MendShape, GoodTrianglesStayAsTheyAre) {
+TEST(RepairShape, GoodTrianglesStayAsTheyAre) {
     MovableMesh placed(shapes::sphere(3));
     const std::vector<Triangle> before = placed.placed.triangles;
-    EXPECT_TRUE(mend_shape(placed.surface, placed.mobility, placed.hard, placed.placed).empty());
+    EXPECT_TRUE(repair_shape(placed.surface, placed.mobility, placed.hard, placed.placed).empty());
     EXPECT_EQ(placed.placed.triangles, before);
 }
 
-TEST(MendShape, ThinTrianglesGoAndTheCountAndTheTopologyStay) {
+TEST(RepairShape, ThinTrianglesGoAndTheCountAndTheTopologyStay) {
     const TriangleMesh mesh = uneven_tube();
     MovableMesh placed(mesh);
     ASSERT_LT(smallest_angle(mesh), 8);
     const std::vector<Index> numbers =
-        mend_shape(placed.surface, placed.mobility, placed.hard, placed.placed);
-    const TriangleMesh mended = placed.mesh_of(placed.placed);
+        repair_shape(placed.surface, placed.mobility, placed.hard, placed.placed);
+    const TriangleMesh repaired = placed.mesh_of(placed.placed);
     EXPECT_EQ(numbers.size(), mesh.positions.size());
-    EXPECT_EQ(mended.positions.size(), mesh.positions.size());
-    const remesh::Topology topology = remesh::analyze_topology(mended.view());
+    EXPECT_EQ(repaired.positions.size(), mesh.positions.size());
+    const remesh::Topology topology = remesh::analyze_topology(repaired.view());
     EXPECT_TRUE(topology.is_manifold && topology.is_oriented);
     EXPECT_TRUE(same_topology(topology, remesh::analyze_topology(mesh.view())));
-    EXPECT_GT(smallest_angle(mended), 18);
+    EXPECT_GT(smallest_angle(repaired), 18);
 }
 
-// Walks on a spike of small faces are long. Without their part in the budget mending polled 3790
+// Walks on a spike of small faces are long. Without their part in the budget the repair polled 3790
 // times instead of 146.
-TEST(MendShape, LongWalksUseUpTheBudget) {
+TEST(RepairShape, LongWalksUseUpTheBudget) {
     const TriangleMesh coarse = shapes::sphere(1);
     TriangleMesh fine = coarse;
     for (int level = 0; level < 3; ++level) fine = shapes::subdivide(fine);
@@ -82,51 +82,51 @@ TEST(MendShape, LongWalksUseUpTheBudget) {
     placed.placed.points.resize(coarse.positions.size());
     placed.placed.offsets.resize(coarse.positions.size());
     placed.mobility.resize(coarse.positions.size());
-    const Index polls = polls_of_mending(placed);
+    const Index polls = polls_of_repair(placed);
     EXPECT_GT(polls, 0u);
     EXPECT_LT(polls, 300u);
 }
 
-// Where nearly all triangles are bad, the budget is that of a few. Without this mending polled 8676
-// times instead of 278.
-TEST(MendShape, ANeedleWhereAllIsBadEndsSoon) {
+// Where nearly all triangles are bad, the budget is that of a few. Without this the repair polled
+// 8676 times instead of 278.
+TEST(RepairShape, ANeedleWhereAllIsBadEndsSoon) {
     TriangleMesh mesh = shapes::sphere(3);
     for (Vec3& p : mesh.positions) p.z() *= 1000;
     MovableMesh placed(mesh);
-    const Index polls = polls_of_mending(placed);
+    const Index polls = polls_of_repair(placed);
     EXPECT_GT(polls, 0u);
     EXPECT_LT(polls, 1000u);
 }
 
 // Beside a ball of good triangles: each triangle of the needle has a part of the budget of a few.
-// With all of it mending polled 2741 times instead of 1384, and 2512 times when each spare vertex
-// tried all edges again.
-TEST(MendShape, ManyBadTrianglesHaveSmallerBudgets) {
+// With all of it the repair polled 2741 times instead of 1384, and 2512 times when each spare
+// vertex tried all edges again.
+TEST(RepairShape, ManyBadTrianglesHaveSmallerBudgets) {
     const Index polls = polls_beside_a_ball(shapes::sphere(2));
     EXPECT_GT(polls, 0u);
     EXPECT_LT(polls, 2000u);
 }
 
-// Beside a ball of as many good triangles. With a part of the budget for each triangle mending
+// Beside a ball of as many good triangles. With a part of the budget for each triangle the repair
 // polled 3206 times instead of 883.
-TEST(MendShape, WhereHalfIsBadTheBudgetIsThatOfAFew) {
+TEST(RepairShape, WhereHalfIsBadTheBudgetIsThatOfAFew) {
     const Index polls = polls_beside_a_ball(shapes::sphere(3));
     EXPECT_GT(polls, 0u);
     EXPECT_LT(polls, 2000u);
 }
 
-TEST(MendShape, FixedVerticesStay) {
+TEST(RepairShape, FixedVerticesStay) {
     const TriangleMesh mesh = uneven_tube();
     MovableMesh placed(mesh);
     for (Index v = 0; v < mesh.positions.size(); v += 2) placed.mobility[v] = Mobility::Fixed;
     const std::vector<Index> numbers =
-        mend_shape(placed.surface, placed.mobility, placed.hard, placed.placed);
-    const TriangleMesh mended = placed.mesh_of(placed.placed);
+        repair_shape(placed.surface, placed.mobility, placed.hard, placed.placed);
+    const TriangleMesh repaired = placed.mesh_of(placed.placed);
     ASSERT_EQ(numbers.size(), mesh.positions.size());
     Index num_fixed = 0;
     for (Index v = 0; v < numbers.size(); ++v) {
         if (numbers[v] >= mesh.positions.size() || numbers[v] % 2 != 0) continue;
-        EXPECT_EQ(mended.positions[v], mesh.positions[numbers[v]]);
+        EXPECT_EQ(repaired.positions[v], mesh.positions[numbers[v]]);
         ++num_fixed;
     }
     EXPECT_EQ(num_fixed, (mesh.positions.size() + 1) / 2);

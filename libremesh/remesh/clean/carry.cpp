@@ -1,0 +1,220 @@
+// Carries points between a mesh and its cleaned version: bit for bit where the face kept its
+// corners, otherwise to the closest point, on pieces of the same face first. Edges are carried by
+// their middles.
+#include "remesh/clean/carry.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "agvd/core/error.h"
+#include "agvd/core/groups.h"
+#include "agvd/mesh/closest_point.h"
+#include "agvd/mesh/point_faces.h"
+#include "agvd/mesh/scale.h"
+
+namespace remesh {
+namespace {
+
+// As a share of the box diagonal of the cleaned mesh. A site farther from the mesh lies where
+// cleaning left no surface. Positions are accurate to 1e-16 of the largest coordinate, so that
+// meshes far from the origin pass too.
+constexpr double tolerance_share = 1e-9;
+
+std::array<Vec3, 3> corners_of(const MeshView& mesh, Index face) {
+    const Triangle& t = mesh.triangles[face];
+    return {mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]};
+}
+
+// Divides coordinates by their sum. If this is 1 up to rounding, they stay, bit for bit.
+SurfacePoint normalized(SurfacePoint point) {
+    constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
+    const double sum = point.barycentric[0] + point.barycentric[1] + point.barycentric[2];
+    if (std::abs(sum - 1) > rounding) {
+        for (double& coordinate : point.barycentric) coordinate /= sum;
+    }
+    return point;
+}
+
+// The same point of `to`, if both faces have the same three corner positions. Cleaning may renumber
+// and reorder corners, and may split the face.
+std::optional<SurfacePoint> carry_exactly(const SurfacePoint& point,
+                                          const std::array<Vec3, 3>& from,
+                                          const std::array<Vec3, 3>& to, Index to_face) {
+    SurfacePoint carried{FaceId(to_face), {0, 0, 0}};
+    std::array<bool, 3> is_taken{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        std::size_t k = 0;
+        while (k < 3 && (is_taken[k] || from[i] != to[k])) ++k;
+        if (k == 3) return std::nullopt;
+        is_taken[k] = true;
+        carried.barycentric[k] = point.barycentric[i];
+    }
+    return carried;
+}
+
+// Carries points from one mesh to the other.
+class Carrier {
+public:
+    // \param cleaned  the one of the two meshes that was cleaned.
+    Carrier(const MeshView& from, const MeshView& to, const MeshView& cleaned)
+        : from_(from), to_(to) {
+        const MeshBox box = box_of(cleaned);
+        reach_sq_ = tolerance_share * tolerance_share * (box.high - box.low).squaredNorm();
+    }
+
+    // Tries the given faces first: another part of the mesh may lie at the same position. The point
+    // is out of reach where cleaning left no surface or flipped edges.
+    [[nodiscard]] ClosestPoint carry(const SurfacePoint& point, std::span<const Index> faces) {
+        const std::array<Vec3, 3> corners = corners_of(from_, point.face.value());
+        const Vec3 query = position(from_, point);
+        ClosestPoint nearest;
+        nearest.distance_sq = std::numeric_limits<double>::infinity();
+        for (const Index face : faces) {
+            const std::array<Vec3, 3> there = corners_of(to_, face);
+            if (const auto same = carry_exactly(point, corners, there, face)) {
+                return {*same, query, 0};
+            }
+            const ClosestPoint found = closest_point_on_triangle(there, FaceId(face), query);
+            if (found.distance_sq < nearest.distance_sq) nearest = found;
+        }
+        if (!is_in_reach(nearest)) {
+            if (!tree_) tree_.emplace(to_);
+            nearest = tree_->query(query);
+        }
+        return nearest;
+    }
+
+    [[nodiscard]] bool is_in_reach(const ClosestPoint& point) const {
+        return !(point.distance_sq > reach_sq_);
+    }
+
+private:
+    MeshView from_, to_;
+    double reach_sq_;
+    std::optional<ClosestPointTree> tree_;  // Few meshes need it.
+};
+
+void check_site(const SurfacePoint& site, std::size_t number, Index num_faces) {
+    const std::string name = "site " + std::to_string(number);
+    if (!site.face.is_valid() || site.face.value() >= num_faces) {
+        throw InvalidSites(name + " names a face that does not exist; use one of the " +
+                           std::to_string(num_faces) + " faces, counted from 0");
+    }
+    const auto& [a, b, c] = site.barycentric;
+    // The accuracy of decimals in a file and of sums in double.
+    constexpr double tolerance = 1e-6;
+    if (!(a >= 0 && b >= 0 && c >= 0 && std::abs(a + b + c - 1) <= tolerance)) {
+        throw InvalidSites(name + " on face " + std::to_string(site.face.value()) +
+                           " has barycentric coordinates that are negative or do not sum "
+                           "to 1; correct them");
+    }
+}
+
+// A face of an edge, and the edge's middle as a point of this face.
+struct EdgeMiddle {
+    double area = -1;
+    SurfacePoint middle;
+};
+
+double area_of(const MeshView& mesh, const Triangle& t) {
+    const auto& p = mesh.positions;
+    return (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]).norm();
+}
+
+}  // namespace
+
+std::vector<SurfacePoint> to_cleaned(const std::vector<SurfacePoint>& sites, const MeshView& mesh,
+                                     const CleanedView& clean) {
+    const auto num_faces = static_cast<Index>(mesh.triangles.size());
+    const Groups pieces(num_faces, [&](const auto& add) {
+        for (Index f = 0; f < clean.face_origin.size(); ++f) add(clean.face_origin[f], f);
+    });
+    Carrier carrier(clean.welded(mesh), clean.mesh, clean.mesh);
+    std::vector<SurfacePoint> carried;
+    carried.reserve(sites.size());
+    for (std::size_t i = 0; i < sites.size(); ++i) {
+        check_site(sites[i], i, num_faces);
+        const Index face = sites[i].face.value();
+        const ClosestPoint found = carrier.carry(normalized(sites[i]), pieces.of(face));
+        if (!carrier.is_in_reach(found)) {
+            throw InvalidSites("site " + std::to_string(i) + " lies on face " +
+                               std::to_string(face) +
+                               ", which cleaning dropped as degenerate or duplicate; "
+                               "place it on another face");
+        }
+        carried.push_back(found.point);
+    }
+    return carried;
+}
+
+std::vector<SurfacePoint> to_original(const std::vector<SurfacePoint>& sites, const MeshView& mesh,
+                                      const CleanedView& clean) {
+    std::vector<SurfacePoint> carried;
+    carried.reserve(sites.size());
+    if (clean.face_origin.empty()) {
+        for (const SurfacePoint& site : sites) carried.push_back(normalized(site));
+        return carried;
+    }
+    Carrier carrier(clean.mesh, clean.welded(mesh), clean.mesh);
+    for (const SurfacePoint& site : sites) {
+        const Index origin = clean.face_origin[site.face.value()];
+        carried.push_back(carrier.carry(normalized(site), std::span(&origin, 1)).point);
+    }
+    return carried;
+}
+
+std::vector<std::uint8_t> carry_edges(std::span<const std::array<Index, 2>> edges,
+                                      const MeshView& mesh, const CleanedView& clean,
+                                      const Surface& surface) {
+    std::vector<std::uint8_t> is_carried(surface.num_edges(), 0);
+    std::map<std::pair<Index, Index>, EdgeMiddle> middle_of;
+    for (const auto& [u, v] : edges) middle_of[std::minmax(u, v)];
+    // Of the faces at an edge the largest counts, and of equal ones the first: cleaning removes
+    // faces without area, and of duplicate faces all but the first.
+    for (Index f = 0; f < mesh.triangles.size(); ++f) {
+        const Triangle& t = mesh.triangles[f];
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto found = middle_of.find(std::minmax(t[k], t[(k + 1) % 3]));
+            if (found == middle_of.end()) continue;
+            const double area = area_of(mesh, t);
+            if (!(area > found->second.area)) continue;
+            SurfacePoint middle{FaceId(f), {0, 0, 0}};
+            middle.barycentric[k] = middle.barycentric[(k + 1) % 3] = 0.5;
+            found->second = {area, middle};
+        }
+    }
+    std::vector<SurfacePoint> middles;
+    for (const auto& [ends, face] : middle_of) {
+        if (face.area < 0) {
+            throw InvalidInput("the feature edge between vertices " + std::to_string(ends.first) +
+                               " and " + std::to_string(ends.second) +
+                               " is no edge of the mesh; name the two ends of an edge, "
+                               "counted from 0");
+        }
+        if (face.area > 0) middles.push_back(face.middle);
+    }
+    for (const SurfacePoint& middle : to_cleaned(middles, mesh, clean)) {
+        const auto half_edge = half_edge_of(middle);
+        if (half_edge) is_carried[surface.edge[*half_edge]] = 1;
+    }
+    return is_carried;
+}
+
+std::vector<std::uint8_t> find_label_borders(std::span<const Index> face_labels,
+                                             std::span<const Index> face_origin,
+                                             const Surface& surface) {
+    const auto label = [&](Index h) { return face_labels[face_origin[Surface::face(h)]]; };
+    std::vector<std::uint8_t> is_border(surface.num_edges(), 0);
+    for (Index e = 0; e < surface.num_edges(); ++e) {
+        const Index h = surface.edge_half[e], twin = surface.twin[h];
+        if (twin != no_index && label(h) != label(twin)) is_border[e] = 1;
+    }
+    return is_border;
+}
+
+}  // namespace remesh

@@ -1,0 +1,134 @@
+//! \file
+//! Places the vertices of a result on and off the surface, so that its triangles are near to the
+//! surface and well shaped.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "agvd/core/progress.h"
+#include "agvd/mesh/surface_point.h"
+#include "remesh/curves/close_rim.h"
+#include "remesh/curves/curve_sites.h"
+#include "remesh/sites/cell_planes.h"
+#include "remesh/sites/prepared_surface.h"
+#include "remesh/sites/sample_sites.h"
+
+namespace remesh {
+
+//! A mesh whose vertices belong to points of a surface, but may lie off it.
+struct PlacedMesh {
+    std::vector<SurfacePoint> points;  //!< #V: where each vertex belongs.
+    std::vector<Vec3> offsets;         //!< #V: from there to its position.
+    std::vector<Triangle> triangles;
+
+    [[nodiscard]] Vec3 position(const MeshView& surface, Index v) const {
+        return agvd::position(surface, points[v]) + offsets[v];
+    }
+};
+
+//! Least squares along each crease of the distances between points of the curve and of the chain at
+//! the same arc length. Nodes stay, and so do the vertices of junctions and kept boundaries.
+//!
+//! \param surface  that of the network, whole or cut.
+//! \return #groups: from each site to the best position of its vertex.
+//! Cost: O(vertices of the curves + groups).
+[[nodiscard]] std::vector<Vec3> fit_curves(const Surface& surface, const CurveNetwork& network,
+                                           const CurveSites& sites,
+                                           Boundary boundary = Boundary::Keep);
+
+//! A point of the surface and the area that it stands for.
+struct CellSample {
+    Vec3 position;
+    double area;
+    Index vertex;               //!< Of the mesh: in whose cell it lies.
+    Index triangle = no_index;  //!< Set by fit_vertices(): the nearest.
+};
+
+//! The points by which fit_vertices() measures distances: all that it reads of the pieces.
+//! \param nearest_vertex  per vertex of surface.base: the vertex of the mesh in whose cell it lies;
+//!                        no_index: none.
+//! Cost: O(#base).
+[[nodiscard]] std::vector<CellSample> sample_cells(const PreparedSurface& surface,
+                                                   std::span<const Index> nearest_vertex,
+                                                   Index num_vertices, const Progress& progress);
+
+//! Moves vertices so that the triangles, not their corners, lie as near to the surface as possible.
+//! Least squares of the distances of the surface's vertices (if they are few, also of points inside
+//! faces) from the planes of their triangles, and of vertices and middles of triangles from the
+//! surface. Planes do not restrict moves along them: there a vertex is drawn to where its triangles
+//! are equilateral. Where planes meet at an angle the vertex slides to their edge. Vertices on the
+//! boundary and those marked in `stays` stay, and no triangle turns over.
+//!
+//! \param nearest_vertex, samples  see sample_cells().
+//! \param num_threads     >= 0; 0: all cores. The result is the same for any number.
+//! \param least_way       >= 0, mesh units: distances up to this between mesh and surface are
+//!                        rounding, without a direction. Above 0 planar parts stay planar.
+//! \param stays  #V of the mesh: 1 for vertices that stay; or empty.
+//! \throw Cancelled  the progress callback returned false; `mesh` is unspecified then.
+//! Cost: O(#base + #mesh), about 2 us for each vertex of the base.
+void fit_vertices(const IntrinsicTriangulation& base, std::span<const Index> nearest_vertex,
+                  std::vector<CellSample> samples, PlacedMesh& mesh, int num_threads,
+                  const Progress& progress, double least_way, std::span<const std::uint8_t> stays);
+
+//! The planes of the surface in the cell of each vertex: what improve_shape() reads of the pieces.
+//! They are smaller than these.
+//! \param nearest_vertex  see sample_cells().
+//! \param num_threads     >= 0; 0: all cores. The result is the same for any number.
+//! Cost: O(#surface).
+[[nodiscard]] std::vector<detail::CellPlanes> planes_of_cells(const PreparedSurface& surface,
+                                                              std::span<const Index> nearest_vertex,
+                                                              Index num_vertices, int num_threads,
+                                                              const Progress& progress);
+
+//! Moves the corners of triangles of low quality or with a small angle along the surface in small
+//! steps; their offsets stay. A step is taken if the worst triangle around the vertex gains more
+//! than it costs to leave the planes of the surface nearby, so that vertices at a crease stay
+//! there. All other vertices and those on the boundary stay. No triangle turns over.
+//!
+//! \param input  PreparedSurface::input().
+//! \param sizes  target lengths of the edges; null: all are equal.
+//! \param stays  #V of the mesh: 1 for vertices that stay; or empty.
+//! \throw Cancelled  the progress callback returned false; `mesh` is unspecified then.
+//! Cost: O(#surface + #triangles), and about 20 us for each vertex at such a triangle.
+void improve_shape(const Surface& input, std::span<const detail::CellPlanes> planes,
+                   PlacedMesh& mesh, const Progress& progress, const SizeField* sizes,
+                   std::span<const std::uint8_t> stays);
+
+namespace detail {
+
+//! Where a vertex may go: along the surface, along its boundary, or nowhere.
+enum class Mobility : std::uint8_t { Free, Boundary, Fixed };
+
+}  // namespace detail
+
+//! Works on the worst triangles first. Flips an edge, slides vertices over the surface and along
+//! its boundary, or splits an edge and collapses another one elsewhere, or the reverse, if the
+//! worst triangle touched gets better. Keeps the number of vertices, the topology and the hard
+//! edges, but not the order of vertices.
+//!
+//! \param surface   where the points of the mesh lie.
+//! \param mobility  #V: Fixed ones stay; those on hard edges are not Free.
+//! \param hard      edges that are not flipped; must include all edges of a single face.
+//! \throw Cancelled  the progress callback returned false; `mesh` is unchanged.
+//! \return for each vertex its old number, #V or more for new ones; empty if nothing changed.
+//! Cost: O(#triangles log #triangles), and about a millisecond for each bad one.
+std::vector<Index> repair_shape(const Surface& surface, std::span<const detail::Mobility> mobility,
+                                std::span<const DirectedEdge> hard, PlacedMesh& mesh,
+                                const Progress& progress = {});
+
+//! Whether a triangle has no area, as its corners lie on one line up to rounding: it is less than
+//! 1e-10 times as high as it is long.
+[[nodiscard]] bool is_flat(std::span<const Vec3> positions, const Triangle& triangle);
+
+//! Flips the longest edge of each triangle without area, so that its third corner divides the
+//! neighbour beyond instead. The points of the surface stay where they are. A triangle stays whose
+//! longest edge lies on the boundary, whose corners coincide, or whose flip would break the
+//! topology.
+//!
+//! \param positions  #V.
+//! \param triangles  an oriented manifold; its boundary stays.
+//! Cost: O(#triangles); O(#triangles log #triangles) if there are any.
+void flip_flat_faces(std::span<const Vec3> positions, std::vector<Triangle>& triangles);
+
+}  // namespace remesh
