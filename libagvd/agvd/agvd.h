@@ -1,5 +1,5 @@
 //! \file
-//! All of libagvd that users need, but for meshes in arrays of other programs (agvd/adapt) and the
+//! All of libagvd that users need, but for meshes in arrays of other programs (mesh/arrays.h) and the
 //! oracle (paper/oracle.h, paper/compare.h).
 #pragma once
 
@@ -9,12 +9,6 @@
 #include "agvd/diagram/cells.h"
 #include "agvd/diagram/diagram_on_input.h"
 #include "agvd/intrinsic/intrinsic_triangulation.h"
-#include "agvd/intrinsic/thin.h"
 #include "agvd/mesh/closest_point.h"
-#include "agvd/mesh/connectivity.h"
-#include "agvd/mesh/mesh_view.h"
-#include "agvd/mesh/point_faces.h"
-#include "agvd/mesh/scale.h"
 #include "agvd/mesh/surface.h"
-#include "agvd/mesh/surface_point.h"
 #include "agvd/propagation/propagate.h"

@@ -4,7 +4,7 @@
 #include <numeric>
 
 #include "agvd/diagram/build_diagram.h"
-#include "agvd/mesh/uniform_points.h"
+#include "agvd/mesh/surface_points.h"
 #include "agvd/propagation/propagate.h"
 #include "paper/oracle.h"
 #include "remesh/dual/build_dual.h"

@@ -6,7 +6,7 @@
 
 #include "agvd/core/random.h"
 #include "agvd/diagram/face_relays.h"
-#include "agvd/mesh/point_faces.h"
+#include "agvd/mesh/surface_points.h"
 #include "agvd/propagation/propagate.h"
 #include "paper/oracle.h"
 #include "support/points.h"

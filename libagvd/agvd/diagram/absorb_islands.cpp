@@ -5,7 +5,7 @@
 #include "agvd/diagram/join.h"
 #include "agvd/diagram/loops.h"
 #include "agvd/diagram/trace.h"
-#include "agvd/mesh/one_ring.h"
+#include "agvd/mesh/surface.h"
 
 namespace agvd {
 namespace {

@@ -5,11 +5,11 @@
 //! the others.
 #pragma once
 
-#include "agvd/core/block_pool.h"
+#include "agvd/core/reused_memory.h"
 #include "agvd/diagram/arc_end.h"
 #include "agvd/diagram/face_arcs.h"
+#include "agvd/mesh/mesh.h"
 #include "agvd/mesh/surface.h"
-#include "agvd/mesh/surface_point.h"
 
 namespace agvd {
 

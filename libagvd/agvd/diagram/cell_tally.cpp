@@ -4,8 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "agvd/mesh/face_area.h"
-#include "agvd/mesh/one_ring.h"
+#include "agvd/mesh/surface.h"
 
 namespace agvd {
 

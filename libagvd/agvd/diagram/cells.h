@@ -2,7 +2,7 @@
 //! The diagram seen cell by cell: boundary loops and neighbours.
 #pragma once
 
-#include "agvd/core/poller.h"
+#include "agvd/core/progress.h"
 #include "agvd/diagram/diagram.h"
 
 namespace agvd {

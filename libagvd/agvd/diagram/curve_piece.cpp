@@ -1,7 +1,6 @@
 #include "agvd/diagram/curve_piece.h"
 
-#include "agvd/mesh/face_distance.h"
-#include "agvd/mesh/point_faces.h"
+#include "agvd/mesh/surface_points.h"
 
 namespace agvd {
 namespace {

@@ -1,6 +1,6 @@
 #include "agvd/diagram/diagram_on_input.h"
 
-#include "agvd/core/poller.h"
+#include "agvd/core/progress.h"
 #include "agvd/diagram/curve_piece.h"
 
 namespace agvd {

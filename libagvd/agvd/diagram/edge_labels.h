@@ -3,8 +3,8 @@
 //! that these cannot disagree.
 #pragma once
 
-#include "agvd/core/block_pool.h"
-#include "agvd/core/either_index.h"
+#include "agvd/core/reused_memory.h"
+#include "agvd/core/types.h"
 #include "agvd/propagation/relays.h"
 
 namespace agvd {

@@ -12,7 +12,7 @@
 #include "agvd/diagram/intervals.h"
 #include "agvd/diagram/loops.h"
 #include "agvd/diagram/site_holders.h"
-#include "agvd/mesh/one_ring.h"
+#include "agvd/mesh/surface.h"
 
 namespace agvd {
 namespace {

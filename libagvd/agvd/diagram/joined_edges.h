@@ -2,7 +2,7 @@
 //! Voronoi edges as chains of arcs.
 #pragma once
 
-#include "agvd/core/poller.h"
+#include "agvd/core/progress.h"
 #include "agvd/diagram/arc_store.h"
 
 namespace agvd {

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "agvd/core/either_index.h"
+#include "agvd/core/types.h"
 
 namespace agvd {
 

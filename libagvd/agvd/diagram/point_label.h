@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "agvd/diagram/face_relays.h"
-#include "agvd/mesh/surface_point.h"
+#include "agvd/mesh/mesh.h"
 
 namespace agvd {
 

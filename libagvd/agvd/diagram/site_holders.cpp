@@ -1,7 +1,7 @@
 #include "agvd/diagram/site_holders.h"
 
 #include "agvd/diagram/intervals.h"
-#include "agvd/mesh/point_faces.h"
+#include "agvd/mesh/surface_points.h"
 
 namespace agvd {
 namespace {

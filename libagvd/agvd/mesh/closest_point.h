@@ -2,8 +2,8 @@
 //! Nearest point of a mesh, by a tree of bounding boxes.
 #pragma once
 
-#include "agvd/core/poller.h"
-#include "agvd/mesh/surface_point.h"
+#include "agvd/core/progress.h"
+#include "agvd/mesh/mesh.h"
 
 namespace agvd {
 

@@ -4,8 +4,7 @@
 #include <optional>
 #include <utility>
 
-#include "agvd/mesh/check_sites.h"
-#include "agvd/mesh/distinct_points.h"
+#include "agvd/mesh/surface_points.h"
 #include "agvd/propagation/option_checks.h"
 #include "agvd/propagation/site_placement.h"
 #include "agvd/propagation/steiner/steiner_engine.h"

@@ -6,8 +6,7 @@
 #include <string>
 
 #include "agvd/core/error.h"
-#include "agvd/mesh/check_sites.h"
-#include "agvd/mesh/distinct_points.h"
+#include "agvd/mesh/surface_points.h"
 
 namespace agvd {
 namespace {

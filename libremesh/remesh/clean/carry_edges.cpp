@@ -5,7 +5,7 @@
 #include <string>
 
 #include "agvd/core/error.h"
-#include "agvd/mesh/point_faces.h"
+#include "agvd/mesh/surface_points.h"
 #include "remesh/clean/carry_sites.h"
 
 namespace remesh {

@@ -2,7 +2,7 @@
 //! Carries sites between the caller's mesh and the cleaned mesh.
 #pragma once
 
-#include "agvd/mesh/surface_point.h"
+#include "agvd/mesh/mesh.h"
 #include "remesh/clean/clean_input.h"
 
 namespace remesh {

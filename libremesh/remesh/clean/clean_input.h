@@ -5,7 +5,7 @@
 #include <span>
 
 #include "agvd/core/progress.h"
-#include "agvd/mesh/connectivity.h"
+#include "agvd/mesh/surface.h"
 #include "remesh/clean/clean_counts.h"
 
 namespace remesh {

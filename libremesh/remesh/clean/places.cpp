@@ -7,8 +7,9 @@
 #include <bit>
 #include <cmath>
 
-#include "agvd/core/position_hash.h"
+#include "agvd/core/random.h"
 #include "agvd/core/union_find.h"
+#include "agvd/mesh/any_mesh.h"
 #include "agvd/mesh/scale.h"
 
 namespace remesh::detail {
@@ -24,26 +25,6 @@ constexpr double share_with_tolerance = 0.49;
 constexpr double least_reach = 1.0 / 8;
 // Of a grid's cell, in reaches: with 8 a vertex looks at two cells in the mean.
 constexpr double cell_size = 8;
-
-// For each wanted vertex, the first such vertex with the same position.
-std::vector<Index> first_at_position(std::span<const Vec3> positions,
-                                     const std::vector<bool>& is_wanted, Ticker& ticker) {
-    const auto wanted =
-        static_cast<std::size_t>(std::count(is_wanted.begin(), is_wanted.end(), true));
-    std::vector<Index> table(std::bit_ceil(2 * wanted + 1), no_index);  // Open addressing.
-    std::vector<Index> first(positions.size(), no_index);
-    for (Index v = 0; v < positions.size(); ++v) {
-        ticker.tick();
-        if (!is_wanted[v]) continue;
-        std::size_t slot = PositionHash{}(positions[v]) & (table.size() - 1);
-        while (table[slot] != no_index && positions[table[slot]] != positions[v]) {
-            slot = (slot + 1) & (table.size() - 1);
-        }
-        if (table[slot] == no_index) table[slot] = v;
-        first[v] = table[slot];
-    }
-    return first;
-}
 
 // By first vertex: a share of the shortest edge at its position, zero-length ones apart.
 std::vector<double> find_reaches(const MeshView& mesh, std::span<const Index> first, double share,
@@ -120,7 +101,7 @@ private:
 
 std::vector<Index> find_places(const MeshView& mesh, const std::vector<bool>& is_wanted,
                                Ticker& ticker, double tolerance) {
-    std::vector<Index> place = first_at_position(mesh.positions, is_wanted, ticker);
+    std::vector<Index> place = first_at_position(mesh.positions, ticker, is_wanted);
     const std::vector<double> reach =
         find_reaches(mesh, place, tolerance > 0 ? share_with_tolerance : share_of_edge, ticker);
     std::vector<double> finite;

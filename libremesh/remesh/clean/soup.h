@@ -8,8 +8,8 @@
 
 #include <span>
 
-#include "agvd/core/poller.h"
-#include "agvd/mesh/edge_sides.h"
+#include "agvd/core/progress.h"
+#include "agvd/mesh/any_mesh.h"
 #include "agvd/mesh/surface.h"
 #include "remesh/clean/clean_counts.h"
 

@@ -9,7 +9,7 @@
 #include <queue>
 #include <unordered_map>
 
-#include "agvd/mesh/one_ring.h"
+#include "agvd/mesh/surface.h"
 
 namespace remesh::detail {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "agvd/mesh/one_ring.h"
+#include "agvd/mesh/surface.h"
 
 namespace remesh::detail {
 namespace {

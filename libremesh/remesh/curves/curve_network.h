@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "agvd/mesh/mesh.h"
 #include "agvd/mesh/surface.h"
-#include "agvd/mesh/surface_point.h"
 #include "remesh/curves/junctions.h"
 #include "remesh/curves/locked_elements.h"
 

@@ -1,6 +1,6 @@
 #include "remesh/curves/cut_surface.h"
 
-#include "agvd/mesh/one_ring.h"
+#include "agvd/mesh/surface.h"
 
 namespace remesh {
 namespace {

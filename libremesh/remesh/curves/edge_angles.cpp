@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "agvd/core/parallel.h"
-#include "agvd/mesh/face_area.h"
+#include "agvd/mesh/surface.h"
 
 namespace remesh::detail {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <set>
 
-#include "agvd/core/half_edge.h"
+#include "agvd/core/types.h"
 
 namespace remesh {
 namespace {

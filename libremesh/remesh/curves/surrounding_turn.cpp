@@ -5,7 +5,7 @@
 #include <limits>
 #include <queue>
 
-#include "agvd/mesh/one_ring.h"
+#include "agvd/mesh/surface.h"
 
 namespace remesh::detail {
 namespace {

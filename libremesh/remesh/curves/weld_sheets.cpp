@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "agvd/mesh/edge_sides.h"
+#include "agvd/mesh/any_mesh.h"
 
 namespace remesh {
 

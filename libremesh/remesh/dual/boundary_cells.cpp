@@ -4,8 +4,7 @@
 #include <optional>
 
 #include "agvd/diagram/curve_piece.h"
-#include "agvd/mesh/face_distance.h"
-#include "agvd/mesh/point_faces.h"
+#include "agvd/mesh/surface_points.h"
 
 namespace remesh {
 namespace {

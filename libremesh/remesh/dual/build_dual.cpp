@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <set>
 
-#include "agvd/core/poller.h"
+#include "agvd/core/progress.h"
 #include "remesh/dual/degenerate_edges.h"
 
 namespace remesh {

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "agvd/core/poller.h"
+#include "agvd/core/progress.h"
 #include "agvd/diagram/curve_piece.h"
 #include "remesh/dual/degenerate_edges.h"
 

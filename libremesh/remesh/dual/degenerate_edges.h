@@ -2,7 +2,7 @@
 //! Voronoi edges without length: where more than three cells meet in one point.
 #pragma once
 
-#include "agvd/core/poller.h"
+#include "agvd/core/progress.h"
 #include "agvd/diagram/diagram.h"
 #include "remesh/names.h"
 

@@ -7,8 +7,8 @@
 #include <array>
 #include <tuple>
 
-#include "agvd/core/edge_key.h"
 #include "agvd/core/parallel.h"
+#include "agvd/core/types.h"
 #include "remesh/dual/site_paths.h"
 
 namespace remesh {

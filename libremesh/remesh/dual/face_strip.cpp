@@ -8,8 +8,7 @@
 #include <limits>
 #include <optional>
 
-#include "agvd/mesh/face_distance.h"
-#include "agvd/mesh/point_faces.h"
+#include "agvd/mesh/surface_points.h"
 
 namespace remesh {
 

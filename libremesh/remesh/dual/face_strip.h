@@ -3,8 +3,8 @@
 //! vertices.
 #pragma once
 
+#include "agvd/mesh/mesh.h"
 #include "agvd/mesh/surface.h"
-#include "agvd/mesh/surface_point.h"
 #include "remesh/names.h"
 
 namespace remesh {

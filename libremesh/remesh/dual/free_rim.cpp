@@ -50,7 +50,7 @@ bool remove_vertex(Index v, const DirectedEdge& neighbours, const std::vector<Ve
 
 }  // namespace
 
-void free_rim(const Surface& surface, std::span<const SurfacePoint> points, ThinnedMesh& patch) {
+void free_rim(const Surface& surface, std::span<const SurfacePoint> points, SimplifiedMesh& patch) {
     if (patch.extra.empty()) return;
     std::vector<Vec3> positions;
     for (const auto some : {points, std::span<const SurfacePoint>(patch.extra)}) {

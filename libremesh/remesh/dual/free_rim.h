@@ -2,7 +2,7 @@
 //! Removes extra vertices on the boundary of a thinned patch.
 #pragma once
 
-#include "agvd/intrinsic/thin.h"
+#include "agvd/intrinsic/simplify.h"
 #include "remesh/names.h"
 
 namespace remesh {
@@ -12,6 +12,6 @@ namespace remesh {
 //!
 //! \param points  those that the patch was thinned to.
 //! Cost: O(n log n) for each extra vertex on the boundary.
-void free_rim(const Surface& surface, std::span<const SurfacePoint> points, ThinnedMesh& patch);
+void free_rim(const Surface& surface, std::span<const SurfacePoint> points, SimplifiedMesh& patch);
 
 }  // namespace remesh

@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "agvd/core/poller.h"
+#include "agvd/core/progress.h"
 #include "agvd/diagram/diagram.h"
 #include "remesh/dual/face_strip.h"
 

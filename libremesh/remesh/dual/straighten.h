@@ -2,7 +2,7 @@
 //! Straightens paths on the surface to locally shortest ones.
 #pragma once
 
-#include "agvd/core/poller.h"
+#include "agvd/core/progress.h"
 #include "remesh/dual/face_strip.h"
 
 namespace remesh {

@@ -6,9 +6,9 @@
 
 namespace remesh {
 
-ThinnedMesh thin_patch(const Surface& surface, std::span<const Index> faces,
+SimplifiedMesh thin_patch(const Surface& surface, std::span<const Index> faces,
                        std::span<const SurfacePoint> points) {
-    ThinnedMesh patch = thin(surface, faces, points);
+    SimplifiedMesh patch = simplify(surface, faces, points);
     if (patch.extra.empty()) return patch;
     std::vector<Vec3> positions;
     for (const SurfacePoint& p : points) {

@@ -2,7 +2,7 @@
 //! Thins a patch between curves to its sites.
 #pragma once
 
-#include "agvd/intrinsic/thin.h"
+#include "agvd/intrinsic/simplify.h"
 #include "remesh/names.h"
 
 namespace remesh {
@@ -14,7 +14,7 @@ namespace remesh {
 //! \param faces    ascending: one component of it.
 //! \param points   in these faces, no two at one place.
 //! Cost: as thin.
-[[nodiscard]] ThinnedMesh thin_patch(const Surface& surface, std::span<const Index> faces,
+[[nodiscard]] SimplifiedMesh thin_patch(const Surface& surface, std::span<const Index> faces,
                                      std::span<const SurfacePoint> points);
 
 }  // namespace remesh

@@ -6,7 +6,7 @@
 #include <map>
 #include <utility>
 
-#include "agvd/mesh/vertex_normals.h"
+#include "agvd/mesh/mesh.h"
 #include "remesh/meshfile/formats.h"
 #include "remesh/meshfile/text_colors.h"
 #include "remesh/meshfile/text_format.h"

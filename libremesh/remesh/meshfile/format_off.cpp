@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "agvd/mesh/vertex_normals.h"
+#include "agvd/mesh/mesh.h"
 #include "remesh/meshfile/formats.h"
 #include "remesh/meshfile/text_colors.h"
 #include "remesh/meshfile/text_format.h"

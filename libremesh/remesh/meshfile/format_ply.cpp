@@ -1,7 +1,7 @@
 // Writes PLY: coordinates in double, attributes under their names and types, texture coordinates as
 // a list of each face.
 
-#include "agvd/mesh/vertex_normals.h"
+#include "agvd/mesh/mesh.h"
 #include "remesh/meshfile/append_number.h"
 #include "remesh/meshfile/formats.h"
 #include "remesh/meshfile/ply_header.h"

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "agvd/core/error.h"
-#include "agvd/mesh/vertex_normals.h"
+#include "agvd/mesh/mesh.h"
 #include "remesh/meshfile/append_number.h"
 #include "remesh/meshfile/byte_order.h"
 #include "remesh/meshfile/formats.h"

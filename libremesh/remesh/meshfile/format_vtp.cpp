@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "agvd/mesh/vertex_normals.h"
+#include "agvd/mesh/mesh.h"
 #include "remesh/meshfile/formats.h"
 #include "remesh/meshfile/vtk_output.h"
 #include "remesh/meshfile/vtp_writer.h"

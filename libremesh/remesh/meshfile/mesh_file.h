@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "agvd/core/progress.h"
-#include "agvd/mesh/mesh_view.h"
+#include "agvd/mesh/mesh.h"
 #include "remesh/meshfile/mesh_attributes.h"
 
 namespace remesh {

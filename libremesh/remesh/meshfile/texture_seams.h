@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "agvd/core/poller.h"
-#include "agvd/mesh/mesh_view.h"
+#include "agvd/core/progress.h"
+#include "agvd/mesh/mesh.h"
 #include "remesh/names.h"
 
 namespace remesh {

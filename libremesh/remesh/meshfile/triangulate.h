@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "agvd/core/poller.h"
+#include "agvd/core/progress.h"
 #include "remesh/names.h"
 
 namespace remesh {

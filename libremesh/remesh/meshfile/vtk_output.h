@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "agvd/core/poller.h"
+#include "agvd/core/progress.h"
 #include "remesh/meshfile/mesh_attributes.h"
 
 namespace remesh {

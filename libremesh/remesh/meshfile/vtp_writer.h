@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "agvd/core/poller.h"
+#include "agvd/core/progress.h"
 #include "remesh/meshfile/byte_order.h"
 #include "remesh/meshfile/vtk_data.h"
 

@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "agvd/core/progress.h"
-#include "agvd/mesh/mesh_view.h"
+#include "agvd/mesh/mesh.h"
 #include "remesh/meshfile/mesh_attributes.h"
 #include "remesh/meshfile/mesh_file.h"
 

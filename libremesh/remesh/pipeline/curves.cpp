@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "agvd/mesh/distinct_points.h"
+#include "agvd/mesh/surface_points.h"
 #include "remesh/clean/carry_edges.h"
 #include "remesh/curves/prune_seams.h"
 #include "remesh/pipeline/given_sites.h"
@@ -202,7 +202,7 @@ std::unique_ptr<const CurvePlan> plan_curves(const CleanedInput& cleaned, const 
     // the same ends.
     const Surface& cut = plan->network.cut.surface;
     plan->patches =
-        analyze_topology(cut.mesh.view(), {cut.twin, cut.outgoing}, options.num_threads, done);
+        analyze_topology(cut.mesh.view(), {cut.twin, cut.outgoing}, done);
     return plan;
 }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "agvd/mesh/point_faces.h"
+#include "agvd/mesh/surface_points.h"
 #include "remesh/placement/mend_shape.h"
 #include "remesh/sites/boundary_curves.h"
 

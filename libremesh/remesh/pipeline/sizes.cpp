@@ -8,10 +8,10 @@
 #include <numbers>
 #include <utility>
 
-#include "agvd/core/poller.h"
-#include "agvd/mesh/face_area.h"
-#include "agvd/mesh/point_faces.h"
+#include "agvd/core/progress.h"
 #include "agvd/mesh/scale.h"
+#include "agvd/mesh/surface.h"
+#include "agvd/mesh/surface_points.h"
 #include "remesh/pipeline/sample_count.h"
 #include "remesh/pipeline/thin_lengths.h"
 #include "remesh/sites/curvature.h"

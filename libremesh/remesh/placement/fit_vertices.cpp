@@ -15,8 +15,8 @@
 
 #include "agvd/core/parallel.h"
 #include "agvd/mesh/closest_point.h"
-#include "agvd/mesh/face_area.h"
-#include "agvd/mesh/point_faces.h"
+#include "agvd/mesh/surface.h"
+#include "agvd/mesh/surface_points.h"
 #include "remesh/placement/nearest_in_cells.h"
 #include "remesh/placement/vertex_triangles.h"
 

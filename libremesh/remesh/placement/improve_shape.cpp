@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "agvd/core/parallel.h"
-#include "agvd/mesh/point_faces.h"
+#include "agvd/mesh/surface_points.h"
 #include "remesh/placement/shape_quality.h"
 #include "remesh/placement/slide_steps.h"
 #include "remesh/placement/vertex_triangles.h"

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "agvd/core/poller.h"
+#include "agvd/core/progress.h"
 #include "remesh/placement/shape_quality.h"
 #include "remesh/placement/spare_vertices.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "agvd/mesh/one_ring.h"
+#include "agvd/mesh/surface.h"
 
 namespace remesh::detail {
 

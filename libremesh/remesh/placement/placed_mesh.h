@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "agvd/mesh/surface_point.h"
+#include "agvd/mesh/mesh.h"
 #include "remesh/names.h"
 
 namespace remesh {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "agvd/core/random.h"
-#include "agvd/mesh/uniform_points.h"
+#include "agvd/mesh/surface_points.h"
 
 namespace remesh::detail {
 

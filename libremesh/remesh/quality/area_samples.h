@@ -4,8 +4,7 @@
 
 #include <vector>
 
-#include "agvd/mesh/mesh_view.h"
-#include "agvd/mesh/surface_point.h"
+#include "agvd/mesh/mesh.h"
 #include "remesh/names.h"
 
 namespace remesh::detail {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "agvd/core/poller.h"
+#include "agvd/core/progress.h"
 #include "agvd/core/types.h"
 #include "remesh/names.h"
 

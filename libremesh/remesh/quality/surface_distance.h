@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "agvd/core/progress.h"
-#include "agvd/mesh/mesh_view.h"
+#include "agvd/mesh/mesh.h"
 #include "remesh/names.h"
 
 namespace remesh {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "agvd/mesh/edge_sides.h"
+#include "agvd/mesh/any_mesh.h"
 
 namespace remesh {
 namespace {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "agvd/core/progress.h"
-#include "agvd/mesh/mesh_view.h"
+#include "agvd/mesh/mesh.h"
 #include "remesh/names.h"
 
 namespace remesh {

@@ -2,8 +2,8 @@
 //! Corners of the boundary, and sites along it.
 #pragma once
 
+#include "agvd/mesh/mesh.h"
 #include "agvd/mesh/surface.h"
-#include "agvd/mesh/surface_point.h"
 #include "remesh/curves/curve_sites.h"
 
 namespace remesh {

@@ -9,12 +9,10 @@
 #include <numeric>
 #include <unordered_set>
 
-#include "agvd/core/position_hash.h"
 #include "agvd/core/random.h"
-#include "agvd/mesh/components.h"
-#include "agvd/mesh/face_area.h"
-#include "agvd/mesh/point_faces.h"
-#include "agvd/mesh/uniform_points.h"
+#include "agvd/mesh/surface.h"
+#include "agvd/mesh/surface_points.h"
+#include "agvd/mesh/topology.h"
 #include "remesh/sites/farthest_vertex.h"
 #include "remesh/sites/shares.h"
 #include "remesh/sites/walk.h"
@@ -125,13 +123,13 @@ private:
 class EvenOut {
 public:
     EvenOut(const IntrinsicTriangulation& base, std::vector<SurfacePoint>& sites,
-            std::span<const std::uint8_t> is_fixed, const SizeField* sizes, int num_threads,
+            std::span<const std::uint8_t> is_fixed, const SizeField* sizes,
             const Progress& progress)
         : base_(base),
           surface_(base.surface()),
           sites_(sites),
           on_base_(base.to_intrinsic(sites)),
-          components_(find_components(surface_, num_threads, progress)) {
+          components_(find_components(surface_, progress)) {
         may_move_.reserve(sites.size());
         for (Index i = 0; i < sites.size(); ++i) {
             const bool stays = (!is_fixed.empty() && is_fixed[i] != 0) ||
@@ -301,7 +299,7 @@ private:
 Index even_out(const PreparedSurface& surface, std::vector<SurfacePoint>& sites,
                std::span<const std::uint8_t> is_fixed, int num_threads, const Progress& progress,
                const SizeField* sizes) {
-    return EvenOut(surface.base, sites, is_fixed, sizes, num_threads, progress)
+    return EvenOut(surface.base, sites, is_fixed, sizes, progress)
         .run(surface.layout, num_threads, progress);
 }
 

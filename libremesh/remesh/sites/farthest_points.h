@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "agvd/mesh/components.h"
+#include "agvd/mesh/topology.h"
 #include "remesh/sites/scatter.h"
 #include "remesh/sites/size_field.h"
 

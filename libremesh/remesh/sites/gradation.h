@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "agvd/core/poller.h"
+#include "agvd/core/progress.h"
 #include "agvd/mesh/surface.h"
 #include "remesh/names.h"
 

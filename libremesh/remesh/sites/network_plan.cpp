@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "agvd/mesh/components.h"
-#include "agvd/mesh/face_area.h"
+#include "agvd/mesh/surface.h"
+#include "agvd/mesh/topology.h"
 #include "remesh/curves/guard_corners.h"
 #include "remesh/sites/shares.h"
 #include "remesh/sites/sized_components.h"
@@ -24,11 +24,10 @@ struct Patch {
     double area = 0, boundary_length = 0;
 };
 
-std::vector<Patch> find_patches(const Surface& surface, const SizeField* sizes, int num_threads,
+std::vector<Patch> find_patches(const Surface& surface, const SizeField* sizes,
                                 const Progress& progress) {
     std::vector<Patch> patches;
-    for (const Component& component :
-         detail::sized_components(surface, sizes, num_threads, progress)) {
+    for (const Component& component : detail::sized_components(surface, sizes, progress)) {
         patches.push_back(
             {component.area(), detail::sized_boundary_length(surface, component, sizes)});
     }
@@ -177,7 +176,7 @@ NetworkPlan plan_network(const Surface& surface, std::vector<std::uint8_t> is_cr
         plan.cut =
             cut_surface(surface, edges_to_cut(plan.junctions, is_crease), num_threads, progress);
         Division division = divide(surface, plan.network,
-                                   find_patches(plan.cut.surface, sizes, num_threads, progress),
+                                   find_patches(plan.cut.surface, sizes, progress),
                                    unit_of(sizes), num_vertices);
         plan.spacing = division.spacing;
         plan.along = std::move(division.along);

@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "agvd/intrinsic/face_pieces.h"
+#include "agvd/intrinsic/intrinsic_triangulation.h"
 #include "agvd/propagation/surface_layout.h"
 #include "remesh/sites/size_field.h"
 

@@ -11,7 +11,7 @@
 #include <set>
 
 #include "agvd/mesh/closest_point.h"
-#include "agvd/mesh/components.h"
+#include "agvd/mesh/topology.h"
 #include "remesh/curves/close_rim.h"
 #include "remesh/dual/thin_patch.h"
 #include "remesh/sites/levels.h"
@@ -179,8 +179,7 @@ private:
 class Patches {
 public:
     explicit Patches(const PreparedSurface& surface) : surface_(surface) {
-        Poller never;
-        component_ = label_components(surface.input().twin, 1, never);
+        component_ = label_components(surface.input().twin);
         faces_.resize(component_.count);
         const std::vector<Index> parts = parts_of_base(surface.base, component_.of_face);
         for (Index f = 0; f < parts.size(); ++f) faces_[parts[f]].push_back(f);
@@ -221,7 +220,7 @@ public:
             points.push_back(surface_.base.to_intrinsic(sites[i]));
             number.push_back(i);
         }
-        ThinnedMesh thinned = thin_patch(surface_.base.surface(), faces_[patch], points);
+        SimplifiedMesh thinned = thin_patch(surface_.base.surface(), faces_[patch], points);
         if (!thinned.extra.empty()) return {};
         for (Triangle& t : thinned.triangles) {
             for (Index& i : t) i = number[i];

@@ -4,8 +4,8 @@
 
 #include <optional>
 
+#include "agvd/mesh/mesh.h"
 #include "agvd/mesh/surface.h"
-#include "agvd/mesh/surface_point.h"
 #include "remesh/sites/curve_motion.h"
 #include "remesh/sites/cvt_energy.h"
 #include "remesh/sites/site_labels.h"

@@ -9,7 +9,7 @@
 
 #include "agvd/core/error.h"
 #include "agvd/core/parallel.h"
-#include "agvd/mesh/components.h"
+#include "agvd/mesh/topology.h"
 #include "remesh/sites/boundary_curves.h"
 #include "remesh/sites/eliminate.h"
 #include "remesh/sites/farthest_points.h"
@@ -131,7 +131,7 @@ std::vector<SurfacePoint> sample_sites(const Surface& surface, const SamplingOpt
     poll(options.progress, 0);
     const Progress begin = within(options.progress, 0, 0);
     const std::vector<Component> components =
-        detail::sized_components(surface, options.sizes, options.num_threads, begin);
+        detail::sized_components(surface, options.sizes, begin);
     const bool keeps_boundary = options.init != Init::Random && options.boundary == Boundary::Keep;
     const auto loops = find_loops(surface, components);
     std::vector<double> boundary_length(components.size(), 0);
@@ -179,7 +179,7 @@ std::vector<SurfacePoint> sample_inner_sites(const Surface& surface,
                                              double spacing, const SamplingOptions& options) {
     const Progress begin = within(options.progress, 0, 0);
     const std::vector<Component> components =
-        detail::sized_components(surface, options.sizes, options.num_threads, begin);
+        detail::sized_components(surface, options.sizes, begin);
     std::vector<Index> component_of(surface.num_faces());
     std::vector<double> lacking;
     for (Index i = 0; i < components.size(); ++i) {

@@ -4,10 +4,10 @@
 #include <array>
 #include <unordered_set>
 
-#include "agvd/core/poller.h"
-#include "agvd/core/position_hash.h"
-#include "agvd/mesh/face_area.h"
-#include "agvd/mesh/uniform_points.h"
+#include "agvd/core/progress.h"
+#include "agvd/core/random.h"
+#include "agvd/mesh/surface.h"
+#include "agvd/mesh/surface_points.h"
 
 namespace remesh::detail {
 namespace {

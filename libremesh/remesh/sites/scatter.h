@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <array>
 
-#include "agvd/mesh/components.h"
-#include "agvd/mesh/surface_point.h"
+#include "agvd/mesh/mesh.h"
+#include "agvd/mesh/topology.h"
 #include "remesh/sites/size_field.h"
 
 namespace remesh::detail {

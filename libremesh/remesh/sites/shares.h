@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "agvd/mesh/components.h"
+#include "agvd/mesh/topology.h"
 #include "remesh/names.h"
 
 namespace remesh::detail {

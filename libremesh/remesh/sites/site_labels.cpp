@@ -5,9 +5,9 @@
 
 #include <algorithm>
 
-#include "agvd/core/edge_key.h"
 #include "agvd/core/parallel.h"
-#include "agvd/mesh/point_faces.h"
+#include "agvd/core/types.h"
+#include "agvd/mesh/surface_points.h"
 #include "remesh/sites/face_parts.h"
 
 namespace remesh::detail {

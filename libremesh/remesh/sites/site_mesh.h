@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "agvd/core/half_edge.h"
-#include "agvd/core/poller.h"
+#include "agvd/core/progress.h"
+#include "agvd/core/types.h"
 #include "remesh/names.h"
 
 namespace remesh::detail {

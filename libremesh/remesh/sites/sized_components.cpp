@@ -25,8 +25,8 @@ double length_of(const Surface& surface, Index h, const SizeField& sizes) {
 }  // namespace
 
 std::vector<Component> sized_components(const Surface& surface, const SizeField* sizes,
-                                        int num_threads, const Progress& progress) {
-    std::vector<Component> components = find_components(surface, num_threads, progress);
+                                        const Progress& progress) {
+    std::vector<Component> components = find_components(surface, progress);
     if (sizes == nullptr) return components;
     for (Component& component : components) {
         double area = 0;

@@ -2,7 +2,7 @@
 //! Components measured in local lengths.
 #pragma once
 
-#include "agvd/mesh/components.h"
+#include "agvd/mesh/topology.h"
 #include "remesh/sites/size_field.h"
 
 namespace remesh::detail {
@@ -10,7 +10,7 @@ namespace remesh::detail {
 //! find_components with areas in squares of the local length (SizeField::area_of_face).
 //! \param sizes  null: areas are in mesh units.
 [[nodiscard]] std::vector<Component> sized_components(const Surface& surface,
-                                                      const SizeField* sizes, int num_threads,
+                                                      const SizeField* sizes,
                                                       const Progress& progress = {});
 
 //! The length of a chain of half-edges in local lengths, or in mesh units.

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <utility>
 
-#include "agvd/mesh/face_area.h"
+#include "agvd/mesh/surface.h"
 #include "remesh/sites/gradation.h"
 #include "remesh/sites/size_field.h"
 

@@ -4,8 +4,8 @@
 
 #include <optional>
 
+#include "agvd/mesh/mesh.h"
 #include "agvd/mesh/surface.h"
-#include "agvd/mesh/surface_point.h"
 #include "remesh/names.h"
 
 namespace remesh::detail {

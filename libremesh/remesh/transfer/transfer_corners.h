@@ -3,7 +3,7 @@
 #pragma once
 
 #include "agvd/core/progress.h"
-#include "agvd/mesh/surface_point.h"
+#include "agvd/mesh/mesh.h"
 #include "remesh/meshfile/texture_seams.h"
 
 namespace remesh {

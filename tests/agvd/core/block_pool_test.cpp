@@ -1,4 +1,4 @@
-#include "agvd/core/block_pool.h"
+#include "agvd/core/reused_memory.h"
 
 #include <gtest/gtest.h>
 

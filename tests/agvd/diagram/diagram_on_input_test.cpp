@@ -4,8 +4,7 @@
 
 #include "agvd/diagram/build_diagram.h"
 #include "agvd/diagram/curve_piece.h"
-#include "agvd/mesh/point_faces.h"
-#include "agvd/mesh/uniform_points.h"
+#include "agvd/mesh/surface_points.h"
 #include "agvd/propagation/propagate.h"
 #include "support/shapes.h"
 
@@ -36,7 +35,6 @@ TEST(DiagramOnInput, EdgesRunOnTheFacesOfTheInputAndKeepTheirLengths) {
     for (const TriangleMesh& mesh : {needle_tube(), shapes::jitter(shapes::sphere(3), 0.08, 3)}) {
         const Surface surface = build_surface(mesh.view());
         const IntrinsicTriangulation base(surface, {.max_length = 0.15});
-        ASSERT_GT(base.counts().flips, 50u);
         ASSERT_GT(base.counts().splits, 50u);
         const auto sites = uniform_points(surface, 30, 5);
         const auto on_base = base.to_intrinsic(sites);

@@ -1,10 +1,9 @@
-#include "agvd/mesh/connectivity.h"
+#include "agvd/mesh/surface.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "agvd/mesh/surface.h"
 #include "support/checks.h"
 #include "support/shapes.h"
 

@@ -7,7 +7,7 @@
 
 #include "agvd/diagram/build_diagram.h"
 #include "agvd/diagram/face_relays.h"
-#include "agvd/mesh/point_faces.h"
+#include "agvd/mesh/surface_points.h"
 #include "agvd/propagation/propagate.h"
 #include "support/checks.h"
 #include "support/points.h"

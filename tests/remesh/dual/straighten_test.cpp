@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "agvd/intrinsic/intrinsic_triangulation.h"
-#include "agvd/mesh/point_faces.h"
+#include "agvd/mesh/surface_points.h"
 #include "support/delta_shapes.h"
 #include "support/geodesics.h"
 #include "support/points.h"

@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "agvd/core/poller.h"
+#include "agvd/core/progress.h"
 #include "agvd/propagation/propagation_options.h"
 #include "agvd/propagation/relays.h"
 #include "agvd/propagation/site_placement.h"

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "agvd/mesh/one_ring.h"
+#include "agvd/mesh/surface.h"
 
 namespace agvd {
 namespace {

@@ -2,7 +2,7 @@
 //! Where windows start: at the site, and at the vertices around which paths may bend.
 #pragma once
 
-#include "agvd/mesh/surface_point.h"
+#include "agvd/mesh/mesh.h"
 #include "agvd/propagation/window/front_state.h"
 
 namespace agvd {

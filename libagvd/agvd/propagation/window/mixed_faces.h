@@ -3,7 +3,7 @@
 //! than one label.
 #pragma once
 
-#include "agvd/core/poller.h"
+#include "agvd/core/progress.h"
 #include "agvd/propagation/site_placement.h"
 #include "agvd/propagation/window/relay_logs.h"
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <span>
 
-#include "agvd/mesh/surface_point.h"
+#include "agvd/mesh/mesh.h"
 #include "agvd/propagation/window/front_state.h"
 
 namespace agvd {

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "agvd/core/run_array.h"
+#include "agvd/core/reused_memory.h"
 #include "agvd/propagation/window/window.h"
 
 namespace agvd {
