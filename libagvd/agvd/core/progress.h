@@ -1,6 +1,6 @@
 //! \file
 //! Every stage polls its progress callback inside its loops, on any thread, and stops when that
-//! says so. Held by Polls in tests/remesh/pipeline and by tests/agvd/core/poller_test.cpp.
+//! says so. Held by Polls in tests/remesh/pipeline and Poller in tests/agvd/core.
 #pragma once
 
 #include <algorithm>

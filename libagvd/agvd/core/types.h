@@ -1,6 +1,6 @@
 //! \file
 //! Indices, ids and vectors used by every stage: an index of one kind cannot be taken for another.
-//! Held by EitherIndex and Layering in tests.
+//! Held by EitherIndex in tests/agvd/core.
 #pragma once
 
 #include <Eigen/Core>
@@ -50,8 +50,8 @@ using FaceId = Id<struct FaceTag>;      //!< A face of a mesh.
 using SiteId = Id<struct SiteTag>;      //!< A site of a diagram.
 
 //! Half-edge 3 t + k runs from corner k to corner k + 1 of triangle t. This is the next one of the
-//! triangle. Compilers do not turn this arithmetic into branches, one in
-//! three of which would be predicted wrongly (2 to 4 % of a propagation).
+//! triangle. Compilers do not turn this arithmetic into branches, of which one in three would be
+//! predicted wrongly.
 [[nodiscard]] constexpr Index next_half_edge(Index half_edge) {
     return half_edge + 1 - 3 * (half_edge % 3 / 2);
 }

@@ -3,8 +3,6 @@
 // point passes only those that touch its face.
 #include "agvd/intrinsic/history.h"
 
-#include "agvd/intrinsic/passages.h"
-
 namespace agvd::detail {
 namespace {
 

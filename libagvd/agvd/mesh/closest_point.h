@@ -1,5 +1,6 @@
 //! \file
-//! Nearest point of a mesh, by a tree of bounding boxes.
+//! Nearest point of a mesh, by a tree of bounding boxes: of equally near ones that in the lowest
+//! face. Held by ClosestPointTree in tests/agvd/mesh.
 #pragma once
 
 #include "agvd/core/progress.h"

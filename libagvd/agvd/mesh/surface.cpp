@@ -178,8 +178,7 @@ void find_pseudo_sources(Surface& surface, int num_threads, Poller& poller) {
 
 }  // namespace
 
-std::optional<Connectivity> find_connectivity(const MeshView& mesh, int /*num_threads*/,
-                                              const Progress& progress) {
+std::optional<Connectivity> find_connectivity(const MeshView& mesh, const Progress& progress) {
     Poller poller(progress);
     Ticker ticker(poller);
     std::string reason;

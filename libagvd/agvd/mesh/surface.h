@@ -25,11 +25,10 @@ struct Connectivity {
 //! No result if a face repeats a corner, an edge has more than two faces or two that run the same
 //! way, or the faces around a vertex are not one fan.
 //!
-//! \param mesh         indices in range; positions are not read.
-//! \param num_threads  >= 0; 0: all cores. The result is the same for any number.
+//! \param mesh  indices in range; positions are not read.
 //! \throw Cancelled  the progress callback returned false.
-//! Cost: O(n); 8 bytes per edge and 4 per vertex beyond the result.
-[[nodiscard]] std::optional<Connectivity> find_connectivity(const MeshView& mesh, int num_threads,
+//! Cost: O(n); 32 bytes per side of a face beyond the result.
+[[nodiscard]] std::optional<Connectivity> find_connectivity(const MeshView& mesh,
                                                             const Progress& progress = {});
 
 //! The frame of half-edge h: its tail at (0, 0), its head at (length, 0), its face above (y > 0).

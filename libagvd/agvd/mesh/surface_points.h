@@ -57,8 +57,7 @@ void for_each_view(const Surface& surface, const SurfacePoint& point, const Visi
                                                     const SurfacePoint& point, Index face);
 
 //! The faces that hold both of two different points, at most two. There are no more unless the
-//! surface
-//! is a Delta-complex (see IntrinsicTriangulation). Cost: O(faces around a and b).
+//! surface is a Delta-complex (see IntrinsicTriangulation). Cost: O(faces around a and b).
 struct CommonFaces {
     Index first = no_index;   //!< no_index: none.
     Index second = no_index;  //!< Where both lie on one edge; no_index otherwise.
@@ -100,8 +99,7 @@ struct PlaceOnSurface {
 
 //! The points that do not lie exactly where an earlier one does, ascending. As sites the other
 //! points own nothing, since ties go to the earlier site. Points of two parts of the surface at one
-//! position
-//! in space are different. Cost: O(#points log #points).
+//! position in space are different. Cost: O(#points log #points).
 [[nodiscard]] std::vector<Index> distinct_points(const Surface& surface,
                                                  std::span<const SurfacePoint> points);
 

@@ -7,7 +7,7 @@
 namespace remesh {
 
 SimplifiedMesh thin_patch(const Surface& surface, std::span<const Index> faces,
-                       std::span<const SurfacePoint> points) {
+                          std::span<const SurfacePoint> points) {
     SimplifiedMesh patch = simplify(surface, faces, points);
     if (patch.extra.empty()) return patch;
     std::vector<Vec3> positions;

@@ -15,6 +15,6 @@ namespace remesh {
 //! \param points   in these faces, no two at one place.
 //! Cost: as thin.
 [[nodiscard]] SimplifiedMesh thin_patch(const Surface& surface, std::span<const Index> faces,
-                                     std::span<const SurfacePoint> points);
+                                        std::span<const SurfacePoint> points);
 
 }  // namespace remesh

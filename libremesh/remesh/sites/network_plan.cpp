@@ -175,9 +175,9 @@ NetworkPlan plan_network(const Surface& surface, std::vector<std::uint8_t> is_cr
         }
         plan.cut =
             cut_surface(surface, edges_to_cut(plan.junctions, is_crease), num_threads, progress);
-        Division division = divide(surface, plan.network,
-                                   find_patches(plan.cut.surface, sizes, progress),
-                                   unit_of(sizes), num_vertices);
+        Division division =
+            divide(surface, plan.network, find_patches(plan.cut.surface, sizes, progress),
+                   unit_of(sizes), num_vertices);
         plan.spacing = division.spacing;
         plan.along = std::move(division.along);
         plan.intervals = intervals_between(plan.network, plan.along);

@@ -66,8 +66,7 @@ double num_crowded(const Surface& surface, Index num_sites) {
 
 // The number of coarse sites that gives `count` sites together with the middles between them;
 // nothing if it is too small.
-std::optional<Index> coarse_count(const Surface& surface, Index count,
-                                  const Progress& progress) {
+std::optional<Index> coarse_count(const Surface& surface, Index count, const Progress& progress) {
     Poller poller(progress);
     const Index num_components = label_components(surface.twin, Ticker(poller)).count;
     const double euler = euler_of(surface);
@@ -109,8 +108,7 @@ RelaxResult sample_relaxed_sites(const PreparedSurface& surface, const SamplingO
         return relax_sites(surface, sample_sites(input, sampling), options);
     };
     const std::optional<Index> coarse =
-        coarse_count(surface.base.surface(), sampling.num_samples,
-                     within(options.progress, 0, 0));
+        coarse_count(surface.base.surface(), sampling.num_samples, within(options.progress, 0, 0));
     if (!coarse || options.steps == 0) return one_after_the_other();
     SamplingOptions first = sampling;
     first.num_samples = *coarse;

@@ -80,7 +80,7 @@ TEST(Components, AreMeasuredOneByOne) {
 
 TEST(Components, TopologyIsTheSameWithAndWithoutConnectivity) {
     const TriangleMesh mesh = shuffled_parts();
-    const Connectivity connectivity = *find_connectivity(mesh.view(), 1);
+    const Connectivity connectivity = *find_connectivity(mesh.view());
     const agvd::Topology expected = agvd::analyze_topology(mesh.view());
     const agvd::Topology found = agvd::analyze_topology(mesh.view(), connectivity);
     ASSERT_EQ(found.components.size(), expected.components.size());

@@ -159,7 +159,7 @@ TEST(Polls, AreInTheStagesOnTheirOwn) {
     expect_polls("topology", 30, [&](const Progress& progress) {
         (void)remesh::analyze_topology(mesh.view(), progress);
     });
-    const std::optional<agvd::Connectivity> connectivity = agvd::find_connectivity(mesh.view(), 1);
+    const std::optional<agvd::Connectivity> connectivity = agvd::find_connectivity(mesh.view());
     ASSERT_TRUE(connectivity);
     expect_polls("topology of what is connected", 20, [&](const Progress& progress) {
         (void)remesh::analyze_topology(mesh.view(), *connectivity, 1, progress);
