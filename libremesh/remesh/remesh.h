@@ -3,7 +3,7 @@
 //! (remesh/meshfile/openmesh_exchange.h) and CGAL (remesh/meshfile/face_graph.h).
 #pragma once
 
-#include "agvd/mesh/vertex_normals.h"
+#include "agvd/mesh/mesh.h"
 #include "remesh/clean/clean_input.h"
 #include "remesh/dual/build_dual.h"
 #include "remesh/meshfile/diagram_file.h"

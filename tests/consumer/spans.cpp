@@ -1,4 +1,4 @@
-#include <agvd/mesh/spans.h>
+#include <agvd/mesh/arrays.h>
 #include <remesh/remesh.h>
 
 int main() {

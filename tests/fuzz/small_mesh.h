@@ -2,7 +2,7 @@
 //! Small meshes and points on them out of bytes.
 #pragma once
 
-#include "agvd/mesh/surface_point.h"
+#include "agvd/mesh/mesh.h"
 #include "bytes.h"
 
 namespace fuzz {

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "agvd/diagram/build_diagram.h"
-#include "agvd/mesh/point_faces.h"
+#include "agvd/mesh/surface_points.h"
 #include "agvd/propagation/propagate.h"
 #include "paper/compare_diagrams.h"
 #include "support/points.h"

@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "agvd/diagram/build_diagram.h"
-#include "agvd/mesh/point_faces.h"
+#include "agvd/mesh/surface_points.h"
 #include "agvd/propagation/propagate.h"
 #include "paper/compare.h"
 #include "remesh/meshfile/read_mesh.h"

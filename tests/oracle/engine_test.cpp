@@ -14,7 +14,7 @@
 #include <sstream>
 
 #include "agvd/diagram/face_relays.h"
-#include "agvd/mesh/point_faces.h"
+#include "agvd/mesh/surface_points.h"
 #include "agvd/propagation/propagate.h"
 #include "paper/oracle.h"
 #include "remesh/clean/clean_input.h"

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "agvd/core/error.h"
-#include "agvd/mesh/point_faces.h"
+#include "agvd/mesh/surface_points.h"
 #include "paper/oracle.h"
 #include "support/points.h"
 #include "support/shapes.h"

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "agvd/diagram/build_diagram.h"
-#include "agvd/mesh/uniform_points.h"
+#include "agvd/mesh/surface_points.h"
 #include "agvd/paths/geodesic_path.h"
 #include "agvd/propagation/propagate.h"
 #include "paper/oracle.h"

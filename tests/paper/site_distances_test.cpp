@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "agvd/mesh/point_faces.h"
+#include "agvd/mesh/surface_points.h"
 #include "agvd/propagation/propagate.h"
 #include "support/points.h"
 #include "support/shapes.h"

@@ -5,8 +5,8 @@
 #include "support/checks.h"
 
 #include "agvd/diagram/diagram.h"
-#include "agvd/mesh/face_area.h"
-#include "agvd/mesh/point_faces.h"
+#include "agvd/mesh/surface.h"
+#include "agvd/mesh/surface_points.h"
 
 #include <gtest/gtest.h>
 

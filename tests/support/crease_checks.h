@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "agvd/mesh/mesh_view.h"
+#include "agvd/mesh/mesh.h"
 
 namespace crease_checks {
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <string_view>
 
-#include "agvd/mesh/mesh_view.h"
+#include "agvd/mesh/mesh.h"
 #include "support/dice.h"
 
 namespace damages {

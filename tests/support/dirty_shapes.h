@@ -2,7 +2,7 @@
 //! Meshes with defects, by formula.
 #pragma once
 
-#include "agvd/mesh/mesh_view.h"
+#include "agvd/mesh/mesh.h"
 
 namespace shapes {
 

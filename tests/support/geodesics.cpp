@@ -10,7 +10,7 @@
 #include <numbers>
 #include <optional>
 
-#include "agvd/mesh/point_faces.h"
+#include "agvd/mesh/surface_points.h"
 #include "support/dice.h"
 
 namespace geodesics {

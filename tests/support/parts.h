@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <functional>
 
-#include "agvd/mesh/mesh_view.h"
+#include "agvd/mesh/mesh.h"
 
 namespace parts {
 

@@ -7,7 +7,7 @@
 #include <map>
 #include <tuple>
 
-#include "agvd/mesh/mesh_view.h"
+#include "agvd/mesh/mesh.h"
 
 namespace parts {
 

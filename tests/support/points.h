@@ -3,7 +3,7 @@
 #pragma once
 
 #include "agvd/mesh/surface.h"
-#include "agvd/mesh/surface_point.h"
+#include "agvd/mesh/mesh.h"
 #include "support/dice.h"
 
 namespace points {

@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "agvd/mesh/mesh_view.h"
+#include "agvd/mesh/mesh.h"
 
 namespace random_surfaces {
 

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "agvd/mesh/mesh_view.h"
+#include "agvd/mesh/mesh.h"
 #include "remesh/meshfile/write_mesh.h"
 #include "support/process.h"
 

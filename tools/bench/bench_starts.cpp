@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "agvd/core/random.h"
-#include "agvd/mesh/uniform_points.h"
+#include "agvd/mesh/surface_points.h"
 #include "agvd/propagation/propagate.h"
 #include "bench/report.h"
 #include "cli.h"

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <map>
 
-#include "agvd/core/half_edge.h"
+#include "agvd/core/types.h"
 #include "agvd/core/random.h"
 
 namespace bench {

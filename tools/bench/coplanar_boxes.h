@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "agvd/mesh/mesh_view.h"
+#include "agvd/mesh/mesh.h"
 
 namespace bench {
 

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "agvd/mesh/surface.h"
-#include "agvd/mesh/surface_point.h"
+#include "agvd/mesh/mesh.h"
 #include "bench/timing.h"
 
 namespace bench {

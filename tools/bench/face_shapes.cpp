@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "agvd/mesh/face_area.h"
+#include "agvd/mesh/surface.h"
 
 namespace bench {
 

@@ -2,7 +2,7 @@
 //! A generated mesh of any size.
 #pragma once
 
-#include "agvd/mesh/mesh_view.h"
+#include "agvd/mesh/mesh.h"
 
 namespace bench {
 

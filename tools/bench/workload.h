@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "agvd/mesh/surface.h"
-#include "agvd/mesh/surface_point.h"
+#include "agvd/mesh/mesh.h"
 
 namespace bench {
 

@@ -6,7 +6,7 @@
 
 #include <functional>
 
-#include "agvd/mesh/mesh_view.h"
+#include "agvd/mesh/mesh.h"
 
 namespace make_data {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "agvd/mesh/mesh_view.h"
+#include "agvd/mesh/mesh.h"
 #include "remesh/meshfile/read_mesh.h"
 
 namespace make_data {

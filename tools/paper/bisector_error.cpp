@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "agvd/mesh/face_area.h"
-#include "agvd/mesh/point_faces.h"
+#include "agvd/mesh/surface.h"
+#include "agvd/mesh/surface_points.h"
 
 namespace agvd {
 namespace {

@@ -3,7 +3,7 @@
 #include <limits>
 #include <span>
 
-#include "agvd/mesh/point_faces.h"
+#include "agvd/mesh/surface_points.h"
 
 namespace agvd {
 namespace {

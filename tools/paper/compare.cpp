@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "agvd/diagram/face_relays.h"
-#include "agvd/mesh/uniform_points.h"
+#include "agvd/mesh/surface_points.h"
 #include "paper/oracle.h"
 
 namespace agvd {

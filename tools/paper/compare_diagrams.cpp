@@ -15,7 +15,7 @@
 #include "agvd/core/parallel.h"
 #include "agvd/diagram/diagram.h"
 #include "agvd/mesh/closest_point.h"
-#include "agvd/mesh/uniform_points.h"
+#include "agvd/mesh/surface_points.h"
 #include "paper/cell_at.h"
 #include "paper/frechet.h"
 #include "paper/site_distances.h"

@@ -3,7 +3,7 @@
 //! ones.
 #pragma once
 
-#include "agvd/core/poller.h"
+#include "agvd/core/progress.h"
 #include "agvd/diagram/diagram.h"
 #include "paper/bisector_error.h"
 

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "agvd/core/poller.h"
+#include "agvd/core/progress.h"
 
 namespace agvd {
 

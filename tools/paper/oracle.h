@@ -6,7 +6,7 @@
 #include <span>
 
 #include "agvd/mesh/surface.h"
-#include "agvd/mesh/surface_point.h"
+#include "agvd/mesh/mesh.h"
 
 namespace agvd {
 

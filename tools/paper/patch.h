@@ -4,9 +4,9 @@
 
 #include <span>
 
-#include "agvd/core/poller.h"
+#include "agvd/core/progress.h"
 #include "agvd/mesh/surface.h"
-#include "agvd/mesh/surface_point.h"
+#include "agvd/mesh/mesh.h"
 
 namespace agvd {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "agvd/core/poller.h"
+#include "agvd/core/progress.h"
 
 namespace agvd {
 

@@ -1,6 +1,6 @@
 //! \file
 //! The exceptions of the libraries. Every text says what is wrong, where (file, line or element),
-//! and what to do about it.
+//! and what to do about it. Held by Surface in tests/agvd/mesh.
 #pragma once
 
 #include <stdexcept>

@@ -5,7 +5,7 @@
 
 #include <functional>
 
-#include "agvd/core/poller.h"
+#include "agvd/core/progress.h"
 #include "agvd/core/types.h"
 
 namespace agvd {

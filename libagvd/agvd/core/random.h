@@ -1,9 +1,13 @@
 //! \file
-//! Counter-based random numbers: value = f(seed, stream, index). No state, so any thread can draw
-//! any number and the result never depends on the order of drawing.
+//! Random numbers and hashes. A number is f(seed, stream, index), without state: any thread can
+//! draw any number, and the result never depends on the order of drawing.
 #pragma once
 
+#include <bit>
+#include <cstddef>
 #include <cstdint>
+
+#include "agvd/core/types.h"
 
 namespace agvd {
 
@@ -25,5 +29,16 @@ namespace agvd {
                                            std::uint64_t index) {
     return static_cast<double>(random_bits(seed, stream, index) >> 11) * 0x1.0p-53;
 }
+
+//! To find equal positions: equal ones have equal hashes; 0 and -0 are equal.
+struct PositionHash {
+    [[nodiscard]] std::size_t operator()(const Vec3& position) const {
+        std::uint64_t bits = 0;
+        for (int k = 0; k < 3; ++k) {
+            bits = mix_bits(bits ^ std::bit_cast<std::uint64_t>(position[k] + 0.0));
+        }
+        return static_cast<std::size_t>(bits);
+    }
+};
 
 }  // namespace agvd

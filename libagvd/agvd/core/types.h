@@ -1,10 +1,13 @@
 //! \file
-//! Indices, ids and vectors used by every stage.
+//! Indices, ids and vectors used by every stage: an index of one kind cannot be taken for another.
+//! Held by EitherIndex in tests/agvd/core.
 #pragma once
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
+#include <cassert>
 #include <compare>
 #include <cstdint>
 #include <limits>
@@ -45,5 +48,62 @@ private:
 using VertexId = Id<struct VertexTag>;  //!< A vertex of a mesh.
 using FaceId = Id<struct FaceTag>;      //!< A face of a mesh.
 using SiteId = Id<struct SiteTag>;      //!< A site of a diagram.
+
+//! Half-edge 3 t + k runs from corner k to corner k + 1 of triangle t. This is the next one of the
+//! triangle. Compilers do not turn this arithmetic into branches, of which one in three would be
+//! predicted wrongly.
+[[nodiscard]] constexpr Index next_half_edge(Index half_edge) {
+    return half_edge + 1 - 3 * (half_edge % 3 / 2);
+}
+//! The previous half-edge of the triangle.
+[[nodiscard]] constexpr Index previous_half_edge(Index half_edge) {
+    return half_edge + 2 - 3 * ((half_edge % 3 + 1) / 2);
+}
+
+//! An edge by its ends: the same number for (a, b) and (b, a); ascending by the lower index, then
+//! by the higher one.
+[[nodiscard]] constexpr std::uint64_t edge_key(Index a, Index b) {
+    return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
+}
+
+//! An index into the first or the second of two arrays, in one word: the highest bit tells which.
+//! Types that name the two arrays hold one of these.
+class EitherIndex {
+public:
+    //! Neither.
+    constexpr EitherIndex() = default;
+    [[nodiscard]] static constexpr EitherIndex first(Index index) {
+        assert(index < second_bit);
+        return EitherIndex(index);
+    }
+    [[nodiscard]] static constexpr EitherIndex second(Index index) {
+        assert(index < second_bit - 1);
+        return EitherIndex(index | second_bit);
+    }
+
+    [[nodiscard]] constexpr bool is_valid() const { return word_ != no_index; }
+    //! \pre is_valid()
+    [[nodiscard]] constexpr bool is_second() const {
+        assert(is_valid());
+        return word_ >= second_bit;
+    }
+    [[nodiscard]] constexpr Index first() const {
+        assert(!is_second());
+        return word_;
+    }
+    [[nodiscard]] constexpr Index second() const {
+        assert(is_second());
+        return word_ - second_bit;
+    }
+
+    friend constexpr bool operator==(const EitherIndex&, const EitherIndex&) = default;
+
+private:
+    static constexpr Index second_bit = Index{1} << 31;
+
+    explicit constexpr EitherIndex(Index word) : word_(word) {}
+
+    Index word_ = no_index;
+};
 
 }  // namespace agvd

@@ -1,5 +1,6 @@
 //! \file
 //! The version of these libraries. CMake reads it from here.
+//! Held by Version.HeadersLibraryAndPackageAgree in tests/agvd/core.
 #pragma once
 
 namespace agvd {

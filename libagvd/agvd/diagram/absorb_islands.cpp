@@ -8,8 +8,8 @@
 
 #include "agvd/core/union_find.h"
 #include "agvd/diagram/stages.h"
-#include "agvd/mesh/one_ring.h"
-#include "agvd/mesh/point_faces.h"
+#include "agvd/mesh/surface.h"
+#include "agvd/mesh/surface_points.h"
 
 namespace agvd {
 namespace {

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "agvd/core/poller.h"
+#include "agvd/core/progress.h"
 #include "agvd/diagram/edge_labels.h"
 
 namespace agvd {

@@ -5,8 +5,7 @@
 #include <numeric>
 
 #include "agvd/diagram/stages.h"
-#include "agvd/mesh/face_distance.h"
-#include "agvd/mesh/point_faces.h"
+#include "agvd/mesh/surface_points.h"
 
 namespace agvd {
 namespace {

@@ -7,7 +7,7 @@
 
 #include <span>
 
-#include "agvd/core/poller.h"
+#include "agvd/core/progress.h"
 #include "agvd/propagation/propagate.h"
 
 namespace agvd {

@@ -3,7 +3,7 @@
 //! for the faces or triangles on both sides, so that these cannot disagree.
 #pragma once
 
-#include "agvd/core/either_index.h"
+#include "agvd/core/types.h"
 #include "agvd/propagation/propagate.h"
 
 namespace agvd {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "agvd/mesh/point_faces.h"
+#include "agvd/mesh/surface_points.h"
 
 namespace agvd {
 

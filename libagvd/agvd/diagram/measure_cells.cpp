@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "agvd/diagram/stages.h"
-#include "agvd/mesh/face_area.h"
+#include "agvd/mesh/surface.h"
 
 namespace agvd {
 namespace {

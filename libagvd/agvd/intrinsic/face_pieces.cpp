@@ -2,14 +2,13 @@
 // of a changed face are the parts of the input's faces in it, mapped back through the record; if
 // these are too many, evenly spread points are mapped instead. Faces that are planar in space need
 // one piece. Chunks of faces are processed in parallel and joined in order.
-#include "agvd/intrinsic/face_pieces.h"
-
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numeric>
 
 #include "agvd/core/parallel.h"
-#include "agvd/mesh/face_area.h"
+#include "agvd/intrinsic/intrinsic_triangulation.h"
 
 namespace agvd {
 namespace {
@@ -40,33 +39,11 @@ Vec3 area_vector(const Surface& surface, Index face) {
 // flat: no other surface between them is as small.
 bool is_planar(const Surface& surface, Index face) {
     constexpr double rounding = 1e-9;  // Of a side.
-    const auto& p = surface.mesh.positions;
     for (Index h = 3 * face; h < 3 * face + 3; ++h) {
         const double length = surface.length_of(h);
-        const double in_space = (p[surface.head(h)] - p[surface.tail(h)]).norm();
-        if (!(in_space > (1 - rounding) * length)) return false;
+        if (!(surface.length_in_space(h) > (1 - rounding) * length)) return false;
     }
     return true;
-}
-
-// The pieces of one chunk of faces.
-struct Pieces {
-    std::vector<Index> end;  // By changed face.
-    std::vector<SurfacePiece> pieces;
-};
-
-SurfacePiece whole_face(const Surface& surface, Index face) {
-    const auto& [a, b, c] = surface.mesh.triangles[face];
-    const auto& p = surface.mesh.positions;
-    return {(p[a] + p[b] + p[c]) / 3, area_vector(surface, face)};
-}
-
-void add_parts(const Surface& input, std::span<const InputPart> parts,
-               std::vector<SurfacePiece>& pieces) {
-    for (const InputPart& part : parts) {
-        pieces.push_back({agvd::position(input.mesh.view(), part.centroid),
-                          part.share * area_vector(input, part.centroid.face.value())});
-    }
 }
 
 void add_samples(const IntrinsicTriangulation& base, Index face, double piece_area,
@@ -78,24 +55,17 @@ void add_samples(const IntrinsicTriangulation& base, Index face, double piece_ar
     for (Index i = 0; i < count; ++i) {
         const SurfacePoint place = base.to_input({FaceId(face), spread_point(i)});
         const Vec3 normal = area_vector(input, place.face.value()).normalized();
-        pieces.push_back({agvd::position(input.mesh.view(), place), area / count * normal});
-    }
-}
-
-// \param parts  serves again for the next face.
-void add_pieces(const IntrinsicTriangulation& base, Index face, double piece_area,
-                std::vector<InputPart>& parts, std::vector<SurfacePiece>& pieces) {
-    parts.clear();
-    if (is_planar(base.surface(), face)) {
-        pieces.push_back(whole_face(base.surface(), face));
-    } else if (base.parts_of(face, parts) && !parts.empty()) {
-        add_parts(base.input(), parts, pieces);
-    } else {
-        add_samples(base, face, piece_area, pieces);
+        pieces.push_back({position(input.mesh, place), area / count * normal});
     }
 }
 
 }  // namespace
+
+SurfacePiece FacePieces::whole(const Surface& surface, Index face) {
+    const auto& [a, b, c] = surface.mesh.triangles[face];
+    const auto& p = surface.mesh.positions;
+    return {(p[a] + p[b] + p[c]) / 3, area_vector(surface, face)};
+}
 
 FacePieces::FacePieces(const IntrinsicTriangulation& base, double piece_area, int num_threads,
                        const Progress& progress)
@@ -105,43 +75,36 @@ FacePieces::FacePieces(const IntrinsicTriangulation& base, double piece_area, in
     constexpr std::size_t piece_work = 16;  // Ticks of a piece.
     Poller poller(progress);
     const Index num_faces = base.surface().num_faces();
-    std::vector<Pieces> chunks(num_chunks(num_faces, grain));
+    end_.assign(std::size_t{num_faces} + 1, 0);
+    std::vector<std::vector<SurfacePiece>> chunks(num_chunks(num_faces, grain));
     const auto find = [&](Index chunk, Index begin, Index end) {
         Ticker ticker(poller);
-        auto& [ends, pieces] = chunks[chunk];
-        std::vector<InputPart> parts;
+        std::vector<SurfacePiece>& pieces = chunks[chunk];
         for (Index f = begin; f < end; ++f) {
             if (!base.is_changed(f)) continue;
             const std::size_t before = pieces.size();
-            add_pieces(base, f, piece_area, parts, pieces);
-            ends.push_back(static_cast<Index>(pieces.size()));
+            if (is_planar(base.surface(), f)) {
+                pieces.push_back(whole(base.surface(), f));
+            } else {
+                for (const auto& [centroid, share] : base.parts_of(f)) {
+                    pieces.push_back({position(input_.mesh, centroid),
+                                      share * area_vector(input_, centroid.face.value())});
+                }
+                if (pieces.size() == before) add_samples(base, f, piece_area, pieces);
+            }
+            end_[f + 1] = static_cast<Index>(pieces.size() - before);
             ticker.tick(piece_work * (pieces.size() - before));
         }
     };
     parallel_chunks(num_faces, grain, num_threads, find, poller);
-    std::size_t num_pieces = 0;
-    for (const Pieces& chunk : chunks) num_pieces += chunk.pieces.size();
-    if (num_pieces == 0) return;
-    begin_.assign(num_faces, no_index);
-    pieces_.reserve(num_pieces);
-    is_last_.assign(num_pieces, 0);
-    for (Index chunk = 0; chunk < chunks.size(); ++chunk) {
+    std::partial_sum(end_.begin(), end_.end(), end_.begin());
+    pieces_.reserve(end_.back());
+    for (std::vector<SurfacePiece>& chunk : chunks) {
         poller.poll();
-        const auto first = static_cast<Index>(pieces_.size());
-        Index face = chunk * grain, begin = first;
-        for (const Index end : chunks[chunk].end) {
-            while (!base.is_changed(face)) ++face;
-            begin_[face++] = begin;
-            begin = first + end;
-            is_last_[begin - 1] = 1;
-        }
-        pieces_.insert(pieces_.end(), chunks[chunk].pieces.begin(), chunks[chunk].pieces.end());
-        chunks[chunk] = {};
+        pieces_.insert(pieces_.end(), chunk.begin(), chunk.end());
+        chunk = {};
     }
-}
-
-SurfacePiece FacePieces::whole(const Surface& surface, Index face) {
-    return whole_face(surface, face);
+    if (pieces_.empty()) end_ = {};
 }
 
 }  // namespace agvd

@@ -1,7 +1,7 @@
 // Removes inner vertices whose angles sum to 2 pi, in parallel. The vertices are divided into the
-// cells of a grid. A cell removes the vertices whose neighbours it owns, and records flips and
-// merges on its own; the records are joined in the order of the cells, so that the result is the
-// same for any number of threads. Vertices on the rims of cells follow on one thread.
+// cells of a grid. A cell removes the vertices whose neighbours it owns, and keeps charts and a
+// list of operations of its own; these are joined in the order of the cells, so that the result is
+// the same for any number of threads. Vertices on the rims of cells follow on one thread.
 //
 // Within a cell vertices are removed in rounds: no two neighbours in one round, and vertices of few
 // edges first. So the operations that a point passes stay few.
@@ -16,19 +16,15 @@
 
 #include "agvd/core/bucket_sort.h"
 #include "agvd/core/parallel.h"
-#include "agvd/intrinsic/face_sides.h"
 #include "agvd/intrinsic/vertex_ring.h"
-#include "agvd/mesh/one_ring.h"
 
 namespace agvd::detail {
 namespace {
 
 // Radians: the rounding of the sum of a vertex's angles in the input.
 constexpr double angle_rounding = 1e-12;
-// The number of vertices of a part of the surface, roughly. Parts let threads work in parallel; the
-// data of a part fits into the caches, and the memory of charts is used again. A run on 1.4 M faces
-// that loses 643 000 vertices takes 5.1 s of user time and 410 MB; with one part it takes 5.7 s and
-// 453 MB.
+// The number of vertices of a part of the surface, roughly. Parts let threads work in parallel, and
+// the data of a part fits into the caches.
 constexpr double part_size = 1 << 13;
 constexpr Index most_cells = 64;  // Along each axis.
 
@@ -36,7 +32,6 @@ constexpr Index most_cells = 64;  // Along each axis.
 // part writes what it reads or writes, even across the edges of these faces.
 struct Shared {
     Surface& surface;
-    const std::vector<std::uint8_t>& is_kept;
     double min_length;
     std::vector<Index> part_of;  // By vertex.
     // By vertex: the round in which the last neighbour was removed.
@@ -46,12 +41,8 @@ struct Shared {
 // Removes the vertices inside a part, or those that all parts have left (no_index).
 class FlatRemover {
 public:
-    FlatRemover(Shared& shared, FaceCharts& charts, FaceHistory& history, Index part, Ticker ticker)
-        : shared_(shared),
-          history_(history),
-          part_(part),
-          ticker_(ticker),
-          ring_(shared.surface, charts) {}
+    FlatRemover(Shared& shared, FaceCharts& charts, Index part, Ticker ticker)
+        : shared_(shared), part_(part), ticker_(ticker), ring_(shared.surface, charts) {}
 
     // Works in rounds of vertices no two of which are neighbours. If the vertices of a line were
     // removed one after the other, each would change the faces of the one before, and points would
@@ -62,7 +53,7 @@ public:
         std::size_t most_edges = few_edges;
         while (!waiting.empty()) {
             ++round_;
-            const Index before = counts_.vertices;
+            const Index before = num_removed_;
             bool has_large = false;
             std::size_t num_left = 0;
             for (const Index v : waiting) {
@@ -82,14 +73,15 @@ public:
                 }
             }
             waiting.resize(num_left);
-            if (counts_.vertices > before) continue;
+            if (num_removed_ > before) continue;
             if (!has_large) break;
             most_edges *= 2;
         }
         return on_rim;
     }
 
-    [[nodiscard]] const RemovalCounts& counts() const { return counts_; }
+    [[nodiscard]] Index num_removed() const { return num_removed_; }
+    [[nodiscard]] std::span<const FaceOperation> operations() const { return operations_; }
 
 private:
     static constexpr std::size_t removal_work = 64;  // Ticks of a vertex.
@@ -104,34 +96,26 @@ private:
                });
     }
 
-    // Whether the vertex has a short edge, and none that is kept.
+    // Whether the vertex has a short edge.
     [[nodiscard]] bool is_dense() const {
-        bool is_short = false, is_free = true;
-        for (const Index h : ring_.half_edges()) {
-            const Index edge = shared_.surface.edge[h];
-            is_short = is_short || shared_.surface.length[edge] < shared_.min_length;
-            is_free = is_free && (shared_.is_kept.empty() || shared_.is_kept[edge] == 0);
-        }
-        return is_short && is_free;
+        return std::any_of(ring_.half_edges().begin(), ring_.half_edges().end(), [&](Index h) {
+            return shared_.surface.length_of(h) < shared_.min_length;
+        });
     }
 
     void record() {
-        for (const auto& [half_edge, twin, shares] : ring_.flips()) {
-            history_.add_flip(half_edge, twin, shares);
-        }
-        for (const MergedFace& made : ring_.merged()) history_.add_merge(made);
-        counts_.flips += ring_.flips().size();
-        ++counts_.vertices;
+        operations_.insert(operations_.end(), ring_.operations().begin(), ring_.operations().end());
+        ++num_removed_;
         for (const Index w : ring_.corners()) shared_.round_of[w] = round_;
     }
 
     Shared& shared_;
-    FaceHistory& history_;
     Index part_;
     Ticker ticker_;
     VertexRing ring_;
     std::uint32_t round_ = 0;
-    RemovalCounts counts_;
+    Index num_removed_ = 0;
+    std::vector<FaceOperation> operations_;
 };
 
 // Multiplies the corners as complex numbers: when the product comes back to the upper half plane
@@ -173,95 +157,104 @@ std::vector<Index> find_flat(const Shared& shared, int num_threads, Poller& poll
 
 // The parts are cells of a grid around the mesh. The number of cells along the longest side is
 // chosen so that the parts of a round surface have the wanted size.
-std::vector<Index> find_parts(const std::vector<Vec3>& positions, int num_threads, Poller& poller) {
-    std::vector<Vec3> low(num_chunks(static_cast<Index>(positions.size()), pass_grain));
-    std::vector<Vec3> high(low.size());
-    const auto num_vertices = static_cast<Index>(positions.size());
-    const auto measure = [&](Index chunk, Index begin, Index end) {
-        low[chunk] = high[chunk] = positions[begin];
-        for (Index v = begin; v < end; ++v) {
-            low[chunk] = low[chunk].cwiseMin(positions[v]);
-            high[chunk] = high[chunk].cwiseMax(positions[v]);
-        }
-    };
-    parallel_chunks(num_vertices, pass_grain, num_threads, measure, poller);
-    for (std::size_t i = 1; i < low.size(); ++i) {
-        low[0] = low[0].cwiseMin(low[i]);
-        high[0] = high[0].cwiseMax(high[i]);
+std::vector<Index> find_parts(const std::vector<Vec3>& positions, Ticker ticker) {
+    Vec3 low = positions[0], high = low;
+    for (const Vec3& p : positions) {
+        ticker.tick();
+        low = low.cwiseMin(p);
+        high = high.cwiseMax(p);
     }
-    const double wanted = std::ceil(std::sqrt(num_vertices / part_size / 2));
+    const double wanted =
+        std::ceil(std::sqrt(static_cast<double>(positions.size()) / part_size / 2));
     const double num_cells = std::min(wanted, static_cast<double>(most_cells));
-    const double cell = (high[0] - low[0]).maxCoeff() / num_cells;
-    std::vector<Index> part_of(num_vertices);
-    const auto sort = [&](Index, Index begin, Index end) {
-        for (Index v = begin; v < end; ++v) {
-            const Vec3 at = (positions[v] - low[0]) / cell;
-            const auto along = [&](double x) {
-                return std::min(static_cast<Index>(std::max(x, 0.0)), most_cells - 1);
-            };
-            part_of[v] = (along(at.x()) * most_cells + along(at.y())) * most_cells + along(at.z());
-        }
-    };
-    parallel_chunks(num_vertices, pass_grain, num_threads, sort, poller);
+    const double cell = (high - low).maxCoeff() / num_cells;
+    std::vector<Index> part_of;
+    part_of.reserve(positions.size());
+    for (const Vec3& p : positions) {
+        ticker.tick();
+        const Vec3 at = (p - low) / cell;
+        const auto along = [&](double x) {
+            return std::min(static_cast<Index>(std::max(x, 0.0)), most_cells - 1);
+        };
+        part_of.push_back((along(at.x()) * most_cells + along(at.y())) * most_cells +
+                          along(at.z()));
+    }
     return part_of;
 }
 
+void add_all(std::span<const FaceOperation> operations, FaceHistory& history) {
+    for (const FaceOperation& made : operations) {
+        std::visit([&](const auto& operation) { history.add(operation); }, made);
+    }
+}
+
 struct ChangedPart {
-    ChangedPart(FaceCharts& all_charts, FaceHistory& all_history)
-        : charts(FaceCharts::Part{all_charts}), history(FaceHistory::Part{all_history}) {}
+    ChangedPart(Shared& shared, Index part, Ticker ticker)
+        : charts(shared.surface), remover(shared, charts, part, ticker) {}
 
     FaceCharts charts;
-    FaceHistory history;
-    RemovalCounts counts;
+    FlatRemover remover;
     std::vector<Index> left;
 };
 
-// Takes over the records of parts in order, each as soon as all before are done.
-class PartsInOrder {
-public:
-    PartsInOrder(std::size_t num_parts, FaceCharts& charts, FaceHistory& history)
-        : charts_(charts), history_(history), waiting_(num_parts) {
-        charts.make_places();
-        history.start();
-    }
+// Takes over parts in order, each as soon as all before are done.
+struct PartsInOrder {
+    FaceCharts& charts;
+    FaceHistory& history;
+    std::vector<std::unique_ptr<ChangedPart>> waiting;
+    std::size_t next = 0;
+    Index num_removed = 0;
+    std::vector<Index> left = {};
+    std::mutex mutex = {};
 
-    [[nodiscard]] std::unique_ptr<ChangedPart> make() const {
-        return std::make_unique<ChangedPart>(charts_, history_);
-    }
     void take(Index number, std::unique_ptr<ChangedPart> part) {
-        const std::scoped_lock lock(mutex_);
-        waiting_[number] = std::move(part);
-        for (; next_ < waiting_.size() && waiting_[next_]; ++next_) {
-            const std::unique_ptr<ChangedPart> done = std::move(waiting_[next_]);
-            charts_.take(done->charts);
-            history_.take(done->history);
-            counts_.vertices += done->counts.vertices;
-            counts_.flips += done->counts.flips;
-            left_.insert(left_.end(), done->left.begin(), done->left.end());
+        const std::scoped_lock lock(mutex);
+        waiting[number] = std::move(part);
+        for (; next < waiting.size() && waiting[next]; ++next) {
+            const std::unique_ptr<ChangedPart> done = std::move(waiting[next]);
+            charts.take(done->charts);
+            add_all(done->remover.operations(), history);
+            num_removed += done->remover.num_removed();
+            left.insert(left.end(), done->left.begin(), done->left.end());
         }
     }
-    [[nodiscard]] const RemovalCounts& counts() const { return counts_; }
-    [[nodiscard]] std::vector<Index> left() { return std::move(left_); }
-
-private:
-    FaceCharts& charts_;
-    FaceHistory& history_;
-    std::vector<std::unique_ptr<ChangedPart>> waiting_;
-    std::size_t next_ = 0;
-    RemovalCounts counts_;
-    std::vector<Index> left_;
-    std::mutex mutex_;
 };
+
+void move_face(Surface& surface, Index from, Index to) {
+    surface.mesh.triangles[to] = surface.mesh.triangles[from];
+    for (Index k = 0; k < 3; ++k) {
+        const Index old = 3 * from + k, now = 3 * to + k;
+        const Index twin = surface.twin[old];  // In a seam the second join is right.
+        surface.apex[now] = surface.apex[old];
+        surface.twin[old] = no_index;
+        join(surface, now, twin, surface.edge[old]);
+        Index& outgoing = surface.outgoing[surface.tail(now)];
+        if (outgoing == old) outgoing = now;
+    }
+}
+
+void compact_edges(Surface& surface) {
+    std::vector<Index> number(surface.num_edges(), no_index);
+    Index count = 0;
+    for (Index e = 0; e < surface.num_edges(); ++e) {
+        if (surface.edge_half[e] == no_index) continue;
+        number[e] = count;
+        surface.edge_half[count] = surface.edge_half[e];
+        surface.length[count++] = surface.length[e];
+    }
+    surface.edge_half.resize(count);
+    surface.length.resize(count);
+    for (Index& e : surface.edge) e = number[e];
+}
 
 }  // namespace
 
-RemovalCounts remove_flat_vertices(Surface& surface, FaceCharts& charts, FaceHistory& history,
-                                   const std::vector<std::uint8_t>& is_kept, double min_length,
-                                   int num_threads, Poller& poller) {
-    Shared shared{surface, is_kept, min_length, {}, {}};
+Index remove_flat_vertices(Surface& surface, FaceCharts& charts, FaceHistory& history,
+                           double min_length, int num_threads, Poller& poller) {
+    Shared shared{surface, min_length, {}, {}};
     std::vector<Index> flat = find_flat(shared, num_threads, poller);
-    if (flat.empty()) return {};
-    shared.part_of = find_parts(surface.mesh.positions, num_threads, poller);
+    if (flat.empty()) return 0;
+    shared.part_of = find_parts(surface.mesh.positions, Ticker(poller));
     flat = sort_in_buckets(
         flat, most_cells * most_cells * most_cells, [&](Index v) { return shared.part_of[v]; },
         std::less<>(), Ticker(poller));
@@ -274,21 +267,39 @@ RemovalCounts remove_flat_vertices(Surface& surface, FaceCharts& charts, FaceHis
     // These are the numbers for vertices of grids, which have six edges.
     history.reserve(3 * flat.size(), 2 * flat.size());
     shared.round_of.assign(surface.num_vertices(), 0);
-    PartsInOrder parts(num_parts, charts, history);
+    PartsInOrder parts{charts, history, std::vector<std::unique_ptr<ChangedPart>>(num_parts)};
     const auto remove_inside = [&](Index number, Index, Index) {
-        std::unique_ptr<ChangedPart> part = parts.make();
-        FlatRemover remover(shared, part->charts, part->history,
-                            shared.part_of[flat[begin[number]]], Ticker(poller));
-        part->left = remover.run({flat.begin() + begin[number], flat.begin() + begin[number + 1]});
-        part->counts = remover.counts();
+        auto part = std::make_unique<ChangedPart>(shared, shared.part_of[flat[begin[number]]],
+                                                  Ticker(poller));
+        part->left =
+            part->remover.run({flat.begin() + begin[number], flat.begin() + begin[number + 1]});
         parts.take(number, std::move(part));
     };
     parallel_chunks(num_parts, 1, num_threads, remove_inside, poller);
     shared.round_of.assign(surface.num_vertices(), 0);
-    FlatRemover remover(shared, charts, history, no_index, Ticker(poller));
-    (void)remover.run(parts.left());
-    return {parts.counts().vertices + remover.counts().vertices,
-            parts.counts().flips + remover.counts().flips};
+    FlatRemover remover(shared, charts, no_index, Ticker(poller));
+    (void)remover.run(std::move(parts.left));
+    add_all(remover.operations(), history);
+    return parts.num_removed + remover.num_removed();
+}
+
+void compact_faces(Surface& surface, FaceHistory& history) {
+    const auto is_gap = [&](Index f) { return surface.mesh.triangles[f][0] == no_index; };
+    Index last = surface.num_faces();
+    for (Index f = 0; f < last; ++f) {
+        if (!is_gap(f)) continue;
+        while (last > f && is_gap(last - 1)) --last;
+        if (last <= f + 1) break;
+        move_face(surface, --last, f);
+        history.move_face(last, f);
+    }
+    while (last > 0 && is_gap(last - 1)) --last;
+    surface.mesh.triangles.resize(last);
+    surface.twin.resize(3 * last);
+    surface.edge.resize(3 * last);
+    surface.apex.resize(3 * last);
+    history.drop_faces_from(last);
+    compact_edges(surface);
 }
 
 }  // namespace agvd::detail

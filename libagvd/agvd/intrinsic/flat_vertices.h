@@ -1,16 +1,10 @@
 //! \file
-//! Removes vertices without curvature. Private to intrinsic.
+//! Removes vertices without curvature. Private.
 #pragma once
 
-#include "agvd/core/poller.h"
-#include "agvd/intrinsic/face_history.h"
+#include "agvd/intrinsic/operations.h"
 
 namespace agvd::detail {
-
-struct RemovalCounts {
-    Index vertices = 0;
-    std::size_t flips = 0;
-};
 
 //! An inner vertex whose angles sum to 2 pi can be removed without changing the surface. Removes
 //! those with an edge shorter than `min_length`, as far as possible, in rounds without two
@@ -21,10 +15,11 @@ struct RemovalCounts {
 //! flipped first, points would pass four times as many operations. Removed faces and edges leave
 //! gaps: see compact_faces().
 //! \param history  records the operations.
-//! \param is_kept  by edge: 1 for edges that stay; or empty.
-//! Cost: O(#F), and O(log n) for each vertex removed.
-RemovalCounts remove_flat_vertices(Surface& surface, FaceCharts& charts, FaceHistory& history,
-                                   const std::vector<std::uint8_t>& is_kept, double min_length,
-                                   int num_threads, Poller& poller);
+//! \return the number of vertices removed. Cost: O(#F), and O(log n) for each vertex removed.
+Index remove_flat_vertices(Surface& surface, FaceCharts& charts, FaceHistory& history,
+                           double min_length, int num_threads, Poller& poller);
+
+//! Closes gaps: the last faces and edges get the numbers of removed ones. Charts become invalid.
+void compact_faces(Surface& surface, FaceHistory& history);
 
 }  // namespace agvd::detail

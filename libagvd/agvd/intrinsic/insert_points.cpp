@@ -2,23 +2,17 @@
 // still wait in it. When a part is cut, orientations in the barycentric coordinates of the old face
 // decide which of the new parts gets each waiting point. The coordinates of the old face are exact
 // for all points, so rounding does not add up.
-#include "agvd/intrinsic/insert_points.h"
-
 #include <algorithm>
-#include <array>
 #include <unordered_map>
 #include <utility>
 
-#include "agvd/intrinsic/face_operations.h"
-#include "agvd/intrinsic/vertex_operations.h"
+#include "agvd/intrinsic/simplify_steps.h"
 
 namespace agvd::detail {
 namespace {
 
 // A share of a face: a point nearer to an edge than this lies on the edge.
 constexpr double snapping = 1e-9;
-
-using Shares = std::array<double, 3>;
 
 // The orientation in the plane of barycentric coordinates 1 and 2; above 0: counter-clockwise.
 double orientation(const Shares& a, const Shares& b, const Shares& c) {
@@ -42,9 +36,9 @@ public:
 
     std::vector<Index> run() {
         for (Index i = 0; i < points_.size(); ++i) {
-            part_of(points_[i].face.value()).waiting.push_back(i);
+            face_of_.push_back(points_[i].face.value());
+            part_of(face_of_[i]).waiting.push_back(i);
         }
-        for (Index i = 0; i < points_.size(); ++i) face_of_.push_back(points_[i].face.value());
         for (Index i = 0; i < points_.size(); ++i) insert(i);
         return std::move(vertex_);
     }
@@ -72,7 +66,8 @@ private:
                 return;
             }
         }
-        const Index vertex = vertex_[point] = add_vertex();
+        const Index vertex = vertex_[point] = add_vertex(surface_);
+        is_claimed_.push_back(1);
         if (near == 1) {
             const auto least =
                 static_cast<Index>(std::min_element(where.begin(), where.end()) - where.begin());
@@ -94,15 +89,6 @@ private:
         if (!(sum > 0)) return {1, 0, 0};
         for (double& share : shares) share /= sum;
         return shares;
-    }
-
-    Index add_vertex() {
-        const Index vertex = surface_.num_vertices();
-        surface_.mesh.positions.push_back(Vec3::Zero());
-        surface_.outgoing.push_back(no_index);
-        surface_.can_be_pseudo_source.push_back(0);
-        is_claimed_.push_back(1);
-        return vertex;
     }
 
     void cut_face(Index face, const Shares& where, Index vertex) {

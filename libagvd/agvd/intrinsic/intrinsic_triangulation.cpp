@@ -11,11 +11,8 @@
 #include <string>
 #include <utility>
 
-#include "agvd/core/error.h"
-#include "agvd/intrinsic/compact_faces.h"
 #include "agvd/intrinsic/delaunay_queue.h"
 #include "agvd/intrinsic/flat_vertices.h"
-#include "agvd/mesh/point_faces.h"
 
 namespace agvd {
 namespace {
@@ -24,16 +21,16 @@ using detail::DelaunayQueue;
 using detail::EdgeSplit;
 using detail::FaceCharts;
 using detail::FaceHistory;
-using detail::FaceSegment;
+using detail::Way;
 
-// The most flips for each edge. The worst part of needles that was met took 6.
+// The most flips for each edge: far more than needles take.
 constexpr std::size_t most_flips = 1000;
 // What is done, as a share of the time, before the flips and before the splits.
 constexpr double share_of_removal = 0.75, share_of_flips = 0.9;
 // Ticks of a split.
 constexpr std::size_t split_work = 16;
 
-void check_options(const Surface& input, const IntrinsicOptions& options) {
+void check_options(const IntrinsicOptions& options) {
     if (!(options.max_length > 0)) {
         throw InvalidOption("max_length is " + std::to_string(options.max_length) +
                             "; use a number above 0");
@@ -42,23 +39,17 @@ void check_options(const Surface& input, const IntrinsicOptions& options) {
         throw InvalidOption("min_length is " + std::to_string(options.min_length) +
                             "; use 0 or more");
     }
-    if (!options.is_kept.empty() && options.is_kept.size() != input.num_edges()) {
-        throw InvalidOption("is_kept has " + std::to_string(options.is_kept.size()) +
-                            " entries, but the surface has " + std::to_string(input.num_edges()) +
-                            " edges; give one for each, or none");
-    }
 }
 
 // Splits edges, longest first, and flips after each split.
 class Refinement {
 public:
     Refinement(Surface& surface, FaceCharts& charts, FaceHistory& history, DelaunayQueue& flips,
-               std::vector<std::uint8_t>& is_kept, const IntrinsicOptions& options, Ticker& ticker)
+               const IntrinsicOptions& options, Ticker& ticker)
         : surface_(surface),
           charts_(charts),
           history_(history),
           flips_(flips),
-          is_kept_(is_kept),
           options_(options),
           ticker_(ticker) {
         if (!options.unit_at) return;
@@ -66,7 +57,7 @@ public:
         for (Index v = 0; v < surface.num_vertices(); ++v) {
             ticker_.tick();
             if (surface.outgoing[v] == no_index) continue;
-            unit_[v] = options.unit_at(history.backward(point_at(surface, v)));
+            unit_[v] = options.unit_at(*history.carry(Way::Backward, point_at(surface, v)));
         }
     }
 
@@ -83,7 +74,7 @@ public:
                 if (added.size() >= most_splits) return true;
                 split(edge, added);
                 if (!flips_.flip_all(flips_per_edge * surface_.num_edges())) return false;
-                for (const Index e : fresh_) push(e);
+                for (const Index e : touched_) push(e);
             }
         }
         return true;
@@ -110,27 +101,18 @@ private:
 
     void split(Index edge, std::vector<SurfacePoint>& added) {
         const Index h = surface_.edge_half[edge];
-        SurfacePoint middle{FaceId(Surface::face(h)), {0, 0, 0}};
-        middle.barycentric[h % 3] = middle.barycentric[Surface::next(h) % 3] = 0.5;
-        added.push_back(history_.backward(middle));
+        added.push_back(*history_.carry(Way::Backward, detail::middle_of(h)));
         if (options_.unit_at) unit_.push_back(options_.unit_at(added.back()));
-        const Index vertex = surface_.num_vertices();
-        surface_.mesh.positions.push_back(Vec3::Zero());  // Set at the end.
-        surface_.outgoing.push_back(no_index);
-        surface_.can_be_pseudo_source.push_back(0);
+        const Index vertex = detail::add_vertex(surface_);  // Its position is set at the end.
         const EdgeSplit made = detail::split_edge(surface_, charts_, h, 0.5, vertex);
-        if (!is_kept_.empty()) {
-            is_kept_.resize(surface_.num_edges(), 0);
-            is_kept_[made.new_edge] = is_kept_[edge];
-        }
-        fresh_.clear();
+        touched_.clear();
         for (const EdgeSplit::Side& side : made.side) {
             if (side.half_edge == no_index) continue;
             history_.add_split(side.half_edge, side.new_face);
             for (const Index face : {Surface::face(side.half_edge), side.new_face}) {
                 for (Index k = 3 * face; k < 3 * face + 3; ++k) {
                     flips_.push(surface_.edge[k]);
-                    fresh_.push_back(surface_.edge[k]);
+                    touched_.push_back(surface_.edge[k]);
                 }
             }
         }
@@ -140,17 +122,12 @@ private:
     FaceCharts& charts_;
     FaceHistory& history_;
     DelaunayQueue& flips_;
-    std::vector<std::uint8_t>& is_kept_;
     const IntrinsicOptions& options_;
     Ticker& ticker_;
     std::vector<double> unit_;  // #V, or empty: IntrinsicOptions::unit_at.
     std::priority_queue<std::pair<double, Index>> queue_;  // Length, and the edge's complement.
-    std::vector<Index> fresh_;
+    std::vector<Index> touched_;
 };
-
-}  // namespace
-
-namespace {
 
 // Frees the spare memory of arrays that have grown with each split: a fifth of the surface.
 void shrink(Surface& surface) {
@@ -164,126 +141,6 @@ void shrink(Surface& surface) {
     surface.outgoing.shrink_to_fit();
     surface.can_be_pseudo_source.shrink_to_fit();
 }
-
-}  // namespace
-
-struct IntrinsicTriangulation::History : FaceHistory {
-    using FaceHistory::FaceHistory;
-};
-
-IntrinsicTriangulation::IntrinsicTriangulation(const Surface& input,
-                                               const IntrinsicOptions& options)
-    : input_(&input), surface_(input), history_(std::make_unique<History>(input.num_faces())) {
-    run(options);
-}
-
-IntrinsicTriangulation::IntrinsicTriangulation(Surface&& input, const IntrinsicOptions& options)
-    : owned_(std::make_unique<Surface>()),
-      input_(owned_.get()),
-      surface_(std::move(input)),
-      history_(std::make_unique<History>(surface_.num_faces())) {
-    owned_->mesh = surface_.mesh;
-    owned_->twin = surface_.twin;
-    owned_->outgoing = surface_.outgoing;
-    run(options);
-}
-
-void IntrinsicTriangulation::run(const IntrinsicOptions& options) {
-    check_options(surface_, options);
-    Poller poller(options.progress);
-    Ticker ticker(poller);
-    ticker.poll();
-    counts_.degenerate_faces =
-        detail::raise_degenerate_faces(surface_, options.num_threads, poller);
-    change_faces(options, poller, ticker);
-    if (counts_.removed > 0) detail::compact_faces(surface_, *history_);
-    history_->shrink();
-    shrink(surface_);
-    added_.shrink_to_fit();
-    counts_.splits = static_cast<Index>(added_.size());
-    for (Index i = 0; i < added_.size(); ++i) {
-        surface_.mesh.positions[input_->num_vertices() + i] =
-            position(input_->mesh.view(), added_[i]);
-    }
-}
-
-void IntrinsicTriangulation::change_faces(const IntrinsicOptions& options, Poller& poller,
-                                          Ticker& ticker) {
-    std::vector<std::uint8_t> is_kept(options.is_kept.begin(), options.is_kept.end());
-    FaceCharts charts(surface_);
-    detail::RemovalCounts removal;
-    if (options.min_length > 0) {
-        removal = detail::remove_flat_vertices(surface_, charts, *history_, is_kept,
-                                               options.min_length, options.num_threads, poller);
-    }
-    poller.tell(share_of_removal);
-    DelaunayQueue flips(surface_, charts, history_.get(), is_kept, &ticker);
-    flips.push_all(options.num_threads, poller);
-    charts.reserve(2 * flips.num_waiting());
-    counts_.is_delaunay = flips.flip_all(most_flips * surface_.num_edges());
-    poller.tell(share_of_flips);
-    Refinement refinement(surface_, charts, *history_, flips, is_kept, options, ticker);
-    counts_.is_delaunay =
-        refinement.run(most_flips, options.most_splits, added_) && counts_.is_delaunay;
-    counts_.removed = removal.vertices;
-    counts_.flips = removal.flips + flips.num_flips();
-}
-
-IntrinsicTriangulation::IntrinsicTriangulation(IntrinsicTriangulation&&) noexcept = default;
-IntrinsicTriangulation& IntrinsicTriangulation::operator=(IntrinsicTriangulation&&) noexcept =
-    default;
-IntrinsicTriangulation::~IntrinsicTriangulation() = default;
-
-bool IntrinsicTriangulation::is_changed(Index face) const { return history_->is_changed(face); }
-
-SurfacePoint IntrinsicTriangulation::to_intrinsic(const SurfacePoint& on_input) const {
-    return history_->forward(on_input);
-}
-
-SurfacePoint IntrinsicTriangulation::to_input(const SurfacePoint& on_base) const {
-    return history_->backward(on_base);
-}
-
-std::vector<SurfacePoint> IntrinsicTriangulation::to_intrinsic(
-    std::span<const SurfacePoint> on_input) const {
-    std::vector<SurfacePoint> points(on_input.begin(), on_input.end());
-    for (SurfacePoint& point : points) point = to_intrinsic(point);
-    return points;
-}
-
-std::vector<SurfacePoint> IntrinsicTriangulation::to_input(
-    std::span<const SurfacePoint> on_base) const {
-    std::vector<SurfacePoint> points(on_base.begin(), on_base.end());
-    for (SurfacePoint& point : points) point = to_input(point);
-    return points;
-}
-
-namespace {
-
-void append(const std::vector<FaceSegment>& segments, std::vector<SurfacePoint>& parts) {
-    for (const auto& [begin, end] : segments) {
-        parts.push_back(begin);
-        parts.push_back(end);
-    }
-}
-
-}  // namespace
-
-void IntrinsicTriangulation::to_input(const SurfacePoint& begin, const SurfacePoint& end,
-                                      std::vector<SurfacePoint>& parts) const {
-    std::vector<FaceSegment> segments;
-    history_->backward({begin, end}, segments);
-    append(segments, parts);
-}
-
-void IntrinsicTriangulation::to_intrinsic(const SurfacePoint& begin, const SurfacePoint& end,
-                                          std::vector<SurfacePoint>& parts) const {
-    std::vector<FaceSegment> segments;
-    history_->forward({begin, end}, segments);
-    append(segments, parts);
-}
-
-namespace {
 
 // For faces with more operations, evenly spread points are used.
 constexpr Index most_steps_back = 16, most_part_steps = 64;
@@ -308,17 +165,105 @@ InputPart measure(const detail::FacePolygon& polygon) {
 
 }  // namespace
 
-bool IntrinsicTriangulation::parts_of(Index face, std::vector<InputPart>& parts) const {
+IntrinsicTriangulation::IntrinsicTriangulation(const Surface& input,
+                                               const IntrinsicOptions& options)
+    : input_(&input), surface_(input), history_(std::make_unique<FaceHistory>(input.num_faces())) {
+    run(options);
+}
+
+IntrinsicTriangulation::IntrinsicTriangulation(Surface&& input, const IntrinsicOptions& options)
+    : owned_(std::make_unique<Surface>()),
+      input_(owned_.get()),
+      surface_(std::move(input)),
+      history_(std::make_unique<FaceHistory>(surface_.num_faces())) {
+    owned_->mesh = surface_.mesh;
+    owned_->twin = surface_.twin;
+    owned_->outgoing = surface_.outgoing;
+    run(options);
+}
+
+void IntrinsicTriangulation::run(const IntrinsicOptions& options) {
+    check_options(options);
+    Poller poller(options.progress);
+    Ticker ticker(poller);
+    ticker.poll();
+    detail::raise_degenerate_faces(surface_, options.num_threads, poller);
+    change_faces(options, poller, ticker);
+    if (counts_.removed > 0) detail::compact_faces(surface_, *history_);
+    history_->shrink();
+    shrink(surface_);
+    added_.shrink_to_fit();
+    counts_.splits = static_cast<Index>(added_.size());
+    for (Index i = 0; i < added_.size(); ++i) {
+        surface_.mesh.positions[input_->num_vertices() + i] = position(input_->mesh, added_[i]);
+    }
+}
+
+void IntrinsicTriangulation::change_faces(const IntrinsicOptions& options, Poller& poller,
+                                          Ticker& ticker) {
+    FaceCharts charts(surface_);
+    if (options.min_length > 0) {
+        counts_.removed = detail::remove_flat_vertices(
+            surface_, charts, *history_, options.min_length, options.num_threads, poller);
+    }
+    poller.tell(share_of_removal);
+    DelaunayQueue flips(surface_, charts, history_.get(), &ticker);
+    flips.push_all(options.num_threads, poller);
+    counts_.is_delaunay = flips.flip_all(most_flips * surface_.num_edges());
+    poller.tell(share_of_flips);
+    Refinement refinement(surface_, charts, *history_, flips, options, ticker);
+    counts_.is_delaunay =
+        refinement.run(most_flips, options.most_splits, added_) && counts_.is_delaunay;
+}
+
+IntrinsicTriangulation::IntrinsicTriangulation(IntrinsicTriangulation&&) noexcept = default;
+IntrinsicTriangulation& IntrinsicTriangulation::operator=(IntrinsicTriangulation&&) noexcept =
+    default;
+IntrinsicTriangulation::~IntrinsicTriangulation() = default;
+
+bool IntrinsicTriangulation::is_changed(Index face) const { return history_->is_changed(face); }
+
+SurfacePoint IntrinsicTriangulation::to_intrinsic(const SurfacePoint& on_input) const {
+    return *history_->carry(Way::Forward, on_input);
+}
+
+SurfacePoint IntrinsicTriangulation::to_input(const SurfacePoint& on_base) const {
+    return *history_->carry(Way::Backward, on_base);
+}
+
+std::vector<SurfacePoint> IntrinsicTriangulation::to_intrinsic(
+    std::span<const SurfacePoint> on_input) const {
+    std::vector<SurfacePoint> points(on_input.begin(), on_input.end());
+    for (SurfacePoint& point : points) point = to_intrinsic(point);
+    return points;
+}
+
+std::vector<SurfacePoint> IntrinsicTriangulation::to_input(
+    std::span<const SurfacePoint> on_base) const {
+    std::vector<SurfacePoint> points(on_base.begin(), on_base.end());
+    for (SurfacePoint& point : points) point = to_input(point);
+    return points;
+}
+
+void IntrinsicTriangulation::to_input(const SurfacePoint& begin, const SurfacePoint& end,
+                                      std::vector<SurfacePoint>& parts) const {
+    history_->carry_back(begin, end, parts);
+}
+
+std::vector<InputPart> IntrinsicTriangulation::parts_of(Index face) const {
     constexpr double third = 1.0 / 3;
-    if (!history_->is_near({FaceId(face), {third, third, third}}, most_steps_back)) return false;
-    const std::size_t num_before = parts.size();
-    const auto take = [&](const detail::FacePolygon& polygon) {
+    const SurfacePoint middle{FaceId(face), {third, third, third}};
+    std::vector<detail::FacePolygon> polygons;
+    if (!history_->carry(Way::Backward, middle, most_steps_back) ||
+        !history_->parts_of(face, most_part_steps, polygons)) {
+        return {};
+    }
+    std::vector<InputPart> parts;
+    for (const detail::FacePolygon& polygon : polygons) {
         const InputPart part = measure(polygon);
         if (part.share > 0) parts.push_back(part);
-    };
-    if (history_->parts_of(face, most_part_steps, take)) return true;
-    parts.resize(num_before);
-    return false;
+    }
+    return parts;
 }
 
 }  // namespace agvd

@@ -1,19 +1,18 @@
 //! \file
-//! A better triangulation of the same surface: the intrinsic base under propagation, diagram and
-//! labels.
+//! A better triangulation of the same surface, the base under propagation, diagram and labels:
+//! distances on the surface stay. Held by IntrinsicTriangulation and FacePieces in
+//! tests/agvd/intrinsic.
 #pragma once
 
 #include <functional>
-#include <limits>
 #include <memory>
-#include <span>
-#include <vector>
 
-#include "agvd/core/poller.h"
 #include "agvd/mesh/surface.h"
-#include "agvd/mesh/surface_point.h"
 
 namespace agvd {
+namespace detail {
+class FaceHistory;
+}
 
 //! Lengths in mesh units. `{}` flips only.
 struct IntrinsicOptions {
@@ -28,20 +27,15 @@ struct IntrinsicOptions {
     //! The unit of max_length at a point of the input, > 0; empty: 1 everywhere. An edge is
     //! measured in the mean of its ends; called once for each vertex.
     std::function<double(const SurfacePoint& on_input)> unit_at = {};
-    //! #E of the input: 1 for edges that stay, as those of the boundary always do (they may be
-    //! split); or empty.
-    std::span<const std::uint8_t> is_kept = {};
     int num_threads = 0;     //!< >= 0; 0: all cores. The result is the same for any number.
     Progress progress = {};  //!< Tells the fraction 0 until it is done.
 };
 
 //! What was done to the input's triangulation.
 struct IntrinsicCounts {
-    std::size_t flips = 0;  //!< Edges flipped.
-    Index splits = 0;       //!< Edges split: vertices added.
-    Index removed = 0;      //!< Vertices without curvature that were removed: they have no faces.
-    Index degenerate_faces = 0;  //!< Degenerate faces of the input, which got the least area.
-    bool is_delaunay = true;     //!< False: flips ended before the condition held everywhere.
+    Index splits = 0;         //!< Edges split: vertices added.
+    Index removed = 0;        //!< Vertices without curvature that were removed: they have no faces.
+    bool is_delaunay = true;  //!< False: flips ended before the condition held everywhere.
 };
 
 //! A convex part of a face of the input.
@@ -113,19 +107,12 @@ public:
     //! \param parts  appended to.
     void to_input(const SurfacePoint& begin, const SurfacePoint& end,
                   std::vector<SurfacePoint>& parts) const;
-    //! The same for a segment in one face of the input.
-    void to_intrinsic(const SurfacePoint& begin, const SurfacePoint& end,
-                      std::vector<SurfacePoint>& parts) const;
 
-    //! The convex parts of the input's faces that make up a face of this.
-    //! \param parts  appended to.
-    //! \return false if that would take long, as with hundreds of needles; `parts` has not changed
-    //! then. Cost: some 50 ns for each operation and part, 64 at most.
-    [[nodiscard]] bool parts_of(Index face, std::vector<InputPart>& parts) const;
+    //! The convex parts of the input's faces that make up a face of this; none if that would take
+    //! long, as with hundreds of needles. Cost: some 50 ns for each operation and part, 64 at most.
+    [[nodiscard]] std::vector<InputPart> parts_of(Index face) const;
 
 private:
-    struct History;
-
     void run(const IntrinsicOptions& options);
     void change_faces(const IntrinsicOptions& options, Poller& poller, Ticker& ticker);
 
@@ -134,7 +121,50 @@ private:
     Surface surface_;
     IntrinsicCounts counts_;
     std::vector<SurfacePoint> added_;  // On the input.
-    std::unique_ptr<History> history_;
+    std::unique_ptr<detail::FaceHistory> history_;
+};
+
+//! A part of the input's surface, treated as flat.
+struct SurfacePiece {
+    Vec3 position;  //!< A point of it.
+    Vec3 vector;    //!< Its normal; its length is the area.
+};
+
+//! A face of the input is one piece. So is a changed face whose sides are as long in space as on
+//! the surface, since it is flat. Other changed faces are bent in space: their pieces are the parts
+//! of the input's faces in them, or, where these are too many, evenly spread points with equal
+//! shares of the area and the normals of the input. Immutable; threads may share it.
+class FacePieces {
+public:
+    //! \param base        outlives this.
+    //! \param piece_area  the area of a piece where a face holds many needles, > 0; such a face has
+    //! at most 16 pieces.
+    //! Cost: a map to the input for each piece of a changed face; 48 bytes.
+    //! \param num_threads  >= 0; 0: all cores. The result is the same for any number.
+    //! \throw Cancelled  the progress callback returned false.
+    FacePieces(const IntrinsicTriangulation& base, double piece_area, int num_threads = 0,
+               const Progress& progress = {});
+
+    //! Calls each(SurfacePiece) for the pieces of a face of base.surface().
+    template <typename Each>
+    void for_each(Index face, const Each& each) const {
+        if (face + 1 >= end_.size() || end_[face] == end_[face + 1]) {
+            each(whole(input_, face));
+            return;
+        }
+        for (Index i = end_[face]; i < end_[face + 1]; ++i) each(pieces_[i]);
+    }
+
+    //! At least the number of pieces of all faces together.
+    [[nodiscard]] std::size_t num_pieces_at_most() const { return num_faces_ + pieces_.size(); }
+
+private:
+    [[nodiscard]] static SurfacePiece whole(const Surface& surface, Index face);
+
+    const Surface& input_;
+    std::size_t num_faces_;
+    std::vector<Index> end_;  // #F + 1, if any face is changed: pieces_ up to and without a face's.
+    std::vector<SurfacePiece> pieces_;  // Of changed faces.
 };
 
 }  // namespace agvd

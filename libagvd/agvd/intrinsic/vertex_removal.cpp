@@ -4,23 +4,56 @@
 // the one that gives the best triangle first, until three faces (two on the boundary) are left,
 // which merge. The rest is kept Delaunay, and no flip may repeat an edge. Vertices that cannot be
 // removed in this way are tried again with the lengths of straight edges in space.
-#include "agvd/intrinsic/vertex_removal.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <optional>
 #include <queue>
 
 #include "agvd/intrinsic/delaunay_queue.h"
-#include "agvd/intrinsic/face_sides.h"
-#include "agvd/intrinsic/flatten.h"
-#include "agvd/intrinsic/simplicial.h"
-#include "agvd/intrinsic/vertex_operations.h"
-#include "agvd/mesh/one_ring.h"
+#include "agvd/intrinsic/simplify_steps.h"
 
 namespace agvd::detail {
 namespace {
+
+constexpr double angle_tolerance = 1e-10;
+constexpr int most_steps = 60;
+// The share of the range of factors that is left out at both ends: faces there are nearly
+// degenerate.
+constexpr double margin = 1e-3;
+
+// With edges scaled by s the corner between a and b across from c has the cosine p - q w, w = 1/s².
+struct Corner {
+    double p, q;
+};
+
+struct Angle {
+    double value, slope;
+};
+
+Angle angle_at(const std::vector<Corner>& corners, double w) {
+    Angle sum{0, 0};
+    for (const auto& [p, q] : corners) {
+        const double cosine = std::clamp(p - q * w, -1.0, 1.0);
+        sum.value += std::acos(cosine);
+        sum.slope += q / std::sqrt(std::max(1 - cosine * cosine, 1e-300));
+    }
+    return sum;
+}
+
+// The angle grows with w. Newton's method is used, and bisection where a step would leave the
+// range.
+double solve(const std::vector<Corner>& corners, double target, double low, double high) {
+    double w = std::clamp(1.0, low, high);
+    for (int step = 0; step < most_steps; ++step) {
+        const Angle angle = angle_at(corners, w);
+        const double excess = angle.value - target;
+        if (std::abs(excess) < angle_tolerance) break;
+        (excess > 0 ? high : low) = w;
+        const double next = w - excess / angle.slope;
+        w = next > low && next < high ? next : (low + high) / 2;
+    }
+    return w;
+}
 
 // Radians: a vertex flatter than this counts as flat.
 constexpr double flat_tolerance = 1e-9;
@@ -38,18 +71,18 @@ public:
           charts_(charts),
           number_(number),
           stamp_(surface.num_vertices(), 0),
-          flips_(surface, charts, nullptr, none_kept_, nullptr,
-                 [this](Index h) { return may_flip(h); }) {}
+          flips_(surface, charts, nullptr, nullptr, [this](Index h) { return may_flip(h); }) {}
 
-    std::size_t run() {
+    void run() {
         for (Index e = 0; e < surface_.num_edges(); ++e) flips_.push(e);
         flip_all();
         remove_all();
-        if (num_left_ > 0) {
+        for (Index v = 0; v < surface_.num_vertices(); ++v) {
+            if (!is_to_go(v)) continue;
             measure_in_space();
             remove_all();
+            return;
         }
-        return flips_.num_flips() + num_own_flips_;
     }
 
 private:
@@ -65,18 +98,15 @@ private:
     };
 
     void remove_all() {
-        num_left_ = 0;
         for (Index v = 0; v < surface_.num_vertices(); ++v) judge(v);
         while (!queue_.empty()) {
             const Waiting next = queue_.top();
             queue_.pop();
             if (next.stamp != stamp_[next.vertex]) continue;
-            if (!remove(next.vertex)) ++num_left_;
+            remove(next.vertex);
             flip_all();
             for (const Index v : ring_) judge(v);
         }
-        num_left_ = 0;
-        for (Index v = 0; v < surface_.num_vertices(); ++v) num_left_ += is_to_go(v) ? 1 : 0;
     }
 
     [[nodiscard]] bool is_to_go(Index v) const {
@@ -100,7 +130,7 @@ private:
     }
 
     // Afterwards ring_ holds the vertices whose priority may have changed.
-    bool remove(Index v) {
+    void remove(Index v) {
         ring_.clear();
         const double angle = cone_angle(surface_, v), wanted = flat_angle(v);
         const bool is_boundary = surface_.is_boundary_vertex(v);
@@ -108,7 +138,7 @@ private:
         if (is_boundary && faces_.size() == 1) return cut_ear(v);
         if (lengths_ == Lengths::OnSurface && std::abs(angle - wanted) > flat_tolerance &&
             !flatten(surface_, charts_, v, wanted)) {
-            return false;
+            return;
         }
         const std::size_t fewest = is_boundary ? 2 : 3;
         bool is_free = true;
@@ -123,7 +153,6 @@ private:
         if (is_free) drop(v, is_boundary);
         for (const Index f : is_free ? std::vector<Index>{faces[0]} : faces) push_sides(f);
         if (!is_free) ring_.clear();
-        return is_free;
     }
 
     void collect_faces(Index v) {
@@ -155,26 +184,21 @@ private:
         return true;
     }
 
-    // The quality of the triangle at the head after the flip: its area over the squares of its
-    // sides.
+    // The quality of the triangle at the head after the flip: twice its area over the squares of
+    // its sides.
     [[nodiscard]] double quality_behind(Index h, const Quad& quad) const {
-        if (lengths_ == Lengths::InSpace) {
-            const Vec3& a = surface_.mesh.positions[surface_.head(h)];
-            const Vec3 b = surface_.mesh.positions[apex(h)] - a;
-            const Vec3 c = surface_.mesh.positions[apex(surface_.twin[h])] - a;
-            const double squares = b.squaredNorm() + c.squaredNorm() + (b - c).squaredNorm();
-            return squares > 0 ? b.cross(c).norm() / squares : 0;
-        }
-        const Vec2 b = quad.apex - quad.head, c = quad.across - quad.head;
-        const double area = std::abs(b.x() * c.y() - b.y() * c.x());
-        return area / (b.squaredNorm() + c.squaredNorm() + (b - c).squaredNorm());
+        if (lengths_ == Lengths::OnSurface) return quad.quality_behind();
+        const Vec3& a = surface_.mesh.positions[surface_.head(h)];
+        const Vec3 b = surface_.mesh.positions[apex(h)] - a;
+        const Vec3 c = surface_.mesh.positions[apex(surface_.twin[h])] - a;
+        const double squares = b.squaredNorm() + c.squaredNorm() + (b - c).squaredNorm();
+        return squares > 0 ? b.cross(c).norm() / squares : 0;
     }
 
     void flip_edge(Index h) {
         const Index edge = surface_.edge[h];
         const std::array faces{Surface::face(h), Surface::face(surface_.twin[h])};
         flip(surface_, charts_, h, quad_at(surface_, charts_, h));
-        ++num_own_flips_;
         push_sides(faces[0]);
         push_sides(faces[1]);
         if (lengths_ == Lengths::OnSurface) return;
@@ -215,13 +239,12 @@ private:
         remove_from_boundary(surface_, charts_, h, length);
     }
 
-    bool cut_ear(Index v) {
+    void cut_ear(Index v) {
         const Index h = surface_.outgoing[v];
         const Index inside = surface_.twin[Surface::next(h)];
-        if (inside == no_index) return false;
+        if (inside == no_index) return;
         ring_ = {surface_.head(h), surface_.tail(Surface::previous(h))};
         remove_ear(surface_, h);
-        return true;
     }
 
     [[nodiscard]] Index apex(Index h) const { return surface_.tail(Surface::previous(h)); }
@@ -257,21 +280,53 @@ private:
     FaceCharts& charts_;
     const std::vector<Index>& number_;
     std::vector<std::uint32_t> stamp_;
-    const std::vector<std::uint8_t> none_kept_;
     DelaunayQueue flips_;
     std::priority_queue<Waiting> queue_;
     Lengths lengths_ = Lengths::OnSurface;
     double shortest_ = 0;
-    Index num_left_ = 0;
-    std::size_t num_own_flips_ = 0;
     std::vector<Index> ring_, faces_, spokes_;
 };
 
 }  // namespace
 
-std::size_t remove_vertices(Surface& surface, FaceCharts& charts,
-                            const std::vector<Index>& number) {
-    return VertexRemover(surface, charts, number).run();
+double cone_angle(const Surface& surface, Index vertex) {
+    double sum = 0;
+    for_each_outgoing(surface, vertex, [&](Index h) {
+        sum += std::atan2(surface.apex[h].y(), surface.apex[h].x());
+    });
+    return sum;
+}
+
+bool flatten(Surface& surface, FaceCharts& charts, Index vertex, double target) {
+    std::vector<Corner> corners;
+    double low = 0, high = std::numeric_limits<double>::infinity();
+    for_each_outgoing(surface, vertex, [&](Index h) {
+        const double a = surface.length_of(h), b = surface.length_of(Surface::previous(h));
+        const double c = surface.length_of(Surface::next(h));
+        corners.push_back({(a * a + b * b) / (2 * a * b), c * c / (2 * a * b)});
+        low = std::max(low, (a - b) * (a - b) / (c * c));
+        high = std::min(high, (a + b) * (a + b) / (c * c));
+    });
+    const double left_out = margin * (high - low);
+    low += left_out;
+    high -= left_out;
+    if (!(low < high) || angle_at(corners, low).value > target ||
+        angle_at(corners, high).value < target) {
+        return false;
+    }
+    const double scale = 1 / std::sqrt(solve(corners, target, low, high));
+    for_each_outgoing(surface, vertex, [&](Index h) {
+        surface.length[surface.edge[h]] *= scale;
+        const Index back = Surface::previous(h);
+        if (surface.twin[back] == no_index) surface.length[surface.edge[back]] *= scale;
+    });
+    for_each_outgoing(surface, vertex,
+                      [&](Index h) { renew_face(surface, charts, Surface::face(h)); });
+    return true;
+}
+
+void remove_vertices(Surface& surface, FaceCharts& charts, const std::vector<Index>& number) {
+    VertexRemover(surface, charts, number).run();
 }
 
 }  // namespace agvd::detail

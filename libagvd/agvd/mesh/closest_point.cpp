@@ -107,19 +107,20 @@ ClosestPointTree::ClosestPointTree(const MeshView& mesh, const Progress& progres
                                    mesh.positions[t[2]]};
     };
     std::vector<Vec3> centers(num_faces);
-    corners_.resize(num_faces);
     for (Index f = 0; f < num_faces; ++f) {
-        corners_[f] = corners_of(f);
-        centers[f] = (corners_[f][0] + corners_[f][1] + corners_[f][2]) / 3;
+        const auto [a, b, c] = corners_of(f);
+        centers[f] = (a + b + c) / 3;
     }
     std::vector<Index> faces(num_faces);
     std::iota(faces.begin(), faces.end(), Index{0});
     nodes_.reserve(num_faces);
     build(centers, faces, 0, num_faces, ticker);
 
-    for (Index slot = 0; slot < num_faces; ++slot) {
-        corners_[slot] = corners_of(faces[slot]);
-        face_.emplace_back(faces[slot]);
+    corners_.reserve(num_faces);
+    face_.reserve(num_faces);
+    for (const Index face : faces) {
+        corners_.push_back(corners_of(face));
+        face_.emplace_back(face);
     }
     // Children follow their node, so in a backward loop they are done before it.
     const Node& root = nodes_.front();

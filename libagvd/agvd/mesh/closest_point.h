@@ -1,9 +1,10 @@
 //! \file
-//! Nearest point of a mesh, by a tree of bounding boxes.
+//! Nearest point of a mesh, by a tree of bounding boxes: of equally near ones that in the lowest
+//! face. Held by ClosestPointTree in tests/agvd/mesh.
 #pragma once
 
-#include "agvd/core/poller.h"
-#include "agvd/mesh/surface_point.h"
+#include "agvd/core/progress.h"
+#include "agvd/mesh/mesh.h"
 
 namespace agvd {
 

@@ -4,8 +4,8 @@
 
 #include <limits>
 
-#include "agvd/core/poller.h"
-#include "agvd/mesh/mesh_view.h"
+#include "agvd/core/progress.h"
+#include "agvd/mesh/mesh.h"
 
 namespace agvd {
 

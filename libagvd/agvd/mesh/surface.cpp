@@ -1,23 +1,21 @@
 // Builds a surface from a mesh: checks the elements, pairs half-edges, numbers edges, and computes
-// lengths, layouts of faces, and the vertices at which geodesics may bend. The quick search for
-// pairs only says that the mesh is no oriented 2-manifold; then a second, slower one finds the
-// first faulty element for the text of the error.
+// lengths, layouts of faces, and the vertices at which geodesics may bend.
 #include "agvd/mesh/surface.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <string>
-#include <tuple>
 
 #include "agvd/core/error.h"
 #include "agvd/core/parallel.h"
+#include "agvd/mesh/any_mesh.h"
 #include "agvd/mesh/scale.h"
 
 namespace agvd {
 namespace {
 
 constexpr const char* remedy = "; repair the mesh first (remesh::clean_input)";
+constexpr const char* twice = " names a vertex twice";
 
 void check_elements(const MeshView& mesh, Ticker& ticker) {
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
@@ -43,103 +41,74 @@ void check_elements(const MeshView& mesh, Ticker& ticker) {
             }
         }
         if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) {
-            throw InvalidInput("face " + std::to_string(f) + " names a vertex twice" + remedy);
+            throw InvalidInput("face " + std::to_string(f) + twice + remedy);
         }
     }
 }
 
-// The twins; throws at the first edge that has none.
-std::vector<Index> pair_or_explain(const MeshView& mesh, Ticker& ticker) {
-    struct Side {
-        Index low, high, half_edge;
-    };
+// Pairs the sides of each edge, and walks around each vertex.
+// \param reason  gets why there is no result: the first faulty edge, or the first faulty vertex.
+std::optional<Connectivity> pair_sides(const MeshView& mesh, Ticker& ticker, std::string& reason) {
     const auto tail = [&](Index h) { return mesh.triangles[h / 3][h % 3]; };
-    std::vector<Side> sides;
-    for (Index h = 0; h < 3 * mesh.triangles.size(); ++h) {
-        ticker.tick();
-        const auto [low, high] = std::minmax({tail(h), tail(next_half_edge(h))});
-        sides.push_back({low, high, h});
-    }
-    sort_ticked(sides, ticker, [](const Side& a, const Side& b) {
-        return std::tie(a.low, a.high, a.half_edge) < std::tie(b.low, b.high, b.half_edge);
+    Connectivity result{std::vector<Index>(3 * mesh.triangles.size(), no_index),
+                        std::vector<Index>(mesh.positions.size(), no_index)};
+    auto& [twin, outgoing] = result;
+    for_each_edge(sorted_edge_sides(mesh.triangles, ticker), [&](std::span<const EdgeSide> edge) {
+        ticker.tick(edge.size());
+        const Index h = edge[0].half_edge;
+        if (!reason.empty()) return;
+        if (edge[0].low() == edge[0].high()) {
+            reason = "face " + std::to_string(h / 3) + twice;
+        } else if (edge.size() > 2) {
+            reason = "the edge from vertex " + std::to_string(tail(h)) + " to " +
+                     std::to_string(tail(next_half_edge(h))) + " has " +
+                     std::to_string(edge.size()) + " faces";
+        } else if (edge.size() == 2 && edge[0].forward == edge[1].forward) {
+            reason = "faces " + std::to_string(h / 3) + " and " +
+                     std::to_string(edge[1].half_edge / 3) + " are oriented differently";
+        } else if (edge.size() == 2) {
+            twin[h] = edge[1].half_edge;
+            twin[edge[1].half_edge] = h;
+        }
     });
-    std::vector<Index> twin(sides.size(), no_index);
-    for (std::size_t i = 0, end = 0; i < sides.size(); i = end) {
-        while (end < sides.size() && sides[end].low == sides[i].low &&
-               sides[end].high == sides[i].high) {
-            ++end;
-        }
-        ticker.tick(end - i);
-        const Index h = sides[i].half_edge;
-        if (end - i > 2) {
-            throw InvalidInput("the edge from vertex " + std::to_string(tail(h)) + " to " +
-                               std::to_string(tail(next_half_edge(h))) + " has " +
-                               std::to_string(end - i) + " faces" + remedy);
-        }
-        if (end - i < 2) continue;
-        const Index other = sides[i + 1].half_edge;
-        if (tail(h) == tail(other)) {
-            throw InvalidInput("faces " + std::to_string(h / 3) + " and " +
-                               std::to_string(other / 3) + " are oriented differently" + remedy);
-        }
-        twin[h] = other;
-        twin[other] = h;
-    }
-    return twin;
-}
-
-// Throws the reason why find_connectivity had no result.
-[[noreturn]] void explain(const MeshView& mesh, Ticker& ticker) {
-    const std::vector<Index> twin = pair_or_explain(mesh, ticker);
-    std::vector<Index> valence(mesh.positions.size(), 0), outgoing(mesh.positions.size(), no_index);
+    if (!reason.empty()) return std::nullopt;
+    std::vector<Index> num_left(mesh.positions.size(), 0);  // Half-edges that no walk has passed.
     for (Index h = 0; h < twin.size(); ++h) {
         ticker.tick();
-        const Index v = mesh.triangles[h / 3][h % 3];
-        ++valence[v];
+        const Index v = tail(h);
+        ++num_left[v];
         if (outgoing[v] == no_index || twin[h] == no_index) outgoing[v] = h;
     }
-    Index vertex = 0;
-    for (; vertex < valence.size(); ++vertex) {
-        if (valence[vertex] == 0) continue;
-        Index seen = 0;
-        Index h = outgoing[vertex];
-        do {
-            ++seen;
+    for (Index v = 0; v < outgoing.size(); ++v) {
+        ticker.tick(num_left[v]);
+        for (Index h = outgoing[v]; h != no_index;) {
+            --num_left[v];
             h = twin[previous_half_edge(h)];
-        } while (h != no_index && h != outgoing[vertex]);
-        ticker.tick(seen);
-        if (seen != valence[vertex]) break;
+            if (h == outgoing[v]) break;
+        }
+        if (num_left[v] == 0) continue;
+        reason = "the faces around vertex " + std::to_string(v) + " do not form one fan";
+        return std::nullopt;
     }
-    throw InvalidInput("the faces around vertex " + std::to_string(vertex) +
-                       " do not form one fan" + remedy);
+    return result;
 }
 
 // Edges are numbered in the order of their lower half-edge, so that neighbours stay close.
-void number_edges(Surface& surface, int num_threads, Poller& poller) {
-    const auto num_half_edges = static_cast<Index>(surface.twin.size());
-    // True on the boundary, too, since no_index is the greatest.
-    const auto is_first = [&](Index h) { return surface.twin[h] > h; };
-    std::vector<Index> begin_of(num_chunks(num_half_edges, pass_grain) + 1, 0);
-    const auto count_first = [&](Index chunk, Index begin, Index end) {
-        Index count = 0;
-        for (Index h = begin; h < end; ++h) count += is_first(h) ? 1 : 0;
-        begin_of[chunk + 1] = count;
-    };
-    parallel_chunks(num_half_edges, pass_grain, num_threads, count_first, poller);
-    std::partial_sum(begin_of.begin(), begin_of.end(), begin_of.begin());
-    surface.edge.resize(num_half_edges);
-    surface.edge_half.resize(begin_of.back());
-    poller.poll();
-    const auto number = [&](Index chunk, Index begin, Index end) {
-        Index edge = begin_of[chunk];
-        for (Index h = begin; h < end; ++h) {
-            if (!is_first(h)) continue;
-            surface.edge[h] = edge;
-            if (surface.twin[h] != no_index) surface.edge[surface.twin[h]] = edge;
-            surface.edge_half[edge++] = h;
+void number_edges(Surface& surface, Ticker& ticker) {
+    surface.edge.resize(surface.twin.size());
+    ticker.poll();
+    surface.edge_half.reserve(surface.twin.size() / 2);
+    for (Index h = 0; h < surface.twin.size(); ++h) {
+        ticker.tick();
+        const Index twin = surface.twin[h];
+        if (twin < h) {
+            surface.edge[h] = surface.edge[twin];
+        } else {
+            surface.edge[h] = surface.num_edges();
+            surface.edge_half.push_back(h);
         }
-    };
-    parallel_chunks(num_half_edges, pass_grain, num_threads, number, poller);
+    }
+    surface.edge_half.shrink_to_fit();
 }
 
 void measure(Surface& surface, int num_threads, Poller& poller) {
@@ -158,8 +127,8 @@ void measure(Surface& surface, int num_threads, Poller& poller) {
         for (Index h = begin; h < end; ++h) {
             surface.apex[h] = surface.apex_in_space(h);
             const double height = surface.apex[h].y();
-            if (!(height > 0) || !std::isfinite(height))
-                degenerate[chunk] = std::min(degenerate[chunk], h);
+            const bool has_area = height > 0 && std::isfinite(height);
+            if (!has_area) degenerate[chunk] = std::min(degenerate[chunk], h);
         }
     };
     parallel_chunks(num_half_edges, pass_grain, num_threads, find_apexes, poller);
@@ -197,13 +166,8 @@ void find_pseudo_sources(Surface& surface, int num_threads, Poller& poller) {
     surface.can_be_pseudo_source.resize(surface.num_vertices());
     const auto find = [&](Index, Index begin, Index end) {
         for (Index v = begin; v < end; ++v) {
-            const Index first = surface.outgoing[v];
             ConeAngle cone;
-            for (Index h = first; h != no_index;) {
-                cone.add(surface.apex[h].normalized());
-                h = surface.twin[Surface::previous(h)];
-                if (h == first) break;
-            }
+            for_each_outgoing(surface, v, [&](Index h) { cone.add(surface.apex[h].normalized()); });
             const bool can_be_pseudo_source =
                 surface.is_boundary_vertex(v) ? cone.exceeds_pi() : cone.exceeds_two_pi();
             surface.can_be_pseudo_source[v] = can_be_pseudo_source ? 1 : 0;
@@ -214,13 +178,21 @@ void find_pseudo_sources(Surface& surface, int num_threads, Poller& poller) {
 
 }  // namespace
 
+std::optional<Connectivity> find_connectivity(const MeshView& mesh, const Progress& progress) {
+    Poller poller(progress);
+    Ticker ticker(poller);
+    std::string reason;
+    return pair_sides(mesh, ticker, reason);
+}
+
 Surface build_surface(const MeshView& mesh, int num_threads, const Progress& progress) {
     Poller poller(progress);
     Ticker ticker(poller);
     check_elements(mesh, ticker);
     check_scale(box_of(mesh, num_threads));
-    std::optional<Connectivity> connectivity = find_connectivity(mesh, num_threads, progress);
-    if (!connectivity) explain(mesh, ticker);
+    std::string reason;
+    std::optional<Connectivity> connectivity = pair_sides(mesh, ticker, reason);
+    if (!connectivity) throw InvalidInput(reason + remedy);
     return build_surface({{mesh.positions.begin(), mesh.positions.end()},
                           {mesh.triangles.begin(), mesh.triangles.end()}},
                          *std::move(connectivity), num_threads, progress);
@@ -233,30 +205,44 @@ Surface build_surface(TriangleMesh mesh, Connectivity connectivity, int num_thre
     surface.mesh = std::move(mesh);
     surface.twin = std::move(connectivity.twin);
     surface.outgoing = std::move(connectivity.outgoing);
-    number_edges(surface, num_threads, poller);
+    Ticker ticker(poller);
+    number_edges(surface, ticker);
     measure(surface, num_threads, poller);
     find_pseudo_sources(surface, num_threads, poller);
     return surface;
 }
 
 std::vector<std::vector<Index>> boundary_loops(const Surface& surface) {
+    return boundary_loops(surface.mesh.triangles, surface.twin, surface.outgoing, {});
+}
+
+std::vector<std::vector<Index>> boundary_loops(std::span<const Triangle> triangles,
+                                               std::span<const Index> twin,
+                                               std::span<const Index> outgoing, Ticker ticker) {
     std::vector<std::vector<Index>> loops;
-    const auto next_open = [&](auto from) { return std::find(from, surface.twin.end(), no_index); };
-    auto open = next_open(surface.twin.begin());
-    if (open == surface.twin.end()) return loops;
-    std::vector<bool> seen(surface.twin.size(), false);
-    for (; open != surface.twin.end(); open = next_open(open + 1)) {
-        const auto start = static_cast<Index>(open - surface.twin.begin());
+    const auto next_open = [&](auto from) { return std::find(from, twin.end(), no_index); };
+    auto open = next_open(twin.begin());
+    if (open == twin.end()) return loops;
+    std::vector<bool> seen(twin.size(), false);
+    for (; open != twin.end(); open = next_open(open + 1)) {
+        const auto start = static_cast<Index>(open - twin.begin());
         if (seen[start]) continue;
         std::vector<Index>& loop = loops.emplace_back();
-        Index h = start;
-        do {
+        for (Index h = start; !seen[h];) {
+            ticker.tick();
             seen[h] = true;
             loop.push_back(h);
-            h = surface.outgoing[surface.head(h)];
-        } while (h != start);
+            h = outgoing[triangles[h / 3][next_half_edge(h) % 3]];
+        }
     }
     return loops;
+}
+
+SurfacePoint point_at(const Surface& surface, Index vertex) {
+    const Index h = surface.outgoing[vertex];
+    SurfacePoint point{FaceId(Surface::face(h)), {0, 0, 0}};
+    point.barycentric[h % 3] = 1;
+    return point;
 }
 
 }  // namespace agvd

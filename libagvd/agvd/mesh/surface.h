@@ -1,16 +1,35 @@
 //! \file
-//! Connectivity and intrinsic geometry of an oriented 2-manifold triangle mesh.
+//! Connectivity and intrinsic geometry of an oriented 2-manifold triangle mesh: what is no such
+//! mesh is refused, with the first faulty element. Held by Surface and Connectivity in
+//! tests/agvd/mesh.
 //!
 //! Half-edge h = 3 f + k runs from corner k to corner k + 1 of face f, so next, previous and face
 //! are arithmetic. Everything else is one flat array per quantity.
 #pragma once
 
-#include "agvd/core/half_edge.h"
+#include <optional>
+
 #include "agvd/core/progress.h"
-#include "agvd/mesh/connectivity.h"
-#include "agvd/mesh/mesh_view.h"
+#include "agvd/mesh/mesh.h"
 
 namespace agvd {
+
+//! Twins and one-rings of a mesh.
+struct Connectivity {
+    std::vector<Index> twin;  //!< #H: the half-edge across; no_index on the boundary.
+    //! #V: a half-edge that leaves the vertex; on the boundary the one without twin, from which
+    //! `previous` and `twin` walk through the whole one-ring. no_index for an isolated vertex.
+    std::vector<Index> outgoing;
+};
+
+//! No result if a face repeats a corner, an edge has more than two faces or two that run the same
+//! way, or the faces around a vertex are not one fan.
+//!
+//! \param mesh  indices in range; positions are not read.
+//! \throw Cancelled  the progress callback returned false.
+//! Cost: O(n); 32 bytes per side of a face beyond the result.
+[[nodiscard]] std::optional<Connectivity> find_connectivity(const MeshView& mesh,
+                                                            const Progress& progress = {});
 
 //! The frame of half-edge h: its tail at (0, 0), its head at (length, 0), its face above (y > 0).
 struct Surface {
@@ -22,9 +41,7 @@ struct Surface {
     std::vector<Index> edge_half;  //!< #E: the edge's half-edge with the lower index.
     std::vector<double> length;    //!< #E, mesh units.
     std::vector<Vec2> apex;        //!< #H: the opposite corner in the half-edge's frame.
-    //! #V: a half-edge that leaves the vertex; on the boundary the one without twin, from which
-    //! `previous` and `twin` walk through the whole one-ring. no_index for an isolated vertex.
-    std::vector<Index> outgoing;
+    std::vector<Index> outgoing;   //!< #V: as Connectivity has it.
     //! #V: 1 where a shortest path may bend (a pseudo-source): cone angle above 2 pi, on the
     //! boundary above pi. The excess must pass 1e-9, so that flat vertices are not taken for
     //! saddles.
@@ -65,7 +82,6 @@ struct Surface {
     }
     //! The apex from the positions. Not finite if the half-edge has length 0.
     [[nodiscard]] Vec2 apex_in_space(Index half_edge) const;
-    //! Whether the vertex lies on the boundary.
     [[nodiscard]] bool is_boundary_vertex(Index vertex) const {
         return outgoing[vertex] != no_index && twin[outgoing[vertex]] == no_index;
     }
@@ -104,5 +120,55 @@ inline Vec2 Surface::apex_in_space(Index half_edge) const {
 //! Boundary loops: each a cycle of half-edges without twin, head of one = tail of the next, in the
 //! direction that has the surface on the left; loops ordered by their lowest half-edge.
 [[nodiscard]] std::vector<std::vector<Index>> boundary_loops(const Surface& surface);
+//! The same for a mesh with connectivity.
+[[nodiscard]] std::vector<std::vector<Index>> boundary_loops(std::span<const Triangle> triangles,
+                                                             std::span<const Index> twin,
+                                                             std::span<const Index> outgoing,
+                                                             Ticker ticker);
+
+//! Calls each(half_edge) for the half-edges from a vertex, one for each face around it,
+//! counter-clockwise; none if the vertex has no face.
+template <typename Each>
+void for_each_outgoing(const Surface& surface, Index vertex, const Each& each) {
+    const Index first = surface.outgoing[vertex];
+    for (Index h = first; h != no_index;) {
+        each(h);
+        h = surface.twin[Surface::previous(h)];
+        if (h == first) break;
+    }
+}
+
+//! Calls each(half_edge, other) for the edges at a vertex, counter-clockwise: a half-edge of the
+//! edge, and the vertex at its other end.
+template <typename Each>
+void for_each_edge_at(const Surface& surface, Index vertex, const Each& each) {
+    for_each_outgoing(surface, vertex, [&](Index h) {
+        each(h, surface.head(h));
+        const Index last = Surface::previous(h);  // No half-edge leaves along it.
+        if (surface.twin[last] == no_index) each(last, surface.tail(last));
+    });
+}
+
+//! The end of an edge that is not `vertex`.
+[[nodiscard]] inline Index other_end(const Surface& surface, Index edge, Index vertex) {
+    const Index h = surface.edge_half[edge];
+    return surface.tail(h) == vertex ? surface.head(h) : surface.tail(h);
+}
+
+//! In square mesh units.
+[[nodiscard]] inline double face_area(const Surface& surface, Index face) {
+    const Index h = 3 * face;
+    return surface.length_of(h) * surface.apex_of(h).y() / 2;
+}
+
+//! The area of all faces, summed in their order. Cost: O(#F).
+[[nodiscard]] inline double surface_area(const Surface& surface) {
+    double area = 0;
+    for (Index f = 0; f < surface.num_faces(); ++f) area += face_area(surface, f);
+    return area;
+}
+
+//! The vertex as a point of one of its faces. It must have one.
+[[nodiscard]] SurfacePoint point_at(const Surface& surface, Index vertex);
 
 }  // namespace agvd

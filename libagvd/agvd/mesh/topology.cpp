@@ -1,6 +1,6 @@
 // Groups the sides of faces by edge to check that a mesh is manifold and oriented, and counts
 // vertices, edges, faces and boundary loops of each component. With known connectivity the checks
-// are not needed.
+// are not needed, and all is counted by twins.
 #include "agvd/mesh/topology.h"
 
 #include <algorithm>
@@ -8,12 +8,8 @@
 #include <map>
 #include <numeric>
 
-#include "agvd/core/bucket_sort.h"
-#include "agvd/core/half_edge.h"
-#include "agvd/core/parallel.h"
 #include "agvd/core/union_find.h"
-#include "agvd/mesh/components.h"
-#include "agvd/mesh/edge_sides.h"
+#include "agvd/mesh/any_mesh.h"
 
 namespace agvd {
 namespace {
@@ -26,16 +22,8 @@ bool has_bad_faces(const MeshView& mesh, Ticker& ticker) {
         std::sort(t.begin(), t.end());
         if (t[0] == t[1] || t[1] == t[2]) return true;
     }
-    sorted = sort_in_buckets(
-        sorted, static_cast<Index>(mesh.positions.size()), [](const Triangle& t) { return t[0]; },
-        std::less<>(), ticker);
+    sort_ticked(sorted, ticker, std::less<>());
     return std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end();
-}
-
-double face_area(const MeshView& mesh, Index face) {
-    const auto& [a, b, c] = mesh.triangles[face];
-    const Vec3& origin = mesh.positions[a];
-    return 0.5 * (mesh.positions[b] - origin).cross(mesh.positions[c] - origin).norm();
 }
 
 // One umbrella per vertex: the corners at a vertex are connected through the edges at it.
@@ -67,22 +55,15 @@ bool has_one_umbrella_each(const MeshView& mesh, const std::vector<EdgeSide>& si
 
 // Adds to euler. A vertex counts once for each component that meets there.
 void count_vertices(const MeshView& mesh, Ticker& ticker, Topology& result) {
-    std::vector<Index> by_component(mesh.triangles.size());
-    std::iota(by_component.begin(), by_component.end(), Index{0});
-    if (result.components.size() > 1) {
-        by_component = sort_in_buckets(
-            by_component, static_cast<Index>(result.components.size()),
-            [&](Index face) { return result.face_component[face]; }, std::less<>(), ticker);
-    }
-    std::vector<Index> last_component(mesh.positions.size(), no_index);
-    for (const Index f : by_component) {
+    std::vector<std::pair<Index, Index>> met;  // Component and vertex.
+    met.reserve(3 * mesh.triangles.size());
+    for (Index f = 0; f < mesh.triangles.size(); ++f) {
         ticker.tick();
-        for (const Index v : mesh.triangles[f]) {
-            if (last_component[v] == result.face_component[f]) continue;
-            last_component[v] = result.face_component[f];
-            ++result.components[last_component[v]].euler;
-        }
+        for (const Index v : mesh.triangles[f]) met.emplace_back(result.face_component[f], v);
     }
+    sort_ticked(met, ticker, std::less<>());
+    met.erase(std::unique(met.begin(), met.end()), met.end());
+    for (const auto& [component, vertex] : met) ++result.components[component].euler;
 }
 
 // Adds to euler and to boundary_loops: the connected pieces of the graph of boundary edges.
@@ -108,23 +89,55 @@ void count_edges(const std::vector<EdgeSide>& sides, std::size_t num_vertices, T
     }
 }
 
-// Adds to boundary_loops of the components.
-void count_boundary_loops(const MeshView& mesh, const Connectivity& connectivity, Poller& poller,
-                          Topology& result) {
-    const std::vector<Index>& twin = connectivity.twin;
-    Ticker ticker(poller);
-    std::vector<bool> is_seen(twin.size(), false);
-    poller.poll();
-    const auto next_open = [&](auto from) { return std::find(from, twin.end(), no_index); };
-    for (auto open = next_open(twin.begin()); open != twin.end(); open = next_open(open + 1)) {
-        const auto start = static_cast<Index>(open - twin.begin());
-        if (is_seen[start]) continue;
-        ++result.components[result.face_component[start / 3]].boundary_loops;
-        for (Index h = start; !is_seen[h];) {
-            ticker.tick();
-            is_seen[h] = true;
-            h = connectivity.outgoing[mesh.triangles[h / 3][next_half_edge(h) % 3]];
-        }
+// The sets of faces, numbered by lowest face, which is the root of a set.
+FaceLabels number_sets(UnionFind& sets, Index num_faces, Ticker& ticker) {
+    FaceLabels labels{std::vector<Index>(num_faces), 0};
+    for (Index f = 0; f < num_faces; ++f) {
+        ticker.tick();
+        const Index root = sets.root(f);
+        labels.of_face[f] = root == f ? labels.count++ : labels.of_face[root];
+    }
+    return labels;
+}
+
+// Without euler and boundary_loops.
+Topology measure(const MeshView& mesh, FaceLabels labels, Ticker& ticker) {
+    Topology result{true, true, std::vector<ComponentTopology>(labels.count),
+                    std::move(labels.of_face)};
+    for (Index f = 0; f < mesh.triangles.size(); ++f) {
+        ticker.tick();
+        ComponentTopology& c = result.components[result.face_component[f]];
+        const auto& [i, j, k] = mesh.triangles[f];
+        const Vec3& origin = mesh.positions[i];
+        ++c.faces;
+        c.area += 0.5 * (mesh.positions[j] - origin).cross(mesh.positions[k] - origin).norm();
+    }
+    return result;
+}
+
+// Sets euler and boundary_loops of components. Vertices without faces do not count.
+template <typename Components>
+void count_by_twins(std::span<const Triangle> triangles, std::span<const Index> twin,
+                    std::span<const Index> outgoing, std::span<const Index> label, Ticker& ticker,
+                    Components& components) {
+    for (Index f = 0; f < label.size(); ++f) {
+        ticker.tick();
+        int num_edges = 0;  // An edge counts at its lower half-edge; no_index is higher.
+        for (Index h = 3 * f; h < 3 * f + 3; ++h) num_edges += twin[h] > h ? 1 : 0;
+        components[label[f]].euler += 1 - num_edges;
+    }
+    for (const Index h : outgoing) {
+        ticker.tick();
+        if (h != no_index) ++components[label[h / 3]].euler;
+    }
+    for (const std::vector<Index>& loop : boundary_loops(triangles, twin, outgoing, ticker)) {
+        ++components[label[loop[0] / 3]].boundary_loops;
+    }
+}
+
+void set_genus(Topology& topology) {
+    for (ComponentTopology& c : topology.components) {
+        c.genus = (2 - c.euler - c.boundary_loops) / 2;
     }
 }
 
@@ -144,73 +157,35 @@ int Topology::boundary_loops() const {
 Topology analyze_topology(const MeshView& mesh, const Progress& progress) {
     Poller poller(progress);
     Ticker ticker(poller);
-    Topology result;
     const std::vector<EdgeSide> sides = sorted_edge_sides(mesh.triangles, ticker);
     const auto num_faces = static_cast<Index>(mesh.triangles.size());
-
-    UnionFind parent(num_faces);
-    result.is_manifold = !has_bad_faces(mesh, ticker);
-    result.is_oriented = true;
+    UnionFind sets(num_faces);
+    bool is_manifold = !has_bad_faces(mesh, ticker), is_oriented = true;
     for_each_edge(sides, [&](std::span<const EdgeSide> edge) {
         ticker.tick();
-        for (const EdgeSide& side : edge) parent.unite(edge[0].face(), side.face());
-        if (edge.size() > 2) result.is_manifold = false;
-        if (edge.size() == 2 && edge[0].forward == edge[1].forward) result.is_oriented = false;
+        for (const EdgeSide& side : edge) sets.unite(edge[0].face(), side.face());
+        if (edge.size() > 2) is_manifold = false;
+        if (edge.size() == 2 && edge[0].forward == edge[1].forward) is_oriented = false;
     });
-    if (result.is_manifold) result.is_manifold = has_one_umbrella_each(mesh, sides, ticker);
-
-    std::vector<Index> component_of_root(num_faces, no_index);
-    result.face_component.resize(num_faces);
-    for (Index f = 0; f < num_faces; ++f) {
-        ticker.tick();
-        Index& id = component_of_root[parent.root(f)];
-        if (id == no_index) {
-            id = static_cast<Index>(result.components.size());
-            result.components.emplace_back();
-        }
-        result.face_component[f] = id;
-        ComponentTopology& c = result.components[id];
-        ++c.faces;
-        ++c.euler;
-        c.area += face_area(mesh, f);
-    }
-
+    if (is_manifold) is_manifold = has_one_umbrella_each(mesh, sides, ticker);
+    Topology result = measure(mesh, number_sets(sets, num_faces, ticker), ticker);
+    result.is_manifold = is_manifold;
+    result.is_oriented = is_oriented;
+    for (ComponentTopology& c : result.components) c.euler = static_cast<int>(c.faces);
     count_vertices(mesh, ticker, result);
     count_edges(sides, mesh.positions.size(), ticker, result);
-    for (ComponentTopology& c : result.components) c.genus = (2 - c.euler - c.boundary_loops) / 2;
+    set_genus(result);
     return result;
 }
 
-Topology analyze_topology(const MeshView& mesh, const Connectivity& connectivity, int num_threads,
+Topology analyze_topology(const MeshView& mesh, const Connectivity& connectivity,
                           const Progress& progress) {
     Poller poller(progress);
     Ticker ticker(poller);
-    const std::vector<Index>& twin = connectivity.twin;
-    const std::vector<Index>& outgoing = connectivity.outgoing;
-    FaceLabels labels = label_components(twin, num_threads, poller);
-    const std::vector<int> euler = euler_of_components(twin, outgoing, labels, num_threads, poller);
-    Topology result{true, true, std::vector<ComponentTopology>(labels.count),
-                    std::move(labels.of_face)};
-    const std::vector<Index>& label = result.face_component;
-    const auto num_faces = static_cast<Index>(label.size());
-    std::vector<double> area(num_faces);
-    poller.poll();
-    const auto measure = [&](Index, Index begin, Index end) {
-        for (Index f = begin; f < end; ++f) area[f] = face_area(mesh, f);
-    };
-    parallel_chunks(num_faces, pass_grain, num_threads, measure, poller);
-    for (Index f = 0; f < num_faces; ++f) {  // Sums run in the order of the faces.
-        ticker.tick();
-        ComponentTopology& c = result.components[label[f]];
-        ++c.faces;
-        c.area += area[f];
-    }
-    count_boundary_loops(mesh, connectivity, poller, result);
-    for (Index i = 0; i < euler.size(); ++i) {
-        ComponentTopology& c = result.components[i];
-        c.euler = euler[i];
-        c.genus = (2 - c.euler - c.boundary_loops) / 2;
-    }
+    Topology result = measure(mesh, label_components(connectivity.twin, ticker), ticker);
+    count_by_twins(mesh.triangles, connectivity.twin, connectivity.outgoing, result.face_component,
+                   ticker, result.components);
+    set_genus(result);
     return result;
 }
 
@@ -221,6 +196,49 @@ bool same_topology(const Topology& a, const Topology& b) {
         return count;
     };
     return types(a) == types(b);
+}
+
+FaceLabels label_components(std::span<const Index> twin, Ticker ticker) {
+    const auto num_faces = static_cast<Index>(twin.size() / 3);
+    UnionFind sets(num_faces);
+    for (Index h = 0; h < twin.size(); ++h) {
+        ticker.tick();
+        if (twin[h] < h) sets.unite(h / 3, twin[h] / 3);  // no_index is higher.
+    }
+    return number_sets(sets, num_faces, ticker);
+}
+
+std::vector<Component> find_components(const Surface& surface, const Progress& progress) {
+    Poller poller(progress);
+    Ticker ticker(poller);
+    const FaceLabels labels = label_components(surface.twin, ticker);
+    std::vector<Component> components(labels.count);
+    count_by_twins(surface.mesh.triangles, surface.twin, surface.outgoing, labels.of_face, ticker,
+                   components);
+    for (Index f = 0; f < surface.num_faces(); ++f) {
+        ticker.tick();
+        Component& component = components[labels.of_face[f]];
+        const double before = component.faces.empty() ? 0 : component.area();
+        component.faces.push_back(f);
+        component.area_up_to.push_back(before + face_area(surface, f));
+    }
+    return components;
+}
+
+double boundary_length(const Surface& surface, const Component& component) {
+    double length = 0;
+    for (const Index f : component.faces) {
+        for (Index h = 3 * f; h < 3 * f + 3; ++h) {
+            if (surface.twin[h] == no_index) length += surface.length_of(h);
+        }
+    }
+    return length;
+}
+
+double euler_of(const Surface& surface) {
+    double euler = static_cast<double>(surface.num_faces()) - surface.num_edges();
+    for (const Index h : surface.outgoing) euler += h != no_index ? 1 : 0;
+    return euler;
 }
 
 }  // namespace agvd

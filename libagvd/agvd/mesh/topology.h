@@ -1,9 +1,9 @@
 //! \file
-//! Is it a manifold, and of which topology?
+//! Is a mesh a manifold, and of which topology? Components are numbered by their lowest faces.
+//! Held by Topology and Components in tests/agvd/mesh.
 #pragma once
 
-#include "agvd/core/progress.h"
-#include "agvd/mesh/connectivity.h"
+#include "agvd/mesh/surface.h"
 
 namespace agvd {
 
@@ -40,13 +40,46 @@ struct Topology {
 //!
 //! \param connectivity  find_connectivity(mesh), of which no two faces may have the same
 //!                      corners, as in what clean_input returns.
-//! \param num_threads   >= 0; 0: all cores. The result is the same for any number.
 //! \throw Cancelled  the progress callback returned false.
 //! Cost: O(n).
 [[nodiscard]] Topology analyze_topology(const MeshView& mesh, const Connectivity& connectivity,
-                                        int num_threads = 0, const Progress& progress = {});
+                                        const Progress& progress = {});
 
 //! Same number of components of each (genus, boundary loops) type.
 [[nodiscard]] bool same_topology(const Topology& a, const Topology& b);
+
+//! Which faces are connected through edges.
+struct FaceLabels {
+    std::vector<Index> of_face;  //!< #F: numbers from 0, by lowest face.
+    Index count = 0;             //!< Of components.
+};
+
+//! \param twin  as Surface has it.
+//! Cost: O(#F).
+[[nodiscard]] FaceLabels label_components(std::span<const Index> twin, Ticker ticker = {});
+
+//! A connected component of a surface, with the data that sampling needs.
+struct Component {
+    std::vector<Index> faces;        //!< Ascending.
+    std::vector<double> area_up_to;  //!< Per face of `faces`: total area up to and with it.
+    int euler = 0;                   //!< V - E + F.
+    int boundary_loops = 0;          //!< As ComponentTopology has it.
+
+    //! Square mesh units.
+    [[nodiscard]] double area() const { return area_up_to.back(); }
+    //! As ComponentTopology has it.
+    [[nodiscard]] int genus() const { return (2 - euler - boundary_loops) / 2; }
+};
+
+//! Sorted by lowest face. Cost: O(n).
+//! \throw Cancelled  the progress callback returned false.
+[[nodiscard]] std::vector<Component> find_components(const Surface& surface,
+                                                     const Progress& progress = {});
+
+//! Total length of a component's edges with a single face. Cost: O(faces).
+[[nodiscard]] double boundary_length(const Surface& surface, const Component& component);
+
+//! V - E + F of the whole surface; isolated vertices do not count. Cost: O(#V).
+[[nodiscard]] double euler_of(const Surface& surface);
 
 }  // namespace agvd

@@ -8,8 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "agvd/mesh/face_distance.h"
-#include "agvd/mesh/point_faces.h"
+#include "agvd/mesh/surface_points.h"
 
 namespace agvd {
 

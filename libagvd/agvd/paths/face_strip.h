@@ -3,7 +3,7 @@
 //! vertices. Private to the paths.
 #pragma once
 
-#include "agvd/core/poller.h"
+#include "agvd/core/progress.h"
 #include "agvd/paths/geodesic_path.h"
 
 namespace agvd {

@@ -10,9 +10,8 @@
 #include <unordered_map>
 #include <utility>
 
-#include "agvd/diagram/point_label.h"
-#include "agvd/mesh/face_distance.h"
-#include "agvd/mesh/point_faces.h"
+#include "agvd/diagram/face_relays.h"
+#include "agvd/mesh/surface_points.h"
 #include "agvd/paths/face_strip.h"
 
 namespace agvd {
@@ -243,7 +242,7 @@ GeodesicPath path_to_site(const Surface& surface, std::span<const SurfacePoint> 
     const std::optional<Index> vertex = vertex_of(surface, point);
     const PointLabel label =
         vertex ? PointLabel{propagation.vertex_site[*vertex], propagation.vertex_distance[*vertex]}
-               : PointLabels(surface, propagation)(point);
+               : point_label(surface, propagation, point);
     if (!label.site.is_valid()) throw InvalidInput("no path: no site reaches the point");
     return path_to_site(surface, {propagation.vertex_site, propagation.vertex_distance},
                         {label.site, sites[label.site.value()], label.distance.value_or(0)}, point,

@@ -8,8 +8,8 @@
 
 #include "agvd/core/progress.h"
 #include "agvd/mesh/surface.h"
-#include "agvd/mesh/surface_point.h"
-#include "agvd/propagation/relays.h"
+#include "agvd/mesh/mesh.h"
+#include "agvd/propagation/propagate.h"
 
 namespace agvd {
 

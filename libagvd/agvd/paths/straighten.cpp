@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-#include "agvd/mesh/point_faces.h"
+#include "agvd/mesh/surface_points.h"
 #include "agvd/paths/face_strip.h"
 
 namespace agvd {

@@ -4,8 +4,7 @@
 #include <utility>
 
 #include "agvd/core/error.h"
-#include "agvd/mesh/check_sites.h"
-#include "agvd/mesh/distinct_points.h"
+#include "agvd/mesh/surface_points.h"
 #include "agvd/propagation/steiner/steiner_nodes.h"
 
 namespace agvd {

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
-#include "agvd/mesh/check_sites.h"
-#include "agvd/mesh/distinct_points.h"
+#include "agvd/mesh/surface_points.h"
 
 namespace agvd {
 SitePlacement::SitePlacement(const Surface& surface, std::span<const SurfacePoint> sites) {

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "agvd/mesh/point_faces.h"
+#include "agvd/mesh/surface_points.h"
 
 namespace agvd {
 

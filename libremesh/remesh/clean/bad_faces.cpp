@@ -5,7 +5,7 @@
 #include <tuple>
 
 #include "agvd/core/union_find.h"
-#include "agvd/mesh/are_joined.h"
+#include "agvd/mesh/any_mesh.h"
 #include "remesh/clean/soup.h"
 
 namespace remesh::detail {

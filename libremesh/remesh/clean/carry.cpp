@@ -14,7 +14,7 @@
 #include "agvd/core/error.h"
 #include "agvd/core/groups.h"
 #include "agvd/mesh/closest_point.h"
-#include "agvd/mesh/point_faces.h"
+#include "agvd/mesh/surface_points.h"
 #include "agvd/mesh/scale.h"
 
 namespace remesh {

@@ -6,7 +6,7 @@
 #include <span>
 
 #include "agvd/core/progress.h"
-#include "agvd/mesh/connectivity.h"
+#include "agvd/mesh/surface.h"
 #include "remesh/names.h"
 
 namespace remesh {

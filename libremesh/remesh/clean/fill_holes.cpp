@@ -3,7 +3,7 @@
 #include <unordered_set>
 #include <utility>
 
-#include "agvd/core/edge_key.h"
+#include "agvd/core/types.h"
 #include "agvd/core/error.h"
 #include "remesh/clean/soup.h"
 

@@ -6,7 +6,7 @@
 #include <bit>
 #include <cmath>
 
-#include "agvd/core/position_hash.h"
+#include "agvd/core/random.h"
 #include "agvd/core/union_find.h"
 #include "agvd/mesh/scale.h"
 #include "remesh/clean/point_grid.h"

@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "agvd/core/poller.h"
-#include "agvd/mesh/mesh_view.h"
+#include "agvd/core/progress.h"
+#include "agvd/mesh/mesh.h"
 #include "remesh/names.h"
 
 namespace remesh::detail {

@@ -7,7 +7,7 @@
 #include <bit>
 #include <vector>
 
-#include "agvd/core/position_hash.h"
+#include "agvd/core/random.h"
 #include "remesh/names.h"
 
 namespace remesh::detail {

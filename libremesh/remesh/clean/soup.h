@@ -9,8 +9,8 @@
 #include <optional>
 #include <span>
 
-#include "agvd/core/poller.h"
-#include "agvd/mesh/edge_sides.h"
+#include "agvd/core/progress.h"
+#include "agvd/mesh/any_mesh.h"
 #include "agvd/mesh/surface.h"
 #include "agvd/mesh/topology.h"
 #include "remesh/clean/clean_input.h"

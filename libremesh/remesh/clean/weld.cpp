@@ -1,7 +1,7 @@
 // Merges vertices at one place: along cracks, and at the ends of zero-length edges.
 #include <algorithm>
 
-#include "agvd/core/edge_key.h"
+#include "agvd/core/types.h"
 #include "agvd/core/union_find.h"
 #include "remesh/clean/places.h"
 #include "remesh/clean/soup.h"

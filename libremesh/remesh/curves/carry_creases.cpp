@@ -7,7 +7,7 @@
 #include <queue>
 #include <unordered_map>
 
-#include "agvd/mesh/one_ring.h"
+#include "agvd/mesh/surface.h"
 #include "remesh/curves/crease_chains.h"
 
 namespace remesh::detail {

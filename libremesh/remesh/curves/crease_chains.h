@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "agvd/core/poller.h"
+#include "agvd/core/progress.h"
 #include "agvd/mesh/surface.h"
 #include "remesh/names.h"
 

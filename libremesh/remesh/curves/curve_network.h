@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "agvd/mesh/surface.h"
-#include "agvd/mesh/surface_point.h"
+#include "agvd/mesh/mesh.h"
 #include "remesh/curves/find_creases.h"
 
 namespace remesh {

@@ -8,7 +8,7 @@
 #include <map>
 #include <numbers>
 
-#include "agvd/mesh/point_faces.h"
+#include "agvd/mesh/surface_points.h"
 
 namespace remesh {
 namespace {

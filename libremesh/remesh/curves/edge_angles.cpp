@@ -8,8 +8,7 @@
 
 #include "agvd/core/parallel.h"
 #include "agvd/core/union_find.h"
-#include "agvd/mesh/face_area.h"
-#include "agvd/mesh/one_ring.h"
+#include "agvd/mesh/surface.h"
 #include "remesh/curves/crease_chains.h"
 
 namespace remesh::detail {

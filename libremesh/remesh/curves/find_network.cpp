@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "agvd/mesh/one_ring.h"
+#include "agvd/mesh/surface.h"
 #include "remesh/curves/curve_network.h"
 
 namespace remesh {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <set>
 
-#include "agvd/core/edge_key.h"
-#include "agvd/mesh/edge_sides.h"
+#include "agvd/core/types.h"
+#include "agvd/mesh/any_mesh.h"
 
 namespace remesh {
 namespace {

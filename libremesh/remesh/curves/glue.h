@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "agvd/mesh/mesh_view.h"
+#include "agvd/mesh/mesh.h"
 #include "remesh/names.h"
 
 namespace remesh {

@@ -7,7 +7,7 @@
 #include <tuple>
 
 #include "agvd/core/union_find.h"
-#include "agvd/mesh/one_ring.h"
+#include "agvd/mesh/surface.h"
 #include "remesh/curves/curve_network.h"
 
 namespace remesh {

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <queue>
 
-#include "agvd/mesh/one_ring.h"
+#include "agvd/mesh/surface.h"
 #include "remesh/curves/crease_chains.h"
 
 namespace remesh::detail {

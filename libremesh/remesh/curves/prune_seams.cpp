@@ -3,7 +3,7 @@
 #include <array>
 
 #include "agvd/core/union_find.h"
-#include "agvd/mesh/one_ring.h"
+#include "agvd/mesh/surface.h"
 
 namespace remesh {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cassert>
 
-#include "agvd/core/edge_key.h"
-#include "agvd/mesh/edge_sides.h"
+#include "agvd/core/types.h"
+#include "agvd/mesh/any_mesh.h"
 
 namespace remesh {
 

@@ -10,7 +10,7 @@
 #include <numbers>
 #include <queue>
 
-#include "agvd/core/poller.h"
+#include "agvd/core/progress.h"
 
 namespace remesh {
 namespace {

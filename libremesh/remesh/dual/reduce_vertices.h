@@ -7,8 +7,8 @@
 #include <span>
 
 #include "agvd/core/progress.h"
-#include "agvd/intrinsic/thin.h"
-#include "agvd/mesh/mesh_view.h"
+#include "agvd/intrinsic/simplify.h"
+#include "agvd/mesh/mesh.h"
 #include "remesh/names.h"
 
 namespace remesh {
@@ -37,7 +37,7 @@ namespace remesh {
 //! \param faces    ascending: one component of it.
 //! \param points   in these faces, no two at one place.
 //! Cost: as thin.
-[[nodiscard]] ThinnedMesh thin_patch(const Surface& surface, std::span<const Index> faces,
+[[nodiscard]] SimplifiedMesh thin_patch(const Surface& surface, std::span<const Index> faces,
                                      std::span<const SurfacePoint> points);
 
 //! Removes extra vertices on the boundary as far as topology allows. A vertex often stays because
@@ -45,6 +45,6 @@ namespace remesh {
 //!
 //! \param points  those that the patch was thinned to.
 //! Cost: O(n log n) for each extra vertex on the boundary.
-void free_rim(const Surface& surface, std::span<const SurfacePoint> points, ThinnedMesh& patch);
+void free_rim(const Surface& surface, std::span<const SurfacePoint> points, SimplifiedMesh& patch);
 
 }  // namespace remesh

@@ -5,8 +5,7 @@
 #include <optional>
 
 #include "agvd/diagram/diagram.h"
-#include "agvd/mesh/face_distance.h"
-#include "agvd/mesh/point_faces.h"
+#include "agvd/mesh/surface_points.h"
 
 namespace remesh {
 namespace {

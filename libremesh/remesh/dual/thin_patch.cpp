@@ -11,7 +11,7 @@ namespace {
 
 // Of the points and the extra vertices.
 std::vector<Vec3> positions_of(const Surface& surface, std::span<const SurfacePoint> points,
-                               const ThinnedMesh& patch) {
+                               const SimplifiedMesh& patch) {
     std::vector<Vec3> positions;
     for (const auto some : {points, std::span<const SurfacePoint>(patch.extra)}) {
         for (const SurfacePoint& p : some) positions.push_back(position(surface.mesh.view(), p));
@@ -59,7 +59,7 @@ bool remove_vertex(Index v, const DirectedEdge& neighbours, const std::vector<Ve
 
 }  // namespace
 
-void free_rim(const Surface& surface, std::span<const SurfacePoint> points, ThinnedMesh& patch) {
+void free_rim(const Surface& surface, std::span<const SurfacePoint> points, SimplifiedMesh& patch) {
     if (patch.extra.empty()) return;
     const std::vector<Vec3> positions = positions_of(surface, points, patch);
     std::vector<bool> is_gone(patch.extra.size(), false);
@@ -89,9 +89,9 @@ void free_rim(const Surface& surface, std::span<const SurfacePoint> points, Thin
     }
 }
 
-ThinnedMesh thin_patch(const Surface& surface, std::span<const Index> faces,
+SimplifiedMesh thin_patch(const Surface& surface, std::span<const Index> faces,
                        std::span<const SurfacePoint> points) {
-    ThinnedMesh patch = thin(surface, faces, points);
+    SimplifiedMesh patch = simplify(surface, faces, points);
     if (patch.extra.empty()) return patch;
     const std::vector<Vec3> positions = positions_of(surface, points, patch);
     std::vector<std::uint8_t> keep(points.size(), 1);

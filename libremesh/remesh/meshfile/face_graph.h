@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "agvd/mesh/mesh_view.h"
+#include "agvd/mesh/mesh.h"
 #include "remesh/meshfile/read_mesh.h"
 
 namespace remesh {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <string>
 
-#include "agvd/core/poller.h"
+#include "agvd/core/progress.h"
 #include "remesh/meshfile/read_mesh.h"
 #include "remesh/meshfile/source_file.h"
 

@@ -11,7 +11,7 @@
 #include <map>
 #include <utility>
 
-#include "agvd/mesh/vertex_normals.h"
+#include "agvd/mesh/mesh.h"
 #include "remesh/meshfile/formats.h"
 #include "remesh/meshfile/materials.h"
 #include "remesh/meshfile/polygon_soup.h"

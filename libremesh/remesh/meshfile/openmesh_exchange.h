@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "agvd/core/error.h"
-#include "agvd/mesh/mesh_view.h"
+#include "agvd/mesh/mesh.h"
 #include "remesh/meshfile/read_mesh.h"
 
 namespace remesh {

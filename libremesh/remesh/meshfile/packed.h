@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-#include "agvd/core/poller.h"
+#include "agvd/core/progress.h"
 #include "remesh/meshfile/source_file.h"
 
 namespace remesh {

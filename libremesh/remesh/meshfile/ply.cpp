@@ -17,7 +17,7 @@
 #include <limits>
 #include <utility>
 
-#include "agvd/mesh/vertex_normals.h"
+#include "agvd/mesh/mesh.h"
 #include "remesh/meshfile/formats.h"
 #include "remesh/meshfile/numbers.h"
 #include "remesh/meshfile/ply_values.h"

@@ -1,6 +1,6 @@
 #include "remesh/meshfile/point_welder.h"
 
-#include "agvd/core/position_hash.h"
+#include "agvd/core/random.h"
 
 namespace remesh {
 namespace {

@@ -15,10 +15,9 @@
 #include <string_view>
 #include <vector>
 
-#include "agvd/core/poller.h"
 #include "agvd/core/progress.h"
 #include "agvd/core/types.h"
-#include "agvd/mesh/mesh_view.h"
+#include "agvd/mesh/mesh.h"
 #include "remesh/names.h"
 
 namespace remesh {

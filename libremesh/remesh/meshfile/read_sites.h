@@ -11,8 +11,7 @@
 
 #include "agvd/core/progress.h"
 #include "agvd/core/types.h"
-#include "agvd/mesh/mesh_view.h"
-#include "agvd/mesh/surface_point.h"
+#include "agvd/mesh/mesh.h"
 #include "remesh/names.h"
 
 namespace remesh {

@@ -21,7 +21,7 @@
 #include <system_error>
 
 #include "agvd/core/error.h"
-#include "agvd/core/poller.h"
+#include "agvd/core/progress.h"
 #include "remesh/meshfile/numbers.h"
 
 namespace remesh {

@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-#include "agvd/core/poller.h"
+#include "agvd/core/progress.h"
 #include "remesh/names.h"
 
 namespace remesh {

@@ -5,9 +5,9 @@
 #include <limits>
 #include <string>
 
-#include "agvd/core/edge_key.h"
+#include "agvd/core/types.h"
 #include "agvd/core/error.h"
-#include "agvd/mesh/first_at_position.h"
+#include "agvd/mesh/any_mesh.h"
 
 namespace remesh {
 namespace {

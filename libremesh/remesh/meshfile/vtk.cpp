@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "agvd/core/error.h"
-#include "agvd/mesh/vertex_normals.h"
+#include "agvd/mesh/mesh.h"
 #include "remesh/meshfile/formats.h"
 #include "remesh/meshfile/numbers.h"
 #include "remesh/meshfile/text_scanner.h"

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "agvd/core/poller.h"
+#include "agvd/core/progress.h"
 #include "remesh/meshfile/numbers.h"
 #include "remesh/meshfile/read_mesh.h"
 #include "remesh/meshfile/vtk_data.h"

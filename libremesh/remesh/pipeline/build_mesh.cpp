@@ -8,7 +8,7 @@
 #include <span>
 #include <utility>
 
-#include "agvd/mesh/point_faces.h"
+#include "agvd/mesh/surface_points.h"
 #include "remesh/curves/glue.h"
 #include "remesh/dual/closed_ball.h"
 #include "remesh/pipeline/place_vertices.h"

@@ -9,7 +9,7 @@
 
 #include "agvd/core/progress.h"
 #include "agvd/mesh/closest_point.h"
-#include "agvd/mesh/mesh_view.h"
+#include "agvd/mesh/mesh.h"
 #include "remesh/names.h"
 
 namespace remesh::detail {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "agvd/mesh/distinct_points.h"
+#include "agvd/mesh/surface_points.h"
 #include "remesh/clean/carry.h"
 #include "remesh/curves/crease_chains.h"
 #include "remesh/pipeline/given_sites.h"

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "agvd/core/error.h"
-#include "agvd/mesh/distinct_points.h"
+#include "agvd/mesh/surface_points.h"
 #include "remesh/clean/carry.h"
 
 namespace remesh::detail {

@@ -5,8 +5,8 @@
 #include <numeric>
 #include <unordered_map>
 
-#include "agvd/core/edge_key.h"
-#include "agvd/core/position_hash.h"
+#include "agvd/core/types.h"
+#include "agvd/core/random.h"
 
 namespace remesh::detail {
 namespace {

@@ -2,7 +2,7 @@
 //! Joins a remeshed region and the faces that stayed.
 #pragma once
 
-#include "agvd/core/poller.h"
+#include "agvd/core/progress.h"
 #include "remesh/pipeline/cut_region.h"
 
 namespace remesh::detail {

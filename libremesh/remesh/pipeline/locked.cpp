@@ -5,9 +5,9 @@
 #include <unordered_map>
 #include <utility>
 
-#include "agvd/core/edge_key.h"
+#include "agvd/core/types.h"
 #include "agvd/core/error.h"
-#include "agvd/core/position_hash.h"
+#include "agvd/core/random.h"
 
 namespace remesh::detail {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "agvd/mesh/point_faces.h"
+#include "agvd/mesh/surface_points.h"
 #include "remesh/placement/placement.h"
 #include "remesh/sites/sampling.h"
 

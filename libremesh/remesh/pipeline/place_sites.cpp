@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "agvd/mesh/distinct_points.h"
+#include "agvd/mesh/surface_points.h"
 #include "remesh/pipeline/given_sites.h"
 #include "remesh/sites/relax_network.h"
 #include "remesh/sites/sampling.h"

@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "agvd/core/poller.h"
+#include "agvd/core/progress.h"
 #include "remesh/quality/evaluate.h"
 
 namespace remesh::detail {

@@ -7,7 +7,7 @@
 #include <span>
 
 #include "agvd/core/progress.h"
-#include "agvd/mesh/mesh_view.h"
+#include "agvd/mesh/mesh.h"
 #include "remesh/names.h"
 
 namespace remesh::detail {

@@ -2,7 +2,7 @@
 //! The whole pipeline: from a mesh to the dual of its geodesic Voronoi diagram.
 #pragma once
 
-#include "agvd/mesh/mesh_view.h"
+#include "agvd/mesh/mesh.h"
 #include "remesh/pipeline/remesh_options.h"
 #include "remesh/pipeline/remesh_result.h"
 

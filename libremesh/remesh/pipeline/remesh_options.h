@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "agvd/mesh/surface_point.h"
+#include "agvd/mesh/mesh.h"
 #include "agvd/propagation/propagate.h"
 #include "remesh/clean/clean_input.h"
 #include "remesh/curves/find_creases.h"

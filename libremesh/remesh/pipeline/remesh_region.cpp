@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "agvd/core/edge_key.h"
+#include "agvd/core/types.h"
 #include "agvd/core/error.h"
 #include "remesh/pipeline/glue_region.h"
 #include "remesh/pipeline/region_crossings.h"

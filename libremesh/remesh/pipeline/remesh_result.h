@@ -8,8 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "agvd/mesh/mesh_view.h"
-#include "agvd/mesh/surface_point.h"
+#include "agvd/mesh/mesh.h"
 #include "agvd/mesh/topology.h"
 #include "remesh/clean/clean_input.h"
 #include "remesh/dual/build_dual.h"

@@ -5,8 +5,8 @@
 #include <numbers>
 #include <string>
 
-#include "agvd/core/edge_key.h"
-#include "agvd/mesh/face_area.h"
+#include "agvd/core/types.h"
+#include "agvd/mesh/surface.h"
 #include "remesh/sites/network_plan.h"
 #include "remesh/sites/prepared_surface.h"
 #include "remesh/sites/shares.h"

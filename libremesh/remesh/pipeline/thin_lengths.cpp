@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "agvd/mesh/face_area.h"
+#include "agvd/mesh/surface.h"
 #include "remesh/sites/target_lengths.h"
 
 namespace remesh::detail {

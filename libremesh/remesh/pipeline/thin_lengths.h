@@ -2,7 +2,7 @@
 //! Longest edges on parts that are thinner than the spacing.
 #pragma once
 
-#include "agvd/core/poller.h"
+#include "agvd/core/progress.h"
 #include "agvd/intrinsic/intrinsic_triangulation.h"
 #include "remesh/names.h"
 

@@ -8,10 +8,9 @@
 #include <unordered_set>
 #include <utility>
 
-#include "agvd/core/position_hash.h"
+#include "agvd/core/random.h"
 #include "agvd/diagram/build_diagram.h"
-#include "agvd/mesh/distinct_points.h"
-#include "agvd/mesh/point_faces.h"
+#include "agvd/mesh/surface_points.h"
 #include "agvd/mesh/topology.h"
 #include "agvd/propagation/propagate.h"
 #include "remesh/curves/glue.h"
@@ -390,7 +389,7 @@ private:
         const auto first = static_cast<Index>(dual_.mesh.points.size());
         std::vector<SurfacePoint> points = points_of(sites_, thinned.sites);
         dual_.site.insert(dual_.site.end(), thinned.sites.begin(), thinned.sites.end());
-        ThinnedMesh part = input_.chain.empty() ? thin(surface_, thinned.faces, points)
+        SimplifiedMesh part = input_.chain.empty() ? simplify(surface_, thinned.faces, points)
                                                 : thin_patch(surface_, thinned.faces, points);
         if (input_.has_locked) free_rim(surface_, points, part);
         points.insert(points.end(), part.extra.begin(), part.extra.end());

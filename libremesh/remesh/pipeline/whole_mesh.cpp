@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <unordered_map>
 
-#include "agvd/core/position_hash.h"
+#include "agvd/core/random.h"
 #include "remesh/curves/glue.h"
 
 namespace remesh::detail {

@@ -16,8 +16,8 @@
 #include "agvd/core/groups.h"
 #include "agvd/core/parallel.h"
 #include "agvd/mesh/closest_point.h"
-#include "agvd/mesh/face_area.h"
-#include "agvd/mesh/point_faces.h"
+#include "agvd/mesh/surface.h"
+#include "agvd/mesh/surface_points.h"
 #include "remesh/placement/nearest_in_cells.h"
 
 namespace remesh {

@@ -8,7 +8,7 @@
 
 #include "agvd/core/groups.h"
 #include "agvd/core/parallel.h"
-#include "agvd/mesh/point_faces.h"
+#include "agvd/mesh/surface_points.h"
 #include "remesh/placement/shape_quality.h"
 #include "remesh/sites/cell_measures.h"
 #include "remesh/sites/size_field.h"

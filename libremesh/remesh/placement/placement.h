@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "agvd/core/progress.h"
-#include "agvd/mesh/surface_point.h"
-#include "remesh/curves/close_rim.h"
+#include "agvd/mesh/mesh.h"
+#include "remesh/curves/glue.h"
 #include "remesh/curves/curve_sites.h"
-#include "remesh/sites/cell_planes.h"
+#include "remesh/sites/cell_measures.h"
 #include "remesh/sites/prepared_surface.h"
 #include "remesh/sites/sample_sites.h"
 

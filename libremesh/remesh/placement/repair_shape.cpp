@@ -8,7 +8,7 @@
 #include <functional>
 #include <queue>
 
-#include "agvd/core/poller.h"
+#include "agvd/core/progress.h"
 #include "remesh/placement/shape_steps.h"
 
 namespace remesh {

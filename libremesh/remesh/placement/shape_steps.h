@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "agvd/core/poller.h"
+#include "agvd/core/progress.h"
 #include "remesh/placement/edited_mesh.h"
 #include "remesh/placement/shape_quality.h"
 

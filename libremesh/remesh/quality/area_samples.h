@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "agvd/core/random.h"
-#include "agvd/mesh/uniform_points.h"
+#include "agvd/mesh/surface_points.h"
 #include "remesh/names.h"
 
 namespace remesh::detail {

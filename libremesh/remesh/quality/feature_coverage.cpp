@@ -9,8 +9,8 @@
 #include <numbers>
 #include <unordered_map>
 
-#include "agvd/core/position_hash.h"
-#include "agvd/mesh/edge_sides.h"
+#include "agvd/core/random.h"
+#include "agvd/mesh/any_mesh.h"
 #include "agvd/mesh/scale.h"
 #include "remesh/quality/point_distances.h"
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "agvd/core/poller.h"
+#include "agvd/core/progress.h"
 #include "agvd/mesh/closest_point.h"
 #include "agvd/mesh/scale.h"
 #include "remesh/clean/point_grid.h"

@@ -6,8 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "agvd/mesh/edge_sides.h"
-#include "remesh/placement/placement.h"
+#include "agvd/mesh/any_mesh.h"
 #include "remesh/placement/placement.h"
 
 namespace remesh {

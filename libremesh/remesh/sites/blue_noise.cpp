@@ -10,10 +10,9 @@
 #include <unordered_set>
 
 #include "agvd/core/parallel.h"
-#include "agvd/core/position_hash.h"
 #include "agvd/core/random.h"
-#include "agvd/mesh/face_area.h"
-#include "agvd/mesh/uniform_points.h"
+#include "agvd/mesh/surface.h"
+#include "agvd/mesh/surface_points.h"
 #include "remesh/sites/sampling.h"
 #include "remesh/sites/size_field.h"
 #include "remesh/sites/walk.h"

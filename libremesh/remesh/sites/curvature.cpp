@@ -7,9 +7,9 @@
 #include <functional>
 #include <limits>
 
-#include "agvd/core/edge_key.h"
-#include "agvd/mesh/face_area.h"
-#include "agvd/mesh/uniform_points.h"
+#include "agvd/core/types.h"
+#include "agvd/mesh/surface.h"
+#include "agvd/mesh/surface_points.h"
 #include "remesh/sites/target_lengths.h"
 
 namespace remesh {

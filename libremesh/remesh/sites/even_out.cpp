@@ -7,11 +7,9 @@
 #include <numeric>
 #include <unordered_set>
 
-#include "agvd/core/position_hash.h"
 #include "agvd/core/random.h"
-#include "agvd/mesh/face_area.h"
-#include "agvd/mesh/point_faces.h"
-#include "agvd/mesh/uniform_points.h"
+#include "agvd/mesh/surface.h"
+#include "agvd/mesh/surface_points.h"
 #include "remesh/sites/levels.h"
 #include "remesh/sites/prepared_surface.h"
 #include "remesh/sites/sampling.h"

@@ -5,10 +5,9 @@
 #include <functional>
 #include <unordered_set>
 
-#include "agvd/core/position_hash.h"
 #include "agvd/core/random.h"
 #include "agvd/intrinsic/intrinsic_triangulation.h"
-#include "agvd/mesh/point_faces.h"
+#include "agvd/mesh/surface_points.h"
 #include "agvd/propagation/distance_bounds.h"
 #include "agvd/propagation/propagate.h"
 #include "remesh/sites/sampling.h"

@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "agvd/mesh/closest_point.h"
-#include "agvd/mesh/distinct_points.h"
-#include "agvd/mesh/one_ring.h"
+#include "agvd/mesh/surface_points.h"
+#include "agvd/mesh/surface.h"
 #include "remesh/sites/network_plan.h"
 
 namespace remesh {

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "agvd/core/poller.h"
+#include "agvd/core/progress.h"
 #include "agvd/diagram/build_diagram.h"
 #include "agvd/propagation/propagate.h"
 #include "remesh/curves/glue.h"

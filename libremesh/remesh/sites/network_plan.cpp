@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "agvd/mesh/face_area.h"
+#include "agvd/mesh/surface.h"
 #include "remesh/curves/curve_sites.h"
 #include "remesh/sites/shares.h"
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "agvd/core/poller.h"
-#include "agvd/mesh/face_area.h"
+#include "agvd/core/progress.h"
+#include "agvd/mesh/surface.h"
 #include "remesh/sites/size_field.h"
 
 namespace remesh {

@@ -7,7 +7,7 @@
 #include <optional>
 #include <span>
 
-#include "agvd/intrinsic/face_pieces.h"
+#include "agvd/intrinsic/intrinsic_triangulation.h"
 #include "agvd/propagation/propagate.h"
 #include "remesh/names.h"
 

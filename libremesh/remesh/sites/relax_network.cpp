@@ -11,7 +11,7 @@
 #include <set>
 
 #include "agvd/mesh/closest_point.h"
-#include "agvd/mesh/components.h"
+#include "agvd/mesh/topology.h"
 #include "remesh/curves/glue.h"
 #include "remesh/dual/reduce_vertices.h"
 #include "remesh/sites/levels.h"
@@ -237,7 +237,7 @@ private:
             points.push_back(surface_.base.to_intrinsic(sites[i]));
             number.push_back(i);
         }
-        ThinnedMesh thinned = thin_patch(surface_.base.surface(), faces_[patch], points);
+        SimplifiedMesh thinned = thin_patch(surface_.base.surface(), faces_[patch], points);
         if (!thinned.extra.empty()) return {};
         for (Triangle& t : thinned.triangles) {
             for (Index& i : t) i = number[i];

@@ -9,9 +9,9 @@
 #include <string>
 
 #include "agvd/core/parallel.h"
-#include "agvd/core/poller.h"
-#include "agvd/mesh/check_sites.h"
-#include "agvd/mesh/components.h"
+#include "agvd/core/progress.h"
+#include "agvd/mesh/surface_points.h"
+#include "agvd/mesh/topology.h"
 #include "remesh/sites/levels.h"
 #include "remesh/sites/site_dual.h"
 #include "remesh/sites/size_field.h"

@@ -9,7 +9,7 @@
 #include <numbers>
 
 #include "agvd/core/parallel.h"
-#include "agvd/mesh/point_faces.h"
+#include "agvd/mesh/surface_points.h"
 #include "remesh/sites/walk.h"
 
 namespace remesh::detail {

@@ -7,7 +7,7 @@
 
 #include "agvd/core/progress.h"
 #include "agvd/mesh/surface.h"
-#include "agvd/mesh/surface_point.h"
+#include "agvd/mesh/mesh.h"
 #include "remesh/names.h"
 
 namespace remesh {

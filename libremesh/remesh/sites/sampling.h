@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "agvd/mesh/components.h"
+#include "agvd/mesh/topology.h"
 #include "agvd/propagation/distance_bounds.h"
 #include "remesh/curves/curve_sites.h"
 #include "remesh/sites/sample_sites.h"

@@ -5,7 +5,6 @@
 #include <span>
 #include <vector>
 
-#include "agvd/mesh/components.h"
 #include "agvd/mesh/topology.h"
 #include "remesh/sites/size_field.h"
 

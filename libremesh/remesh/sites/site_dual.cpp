@@ -8,8 +8,8 @@
 
 #include <algorithm>
 
-#include "agvd/core/edge_key.h"
-#include "agvd/mesh/point_faces.h"
+#include "agvd/core/types.h"
+#include "agvd/mesh/surface_points.h"
 #include "remesh/sites/cell_measures.h"
 #include "remesh/sites/walk.h"
 

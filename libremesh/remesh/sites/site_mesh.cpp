@@ -12,8 +12,8 @@
 #include <cmath>
 #include <functional>
 
-#include "agvd/core/edge_key.h"
-#include "agvd/mesh/are_joined.h"
+#include "agvd/core/types.h"
+#include "agvd/mesh/any_mesh.h"
 
 namespace remesh::detail {
 namespace {

@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "agvd/core/half_edge.h"
-#include "agvd/core/poller.h"
-#include "agvd/mesh/surface_point.h"
+#include "agvd/core/types.h"
+#include "agvd/core/progress.h"
+#include "agvd/mesh/mesh.h"
 #include "remesh/names.h"
 
 namespace remesh::detail {

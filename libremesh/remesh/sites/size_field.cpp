@@ -4,8 +4,8 @@
 #include <limits>
 #include <utility>
 
-#include "agvd/mesh/face_area.h"
-#include "agvd/mesh/point_faces.h"
+#include "agvd/mesh/surface.h"
+#include "agvd/mesh/surface_points.h"
 #include "remesh/sites/prepared_surface.h"
 
 namespace remesh {

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "agvd/mesh/face_area.h"
+#include "agvd/mesh/surface.h"
 #include "remesh/sites/size_field.h"
 
 namespace remesh {

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "agvd/core/poller.h"
+#include "agvd/core/progress.h"
 #include "agvd/intrinsic/intrinsic_triangulation.h"
-#include "agvd/mesh/one_ring.h"
+#include "agvd/mesh/surface.h"
 #include "remesh/sites/sizing.h"
 
 namespace remesh {

@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-#include "agvd/mesh/first_at_position.h"
+#include "agvd/mesh/any_mesh.h"
 
 namespace remesh::detail {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "agvd/core/groups.h"
-#include "agvd/core/poller.h"
+#include "agvd/core/progress.h"
 #include "agvd/mesh/closest_point.h"
 #include "remesh/meshfile/read_mesh.h"
 

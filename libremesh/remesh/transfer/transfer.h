@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "agvd/core/progress.h"
-#include "agvd/mesh/surface_point.h"
+#include "agvd/mesh/mesh.h"
 #include "remesh/meshfile/read_mesh.h"
 
 namespace remesh {

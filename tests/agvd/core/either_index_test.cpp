@@ -1,4 +1,4 @@
-#include "agvd/core/either_index.h"
+#include "agvd/core/types.h"
 
 #include <gtest/gtest.h>
 

@@ -11,7 +11,7 @@
 #include <numbers>
 
 #include "agvd/diagram/build_diagram.h"
-#include "agvd/mesh/point_faces.h"
+#include "agvd/mesh/surface_points.h"
 #include "agvd/propagation/propagate.h"
 #include "support/checks.h"
 #include "support/points.h"

@@ -3,8 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "agvd/diagram/diagram.h"
-#include "agvd/mesh/point_faces.h"
-#include "agvd/mesh/uniform_points.h"
+#include "agvd/mesh/surface_points.h"
 #include "agvd/propagation/propagate.h"
 #include "support/shapes.h"
 

@@ -1,11 +1,11 @@
-#include "agvd/intrinsic/face_pieces.h"
+#include "agvd/intrinsic/intrinsic_triangulation.h"
 
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
 
-#include "agvd/mesh/face_area.h"
+#include "agvd/mesh/surface.h"
 #include "support/shapes.h"
 
 using namespace agvd;
@@ -84,7 +84,7 @@ TEST(FacePieces, BentFacesHaveAPieceForEachFaceOfTheInputInThem) {
     const TriangleMesh bent{{{0, 0, 0}, {4, 0, 0}, {2, 1, 0}, {2, 0, 1}}, {{0, 1, 2}, {1, 0, 3}}};
     const Surface surface = build_surface(bent.view());
     const IntrinsicTriangulation base(surface);
-    ASSERT_EQ(base.counts().flips, 1u);
+    ASSERT_TRUE(base.is_changed(0) && base.is_changed(1));
     const FacePieces pieces(base, 1e9);
     for (Index f = 0; f < 2; ++f) {
         std::vector<Vec3> normals;
@@ -109,7 +109,6 @@ TEST(FacePieces, FacesThatAreFlatInSpaceAreOnePiece) {
     const Surface surface = build_surface(strip.view());
     const IntrinsicTriangulation base(surface, {.max_length = 0.2});
     const FacePieces pieces(base, 1e-6);
-    ASSERT_GT(base.counts().flips, 10u);
     for (Index f = 0; f < base.surface().num_faces(); ++f) {
         Index count = 0;
         pieces.for_each(f, [&](const SurfacePiece& piece) {

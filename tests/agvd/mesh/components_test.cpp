@@ -1,11 +1,10 @@
-#include "agvd/mesh/components.h"
+#include "agvd/mesh/topology.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <random>
 
-#include "agvd/mesh/topology.h"
 #include "support/shapes.h"
 
 using namespace agvd;
@@ -44,59 +43,52 @@ FaceLabels flooded(const Surface& surface) {
 
 }  // namespace
 
-TEST(Components, AreLabelledByLowestFaceForAnyNumberOfThreads) {
+TEST(Components, AreLabelledByLowestFace) {
     for (const TriangleMesh& mesh :
          {shuffled_parts(), shapes::torus(120, 120), shapes::tetrahedron()}) {
         const Surface surface = build_surface(mesh.view());
         const FaceLabels expected = flooded(surface);
-        for (const int num_threads : {1, 2, 8}) {
-            Poller poller;
-            const FaceLabels labels = label_components(surface.twin, num_threads, poller);
-            EXPECT_EQ(labels.count, expected.count);
-            EXPECT_EQ(labels.of_face, expected.of_face);
-        }
+        const FaceLabels labels = label_components(surface.twin);
+        EXPECT_EQ(labels.count, expected.count);
+        EXPECT_EQ(labels.of_face, expected.of_face);
     }
 }
 
-TEST(Components, AreMeasuredOneByOneForAnyNumberOfThreads) {
+TEST(Components, AreMeasuredOneByOne) {
     const Surface surface = build_surface(shuffled_parts().view());
     const FaceLabels labels = flooded(surface);
-    for (const int num_threads : {1, 2, 8}) {
-        const std::vector<Component> components = find_components(surface, num_threads);
-        ASSERT_EQ(components.size(), 3u);
-        std::vector<int> euler, loops;
-        for (Index i = 0; i < 3; ++i) {
-            const Component& c = components[i];
-            euler.push_back(c.euler);
-            loops.push_back(c.boundary_loops);
-            EXPECT_TRUE(std::is_sorted(c.faces.begin(), c.faces.end()));
-            double area = 0;
-            for (std::size_t k = 0; k < c.faces.size(); ++k) {
-                EXPECT_EQ(labels.of_face[c.faces[k]], i);
-                area += surface.length_of(3 * c.faces[k]) * surface.apex_of(3 * c.faces[k]).y() / 2;
-                ASSERT_EQ(c.area_up_to[k], area);
-            }
+    const std::vector<Component> components = find_components(surface);
+    ASSERT_EQ(components.size(), 3u);
+    std::vector<int> euler, loops;
+    for (Index i = 0; i < 3; ++i) {
+        const Component& c = components[i];
+        euler.push_back(c.euler);
+        loops.push_back(c.boundary_loops);
+        EXPECT_TRUE(std::is_sorted(c.faces.begin(), c.faces.end()));
+        double area = 0;
+        for (std::size_t k = 0; k < c.faces.size(); ++k) {
+            EXPECT_EQ(labels.of_face[c.faces[k]], i);
+            area += surface.length_of(3 * c.faces[k]) * surface.apex_of(3 * c.faces[k]).y() / 2;
+            ASSERT_EQ(c.area_up_to[k], area);
         }
-        std::sort(euler.begin(), euler.end());
-        std::sort(loops.begin(), loops.end());
-        EXPECT_EQ(euler, (std::vector{0, 0, 1}));
-        EXPECT_EQ(loops, (std::vector{0, 1, 2}));
     }
+    std::sort(euler.begin(), euler.end());
+    std::sort(loops.begin(), loops.end());
+    EXPECT_EQ(euler, (std::vector{0, 0, 1}));
+    EXPECT_EQ(loops, (std::vector{0, 1, 2}));
 }
 
-TEST(Components, TopologyIsTheSameForAnyNumberOfThreads) {
+TEST(Components, TopologyIsTheSameWithAndWithoutConnectivity) {
     const TriangleMesh mesh = shuffled_parts();
-    const Connectivity connectivity = *find_connectivity(mesh.view(), 1);
+    const Connectivity connectivity = *find_connectivity(mesh.view());
     const agvd::Topology expected = agvd::analyze_topology(mesh.view());
-    for (const int num_threads : {1, 2, 8}) {
-        const agvd::Topology found = agvd::analyze_topology(mesh.view(), connectivity, num_threads);
-        ASSERT_EQ(found.components.size(), expected.components.size());
-        EXPECT_EQ(found.face_component, expected.face_component);
-        for (std::size_t i = 0; i < found.components.size(); ++i) {
-            EXPECT_EQ(found.components[i].euler, expected.components[i].euler);
-            EXPECT_EQ(found.components[i].faces, expected.components[i].faces);
-            EXPECT_EQ(found.components[i].area, expected.components[i].area);
-            EXPECT_EQ(found.components[i].boundary_loops, expected.components[i].boundary_loops);
-        }
+    const agvd::Topology found = agvd::analyze_topology(mesh.view(), connectivity);
+    ASSERT_EQ(found.components.size(), expected.components.size());
+    EXPECT_EQ(found.face_component, expected.face_component);
+    for (std::size_t i = 0; i < found.components.size(); ++i) {
+        EXPECT_EQ(found.components[i].euler, expected.components[i].euler);
+        EXPECT_EQ(found.components[i].faces, expected.components[i].faces);
+        EXPECT_EQ(found.components[i].area, expected.components[i].area);
+        EXPECT_EQ(found.components[i].boundary_loops, expected.components[i].boundary_loops);
     }
 }

@@ -1,10 +1,9 @@
-#include "agvd/mesh/connectivity.h"
+#include "agvd/mesh/surface.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "agvd/mesh/surface.h"
 #include "support/checks.h"
 #include "support/shapes.h"
 
@@ -24,18 +23,14 @@ TriangleMesh umbrella(Index num_faces) {
     return mesh;
 }
 
-bool is_found(const TriangleMesh& mesh) {
-    const bool found = find_connectivity(mesh.view(), 1).has_value();
-    EXPECT_EQ(find_connectivity(mesh.view(), 2).has_value(), found);
-    return found;
-}
+bool is_found(const TriangleMesh& mesh) { return find_connectivity(mesh.view()).has_value(); }
 
 }  // namespace
 
 TEST(Connectivity, TwinsAreTheHalfEdgesThatRunBack) {
     for (const TriangleMesh& mesh :
          {shapes::sphere(3), shapes::torus(9, 7), shapes::tube(12, 5), shapes::grid(6)}) {
-        const auto found = find_connectivity(mesh.view(), 1);
+        const auto found = find_connectivity(mesh.view());
         ASSERT_TRUE(found);
         const auto end = [&](Index h) { return mesh.triangles[h / 3][next_half_edge(h) % 3]; };
         const auto tail = [&](Index h) { return mesh.triangles[h / 3][h % 3]; };
@@ -58,21 +53,10 @@ TEST(Connectivity, TwinsAreTheHalfEdgesThatRunBack) {
     }
 }
 
-TEST(Connectivity, IsTheSameForAnyNumberOfThreads) {
-    // Several chunks, and vertices far apart in the list.
-    const TriangleMesh mesh = shapes::subdivide(shapes::join(shapes::sphere(5), shapes::grid(70)));
-    const auto alone = find_connectivity(mesh.view(), 1);
-    for (const int threads : {2, 8}) {
-        const auto shared = find_connectivity(mesh.view(), threads);
-        EXPECT_EQ(shared->twin, alone->twin);
-        EXPECT_EQ(shared->outgoing, alone->outgoing);
-    }
-}
-
 TEST(Connectivity, IsolatedVerticesHaveNoHalfEdge) {
     TriangleMesh mesh = shapes::tetrahedron();
     mesh.positions.emplace_back(5, 5, 5);
-    EXPECT_EQ(find_connectivity(mesh.view(), 1)->outgoing[4], no_index);
+    EXPECT_EQ(find_connectivity(mesh.view())->outgoing[4], no_index);
 }
 
 TEST(Connectivity, HubsOfThousandsOfFacesAreFine) {
@@ -115,8 +99,7 @@ TEST(Connectivity, GivesTheSurfaceThatTheMeshAloneGives) {
                                      shapes::jitter(shapes::tube(40, 20), 0.01, 5)}) {
         const Surface expected = build_surface(mesh.view(), 1);
         for (const int threads : {1, 2, 8}) {
-            const Surface s =
-                build_surface(mesh, *find_connectivity(mesh.view(), threads), threads);
+            const Surface s = build_surface(mesh, *find_connectivity(mesh.view()), threads);
             checks::expect_same(s, expected);
         }
     }

@@ -62,7 +62,7 @@ TEST(Topology, IsTheSameWhereConnectivityIsKnown) {
                      shapes::join(shapes::grid(4), shapes::cube()));
     for (const agvd::TriangleMesh& mesh : {shapes::sphere(2), shapes::torus(9, 7), mixed}) {
         const auto expected = analyze_topology(mesh.view());
-        const auto found = analyze_topology(mesh.view(), *agvd::find_connectivity(mesh.view(), 1));
+        const auto found = analyze_topology(mesh.view(), *agvd::find_connectivity(mesh.view()));
         EXPECT_TRUE(found.is_manifold && found.is_oriented);
         EXPECT_EQ(found.face_component, expected.face_component);
         ASSERT_EQ(found.components.size(), expected.components.size());

@@ -6,8 +6,7 @@
 #include <numbers>
 
 #include "agvd/intrinsic/intrinsic_triangulation.h"
-#include "agvd/mesh/point_faces.h"
-#include "agvd/mesh/uniform_points.h"
+#include "agvd/mesh/surface_points.h"
 #include "agvd/paths/face_strip.h"
 #include "agvd/propagation/propagate.h"
 #include "support/delta_shapes.h"

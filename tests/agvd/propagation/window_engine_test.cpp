@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "agvd/core/error.h"
-#include "agvd/mesh/point_faces.h"
+#include "agvd/mesh/surface_points.h"
 #include "support/checks.h"
 #include "support/dirty_shapes.h"
 #include "support/points.h"

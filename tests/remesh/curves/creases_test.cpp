@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "agvd/mesh/face_area.h"
+#include "agvd/mesh/surface.h"
 #include "remesh/clean/clean_input.h"
 #include "remesh/curves/crease_chains.h"
 #include "remesh/curves/find_creases.h"

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <set>
 
-#include "agvd/mesh/connectivity.h"
+#include "agvd/mesh/surface.h"
 #include "agvd/mesh/topology.h"
 #include "remesh/curves/curve_sites.h"
 #include "support/flag_edges.h"

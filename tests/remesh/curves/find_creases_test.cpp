@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "agvd/core/error.h"
-#include "agvd/mesh/face_area.h"
+#include "agvd/mesh/surface.h"
 #include "remesh/clean/clean_input.h"
 #include "remesh/curves/crease_chains.h"
 #include "support/dice.h"

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <set>
 
-#include "agvd/mesh/point_faces.h"
+#include "agvd/mesh/surface_points.h"
 #include "agvd/mesh/topology.h"
 #include "remesh/dual/reduce_vertices.h"
 #include "support/shapes.h"
@@ -96,7 +96,7 @@ TEST(ThinPatch, HasTheVerticesOfItsSitesOnly) {
         points.push_back(agvd::point_at(surface, surface.tail(h)));
     }
     ASSERT_EQ(points.size(), 13u);
-    const agvd::ThinnedMesh mesh = remesh::thin_patch(surface, faces, points);
+    const agvd::SimplifiedMesh mesh = remesh::thin_patch(surface, faces, points);
     EXPECT_TRUE(mesh.extra.empty());
     agvd::TriangleMesh result{{}, mesh.triangles};
     for (const auto& point : points) {
@@ -118,8 +118,8 @@ TEST(ThinPatch, VerticesThatThinningLeavesGoByCollapses) {
     for (const Index v : {6u, 12u, 20u, 26u, 59u, 71u, 80u, 91u}) {
         points.push_back(agvd::point_at(surface, v));
     }
-    ASSERT_EQ(agvd::thin(surface, faces, points).extra.size(), 1u);
-    const agvd::ThinnedMesh mesh = remesh::thin_patch(surface, faces, points);
+    ASSERT_EQ(agvd::simplify(surface, faces, points).extra.size(), 1u);
+    const agvd::SimplifiedMesh mesh = remesh::thin_patch(surface, faces, points);
     EXPECT_TRUE(mesh.extra.empty());
     EXPECT_EQ(mesh.triangles.size(), 16u);  // Twice the vertices.
     agvd::TriangleMesh result{{}, mesh.triangles};

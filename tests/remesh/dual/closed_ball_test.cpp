@@ -7,8 +7,7 @@
 #include <set>
 
 #include "agvd/diagram/build_diagram.h"
-#include "agvd/mesh/point_faces.h"
-#include "agvd/mesh/uniform_points.h"
+#include "agvd/mesh/surface_points.h"
 #include "agvd/propagation/propagate.h"
 #include "support/shapes.h"
 

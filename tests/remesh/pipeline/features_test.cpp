@@ -10,7 +10,7 @@
 #include <Eigen/Geometry>
 
 #include "agvd/mesh/closest_point.h"
-#include "agvd/mesh/point_faces.h"
+#include "agvd/mesh/surface_points.h"
 #include "remesh/meshfile/read_mesh.h"
 #include "remesh/pipeline/remesh.h"
 #include "remesh/placement/placement.h"

@@ -5,7 +5,7 @@
 #include <map>
 
 #include "agvd/diagram/build_diagram.h"
-#include "agvd/intrinsic/face_pieces.h"
+#include "agvd/intrinsic/intrinsic_triangulation.h"
 #include "agvd/propagation/propagate.h"
 #include "paper/compare_diagrams.h"
 #include "remesh/curves/find_creases.h"

@@ -8,7 +8,7 @@
 
 #include "agvd/diagram/build_diagram.h"
 #include "agvd/mesh/closest_point.h"
-#include "agvd/mesh/point_faces.h"
+#include "agvd/mesh/surface_points.h"
 #include "agvd/propagation/propagate.h"
 #include "remesh/dual/build_dual.h"
 #include "remesh/placement/placement.h"

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "agvd/mesh/point_faces.h"
+#include "agvd/mesh/surface_points.h"
 #include "support/shapes.h"
 
 using agvd::Index;

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "agvd/mesh/point_faces.h"
+#include "agvd/mesh/surface_points.h"
 #include "agvd/mesh/topology.h"
 #include "remesh/sites/relax_network.h"
 #include "remesh/sites/sample_sites.h"

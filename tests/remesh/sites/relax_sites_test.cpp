@@ -11,7 +11,7 @@
 
 #include "agvd/core/random.h"
 #include "agvd/diagram/build_diagram.h"
-#include "agvd/mesh/point_faces.h"
+#include "agvd/mesh/surface_points.h"
 #include "agvd/mesh/topology.h"
 #include "agvd/propagation/propagate.h"
 #include "remesh/dual/closed_ball.h"

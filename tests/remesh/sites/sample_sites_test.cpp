@@ -7,8 +7,8 @@
 #include <numbers>
 #include <set>
 
-#include "agvd/mesh/face_area.h"
-#include "agvd/mesh/point_faces.h"
+#include "agvd/mesh/surface.h"
+#include "agvd/mesh/surface_points.h"
 #include "agvd/propagation/propagate.h"
 #include "remesh/sites/sampling.h"
 #include "remesh/sites/shares.h"

@@ -4,8 +4,7 @@
 
 #include <algorithm>
 
-#include "agvd/mesh/point_faces.h"
-#include "agvd/mesh/uniform_points.h"
+#include "agvd/mesh/surface_points.h"
 #include "support/shapes.h"
 
 using agvd::Index;

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "agvd/intrinsic/intrinsic_triangulation.h"
-#include "agvd/mesh/face_area.h"
-#include "agvd/mesh/point_faces.h"
+#include "agvd/mesh/surface.h"
+#include "agvd/mesh/surface_points.h"
 #include "agvd/propagation/propagate.h"
 #include "remesh/sites/size_field.h"
 #include "support/shapes.h"

@@ -11,7 +11,7 @@
 #include "agvd/core/random.h"
 #include "agvd/mesh/closest_point.h"
 #include "agvd/mesh/surface.h"
-#include "agvd/mesh/uniform_points.h"
+#include "agvd/mesh/surface_points.h"
 #include "remesh/pipeline/remesh.h"
 #include "remesh/transfer/transfer.h"
 #include "support/shapes.h"

@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "agvd/core/error.h"
-#include "agvd/mesh/vertex_normals.h"
+#include "agvd/mesh/mesh.h"
 #include "remesh/meshfile/read_mesh.h"
 #include "remesh/pipeline/remesh.h"
 #include "support/files.h"

@@ -10,8 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "agvd/mesh/mesh_view.h"
-#include "agvd/mesh/surface_point.h"
+#include "agvd/mesh/mesh.h"
 #include "remesh/meshfile/read_mesh.h"
 
 namespace python {

@@ -1,7 +1,7 @@
 // Meshes and their values from files and to files; polygons as triangles.
 #include <pybind11/stl.h>
 
-#include "agvd/core/poller.h"
+#include "agvd/core/progress.h"
 #include "binding/arrays.h"
 #include "binding/bindings.h"
 #include "binding/choose.h"

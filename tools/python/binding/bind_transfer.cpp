@@ -1,7 +1,7 @@
 // Values at the vertices and faces of an input for those of its remesh.
 #include <pybind11/stl.h>
 
-#include "agvd/mesh/vertex_normals.h"
+#include "agvd/mesh/mesh.h"
 #include "binding/arrays.h"
 #include "binding/bindings.h"
 #include "remesh/transfer/transfer.h"

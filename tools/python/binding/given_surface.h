@@ -3,7 +3,7 @@
 #pragma once
 
 #include "agvd/mesh/surface.h"
-#include "agvd/mesh/surface_point.h"
+#include "agvd/mesh/mesh.h"
 #include "binding/python_progress.h"
 #include "remesh/clean/clean_input.h"
 

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "agvd/mesh/one_ring.h"
+#include "agvd/mesh/surface.h"
 #include "agvd/propagation/steiner/steiner_front.h"
 
 namespace agvd {
@@ -121,7 +121,7 @@ private:
 };
 
 // Distances are sums of some thousand lengths in double.
-constexpr double distance_rounding = 1e-12;
+constexpr double bound_rounding = 1e-12;
 
 constexpr int max_rounds = 20;
 
@@ -137,7 +137,7 @@ struct VertexErrors {
         worst = 0;
         for (Index v = 0; v < exact.size(); ++v) {
             const bool is_measured = exact[v] > 0 && exact[v] < infinity;
-            now[v] = distance_rounding;
+            now[v] = bound_rounding;
             if (is_measured) now[v] += std::max(vertices[v].distance / exact[v] - 1, 0.0);
             if (now[v] > now[worst]) worst = v;
         }

@@ -17,7 +17,7 @@
 
 #include <algorithm>
 
-#include "agvd/mesh/point_faces.h"
+#include "agvd/mesh/surface_points.h"
 
 namespace agvd {
 namespace {

@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "agvd/core/poller.h"
+#include "agvd/core/progress.h"
 #include "agvd/propagation/bucket_ring.h"
 #include "agvd/propagation/propagate.h"
 #include "agvd/propagation/site_placement.h"

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "agvd/core/parallel.h"
-#include "agvd/mesh/point_faces.h"
+#include "agvd/mesh/surface_points.h"
 
 namespace agvd {
 namespace {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "agvd/core/poller.h"
+#include "agvd/core/progress.h"
 #include "agvd/propagation/propagate.h"
 #include "agvd/propagation/site_placement.h"
 #include "agvd/propagation/window/window.h"

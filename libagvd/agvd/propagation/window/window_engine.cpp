@@ -16,7 +16,7 @@
 #include <utility>
 
 #include "agvd/core/parallel.h"
-#include "agvd/mesh/one_ring.h"
+#include "agvd/mesh/surface.h"
 #include "agvd/propagation/distance_bounds.h"
 #include "agvd/propagation/window/mixed_faces.h"
 #include "agvd/propagation/window/window_front.h"

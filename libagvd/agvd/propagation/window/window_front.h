@@ -12,9 +12,9 @@
 #include <utility>
 #include <vector>
 
-#include "agvd/core/poller.h"
-#include "agvd/core/run_array.h"
-#include "agvd/mesh/surface_point.h"
+#include "agvd/core/progress.h"
+#include "agvd/core/reused_memory.h"
+#include "agvd/mesh/mesh.h"
 #include "agvd/propagation/window/window.h"
 #include "agvd/propagation/window/window_queue.h"
 
