@@ -87,12 +87,15 @@ private:
             return least;
         };
         const SiteId site = label(h), other = label(Surface::next(h));
+        const auto gap = [&](double at) { return distance(site, at) - distance(other, at); };
         double low = 0, high = 1;
-        while (high - low > 1e-9) {
+        while (high - low > 1e-4) {
             const double middle = (low + high) / 2;
-            (distance(site, middle) < distance(other, middle) ? low : high) = middle;
+            (gap(middle) < 0 ? low : high) = middle;
         }
-        return place(known, point_on(h, low), distance(site, low));
+        const double at_low = gap(low), step = at_low / (at_low - gap(high));
+        const double at = low + (high - low) * (step >= 0 && step <= 1 ? step : 0.5);
+        return place(known, point_on(h, at), distance(site, at));
     }
 
     // Edges are added so that their ends are counter-clockwise at each vertex.

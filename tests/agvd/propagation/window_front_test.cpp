@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "agvd/propagation/distance_bounds.h"
-#include "agvd/propagation/layout.h"
 #include "agvd/propagation/engines.h"
+#include "agvd/propagation/layout.h"
 #include "support/points.h"
 #include "support/random_meshes.h"
 #include "support/shapes.h"
