@@ -81,14 +81,6 @@ double mean_spacing(const Surface& surface, std::size_t num_sites) {
     return std::sqrt(area / static_cast<double>(std::max<std::size_t>(num_sites, 1)));
 }
 
-Index face_of_input(const IntrinsicTriangulation& base, Index face) {
-    if (!base.is_changed(face)) return face;
-    const Surface& input = base.input();
-    const Index corner = base.surface().mesh.triangles[face][0];
-    return corner < input.num_vertices() ? Surface::face(input.outgoing[corner])
-                                         : base.place_of_added(corner).face.value();
-}
-
 std::vector<Index> parts_of_base(const IntrinsicTriangulation& base, std::span<const Index> of_face,
                                  const Progress& progress) {
     Poller poller(progress);

@@ -50,9 +50,6 @@ private:
 //! The square root of the area for each site, mesh units.
 [[nodiscard]] double mean_spacing(const Surface& surface, std::size_t num_sites);
 
-//! A face of the input in the same patch as a face of the base.
-[[nodiscard]] Index face_of_input(const IntrinsicTriangulation& base, Index face);
-
 //! Transfers numbers of the input's components to the base's faces.
 //!
 //! \param of_face  #F of the input: equal on all faces of a component.

@@ -1,6 +1,6 @@
 //! \file
 //! The parts of sampling: sites along boundary loops, and two ways to place points inside a
-//! component (sample_sites.cpp chooses).
+//! component (sampling.cpp chooses).
 #pragma once
 
 #include <algorithm>

@@ -19,6 +19,14 @@ double face_in_lengths(const Surface& surface, Index face, std::span<const doubl
 
 }  // namespace
 
+Index face_of_input(const IntrinsicTriangulation& base, Index face) {
+    if (!base.is_changed(face)) return face;
+    const Surface& input = base.input();
+    const Index corner = base.surface().mesh.triangles[face][0];
+    return corner < input.num_vertices() ? Surface::face(input.outgoing[corner])
+                                         : base.place_of_added(corner).face.value();
+}
+
 SizeField::SizeField(std::shared_ptr<const IntrinsicTriangulation> base, std::vector<double> length)
     : base_(std::move(base)),
       length_(std::move(length)),

@@ -41,6 +41,9 @@ private:
     double sum_ = 0, least_of_all_ = 0;
 };
 
+//! A face of the input in the same patch as a face of the base.
+[[nodiscard]] Index face_of_input(const IntrinsicTriangulation& base, Index face);
+
 //! The lengths at many points. Null: empty.
 [[nodiscard]] std::vector<double> lengths_at(const SizeField* sizes,
                                              std::span<const SurfacePoint> points);

@@ -1,7 +1,7 @@
 // Shares the sites among components by area and boundary length (shares.h). For each component
 // places sites on the boundary loops, then inner sites: random ones (scatter), blue noise
 // (eliminate) or farthest points.
-#include "remesh/sites/sample_sites.h"
+#include "remesh/sites/sampling.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,6 @@
 
 #include "agvd/core/error.h"
 #include "agvd/core/parallel.h"
-#include "remesh/sites/sampling.h"
 #include "remesh/sites/shares.h"
 
 namespace remesh {
