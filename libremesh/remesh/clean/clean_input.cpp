@@ -54,7 +54,7 @@ std::optional<CleanResult> take_clean(const MeshView& mesh, const CleanOptions& 
     const Progress& progress = options.progress;
     Poller poller(progress);
     Ticker ticker(poller);
-    std::optional<Connectivity> found = find_connectivity(mesh, num_threads, progress);
+    std::optional<Connectivity> found = find_connectivity(mesh, progress);
     if (!found || found->outgoing.empty()) return std::nullopt;
     const std::vector<Index>& twin = found->twin;
     const std::vector<Index>& outgoing = found->outgoing;

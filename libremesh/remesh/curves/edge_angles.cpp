@@ -6,6 +6,8 @@
 #include <cmath>
 #include <queue>
 
+#include <utility>
+
 #include "agvd/core/parallel.h"
 #include "agvd/core/union_find.h"
 #include "agvd/mesh/surface.h"

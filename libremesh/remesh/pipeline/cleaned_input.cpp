@@ -16,10 +16,10 @@ bool refers_to_input(const RemeshOptions& options) {
            !options.locked_edges.empty();
 }
 
-Topology topology_of(const CleanResult& clean, int num_threads, const Progress& progress) {
+Topology topology_of(const CleanResult& clean, const Progress& progress) {
     return clean.connectivity.twin.empty()
                ? analyze_topology(clean.mesh.view(), progress)
-               : analyze_topology(clean.mesh.view(), clean.connectivity, num_threads, progress);
+               : analyze_topology(clean.mesh.view(), clean.connectivity, progress);
 }
 
 }  // namespace
@@ -42,12 +42,12 @@ CleanedInput clean_stage(const InputMesh& input, const StageContext& context) {
         cleaned.welded_positions = std::move(clean.welded_positions);
         cleaned.given.positions = cleaned.welded_positions;
     }
-    cleaned.topology = topology_of(clean, options.num_threads, half);
+    cleaned.topology = topology_of(clean, half);
     if (options.drop_components > 0) {
         result.components_dropped =
             drop_components(clean, cleaned.topology, options.drop_components);
         if (result.components_dropped > 0)
-            cleaned.topology = topology_of(clean, options.num_threads, half);
+            cleaned.topology = topology_of(clean, half);
     }
     const bool is_unchanged = !clean.connectivity.twin.empty();
     if (!is_unchanged || refers_to_input(options)) {

@@ -202,7 +202,7 @@ std::unique_ptr<const CurvePlan> plan_curves(const CleanedInput& cleaned, const 
     // the same ends.
     const Surface& cut = plan->network.cut.surface;
     plan->patches =
-        analyze_topology(cut.mesh.view(), {cut.twin, cut.outgoing}, options.num_threads, done);
+        analyze_topology(cut.mesh.view(), {cut.twin, cut.outgoing}, done);
     return plan;
 }
 

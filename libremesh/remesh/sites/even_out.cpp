@@ -94,13 +94,13 @@ struct RegionMaker {
 class EvenOut {
 public:
     EvenOut(const IntrinsicTriangulation& base, std::vector<SurfacePoint>& sites,
-            std::span<const std::uint8_t> is_fixed, const SizeField* sizes, int num_threads,
+            std::span<const std::uint8_t> is_fixed, const SizeField* sizes,
             const Progress& progress)
         : base_(base),
           surface_(base.surface()),
           sites_(sites),
           on_base_(base.to_intrinsic(sites)),
-          components_(find_components(surface_, num_threads, progress)) {
+          components_(find_components(surface_, progress)) {
         may_move_.reserve(sites.size());
         for (Index i = 0; i < sites.size(); ++i) {
             const bool stays = (!is_fixed.empty() && is_fixed[i] != 0) ||
@@ -258,7 +258,7 @@ private:
 void even_out(const PreparedSurface& surface, std::vector<SurfacePoint>& sites,
               std::span<const std::uint8_t> is_fixed, int num_threads, const Progress& progress,
               const SizeField* sizes) {
-    EvenOut(surface.base, sites, is_fixed, sizes, num_threads, progress)
+    EvenOut(surface.base, sites, is_fixed, sizes, progress)
         .run(surface.layout, num_threads, progress);
 }
 

@@ -207,10 +207,9 @@ double num_crowded(const Surface& surface, Index num_sites) {
 
 // The number of coarse sites that gives `count` sites together with the middles between them;
 // nothing if it is too small.
-std::optional<Index> coarse_count(const Surface& surface, Index count, int num_threads,
-                                  const Progress& progress) {
+std::optional<Index> coarse_count(const Surface& surface, Index count, const Progress& progress) {
     Poller poller(progress);
-    const Index num_components = label_components(surface.twin, num_threads, poller).count;
+    const Index num_components = label_components(surface.twin, Ticker(poller)).count;
     const double euler = euler_of(surface);
     // The sum is V + E, with E = 3 V - 3 chi; with a boundary E is slightly smaller.
     const double coarse = coarse_margin * (count + 3 * euler) / 4 + 1;
@@ -258,7 +257,7 @@ RelaxResult sample_relaxed_sites(const PreparedSurface& surface, const SamplingO
         return relax_sites(surface, sample_sites(input, sampling), options);
     };
     const std::optional<Index> coarse =
-        coarse_count(surface.base.surface(), sampling.num_samples, options.num_threads,
+        coarse_count(surface.base.surface(), sampling.num_samples,
                      within(options.progress, 0, 0));
     if (!coarse || options.steps == 0) return one_after_the_other();
     SamplingOptions first = sampling;

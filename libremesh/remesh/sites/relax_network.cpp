@@ -173,8 +173,7 @@ public:
           levels_(surface, options_, num_levels),
           fine_(std::move(fine)) {
         options_.boundary = Boundary::Free;
-        Poller never;
-        patch_ = label_components(surface.input().twin, 1, never);
+        patch_ = label_components(surface.input().twin);
         faces_.resize(patch_.count);
         const std::vector<Index> parts = parts_of_base(surface.base, patch_.of_face);
         for (Index f = 0; f < parts.size(); ++f) faces_[parts[f]].push_back(f);

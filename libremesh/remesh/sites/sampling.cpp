@@ -166,7 +166,7 @@ std::vector<SurfacePoint> sample_sites(const Surface& surface, const SamplingOpt
     poll(options.progress, 0);
     const Progress begin = within(options.progress, 0, 0);
     const std::vector<Component> components =
-        detail::sized_components(surface, options.sizes, options.num_threads, begin);
+        detail::sized_components(surface, options.sizes, begin);
     const bool keeps_boundary = options.init != Init::Random && options.boundary == Boundary::Keep;
     const auto loops = find_loops(surface, components);
     std::vector<double> boundary_length(components.size(), 0);
@@ -214,7 +214,7 @@ std::vector<SurfacePoint> sample_inner_sites(const Surface& surface,
                                              double spacing, const SamplingOptions& options) {
     const Progress begin = within(options.progress, 0, 0);
     const std::vector<Component> components =
-        detail::sized_components(surface, options.sizes, options.num_threads, begin);
+        detail::sized_components(surface, options.sizes, begin);
     const std::vector<Index> quota =
         detail::share_out_inner(surface, components, count, spacing, options.sizes);
     const std::vector<Index> component_of = components_of_faces(surface, components);

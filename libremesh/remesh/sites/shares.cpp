@@ -88,8 +88,8 @@ void set_areas(std::vector<Component>& components, std::span<const double> area_
 }
 
 std::vector<Component> sized_components(const Surface& surface, const SizeField* sizes,
-                                        int num_threads, const Progress& progress) {
-    std::vector<Component> components = find_components(surface, num_threads, progress);
+                                        const Progress& progress) {
+    std::vector<Component> components = find_components(surface, progress);
     if (sizes != nullptr) set_areas(components, sizes->area_of_face());
     return components;
 }

@@ -29,7 +29,7 @@ void set_areas(std::vector<Component>& components, std::span<const double> area_
 //! find_components with areas in squares of the local length (SizeField::area_of_face).
 //! \param sizes  null: areas are in mesh units. Likewise below.
 [[nodiscard]] std::vector<Component> sized_components(const Surface& surface,
-                                                      const SizeField* sizes, int num_threads,
+                                                      const SizeField* sizes,
                                                       const Progress& progress = {});
 
 //! The length of a chain of half-edges in local lengths.

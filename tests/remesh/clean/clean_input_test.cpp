@@ -69,7 +69,7 @@ TEST(CleanInput, LeavesCleanMeshesAsTheyAre) {
 TEST(CleanInput, HandsConnectivityOnWhereNothingWasRepaired) {
     for (const TriangleMesh& mesh : {shapes::sphere(2), shapes::tube(9, 4)}) {
         const remesh::CleanResult clean = remesh::clean_input(mesh.view());
-        const auto expected = agvd::find_connectivity(mesh.view(), 1);
+        const auto expected = agvd::find_connectivity(mesh.view());
         EXPECT_EQ(clean.connectivity.twin, expected->twin);
         EXPECT_EQ(clean.connectivity.outgoing, expected->outgoing);
         EXPECT_EQ(clean.counts, remesh::CleanCounts());
