@@ -151,7 +151,7 @@ public:
         : soup_(soup), twin_(twin), is_degenerate_(soup.triangles.size()) {
         for (Index f = 0; f < is_degenerate_.size(); ++f) {
             soup.ticker.tick();
-            is_degenerate_[f] = smallest_doubled_area(soup.positions, soup.triangles[f]) == 0;
+            is_degenerate_[f] = is_degenerate(soup.positions, soup.triangles[f]);
             if (is_degenerate_[f]) waiting_.push_back(f);
         }
     }
@@ -164,7 +164,7 @@ public:
             waiting_.pop_front();
             if (flips_left > 0 && is_degenerate_[face] && try_flip(face)) --flips_left;
         }
-        drop_rest();
+        soup_.counts.degenerate_faces += drop_faces(soup_, is_degenerate_, &twin_);
     }
 
 private:
@@ -199,14 +199,6 @@ private:
             }
         }
         return true;
-    }
-
-    void drop_rest() {
-        Index dropped = 0;
-        for (const bool degenerate : is_degenerate_) dropped += degenerate ? 1 : 0;
-        if (dropped == 0) return;
-        soup_.counts.degenerate_faces += dropped;
-        erase_faces(soup_, is_degenerate_, twin_);
     }
 
     Soup& soup_;

@@ -1,6 +1,6 @@
 // Equal positions are found by a hash table. The first of each set then goes into the cells of a
 // grid, and is compared with those that went there before and lie within its reach.
-#include "remesh/clean/places.h"
+#include "remesh/clean/soup.h"
 
 #include <algorithm>
 #include <bit>

@@ -40,10 +40,23 @@ struct Soup {
 //!        index out of range.
 void check_elements(const MeshView& mesh, Ticker ticker = {});
 
-//! Removes the marked faces and updates `twin` (may be empty).
-void erase_faces(Soup& soup, const std::vector<bool>& is_dead, std::vector<Index>& twin);
+//! For each wanted vertex the first one at its place; no_index for the others.
+//!
+//! Equal positions are one place. So are positions that differ by a millionth of the mesh's longest
+//! side at most, and by a hundredth of each edge there: programs that write coordinates with six or
+//! seven digits leave such gaps. A grid finds them; vertices with less than an eighth of the reach
+//! that most have would crowd its cells, so these have to be equal.
+//!
+//! \param is_wanted  #V: vertices of the boundary.
+//! \param tolerance  above 0: the limits are this length, if that is more, and half of each edge.
+//! Cost: O(#F + #wanted).
+[[nodiscard]] std::vector<Index> find_places(const MeshView& mesh,
+                                             const std::vector<bool>& is_wanted, Ticker& ticker,
+                                             double tolerance = 0);
+
 //! Removes the marked faces and returns their number.
-Index drop_faces(Soup& soup, const std::vector<bool>& is_dead);
+//! \param twin  is updated; null: there is none yet.
+Index drop_faces(Soup& soup, const std::vector<bool>& is_dead, std::vector<Index>* twin = nullptr);
 
 // The passes, in the order in which they run. Those that return bool tell whether they changed a
 // triangle, so that sides must be sorted again.

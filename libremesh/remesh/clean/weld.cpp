@@ -3,7 +3,6 @@
 
 #include "agvd/core/types.h"
 #include "agvd/core/union_find.h"
-#include "remesh/clean/places.h"
 #include "remesh/clean/soup.h"
 
 namespace remesh::detail {

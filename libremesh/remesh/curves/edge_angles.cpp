@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <queue>
-
 #include <utility>
 
 #include "agvd/core/parallel.h"

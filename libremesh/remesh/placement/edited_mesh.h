@@ -2,6 +2,7 @@
 //! A mesh on a surface, edited by flips, splits, collapses and moves that can be undone.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <span>
@@ -10,12 +11,19 @@
 #include "agvd/mesh/surface.h"
 #include "remesh/curves/glue.h"
 #include "remesh/placement/placement.h"
+#include "remesh/placement/shape_quality.h"
+#include "remesh/sites/walk.h"
 
 namespace remesh::detail {
 
 //! Every edit keeps the topology, and chains of hard edges stay chains of hard edges. No normal
 //! turns by more than 60 degrees, and no edge becomes sharper than both 60 degrees and the edges
 //! around it were. Edits that would break these rules change nothing.
+//!
+//! Faces, vertices and fans go to a journal before they change, so that edits can be undone in
+//! reverse order. Each edit first checks that the topology stays (for a collapse by the link
+//! condition, [dey1999]), that normals and dihedral angles change little, and that hard edges stay
+//! near the boundary of the surface.
 class EditedMesh {
 public:
     struct Face {
@@ -35,7 +43,33 @@ public:
     //! \param hard      edges that are never flipped, in one direction or both; must include all
     //!                  edges of a single face.
     EditedMesh(const Surface& surface, const PlacedMesh& mesh, std::span<const Mobility> mobility,
-               std::span<const DirectedEdge> hard);
+               std::span<const DirectedEdge> hard)
+        : surface_(surface),
+          faces_(mesh.triangles.size()),
+          vertices_(mesh.points.size()),
+          fans_(mesh.points.size()) {
+        for (Index v = 0; v < vertices_.size(); ++v) {
+            vertices_[v] = {mesh.points[v], mesh.offsets[v], Vec3::Zero(), Vec3::Zero(),
+                            mobility[v]};
+            locate(vertices_[v]);
+        }
+        for (const Triangle& t : mesh.triangles) {
+            for (Index k = 0; k < 3; ++k) mean_length_ += (at(t[k]) - at(t[(k + 1) % 3])).norm();
+        }
+        mean_length_ /= 3 * static_cast<double>(std::max<std::size_t>(mesh.triangles.size(), 1));
+        std::vector<DirectedEdge> edges(hard.begin(), hard.end());
+        for (const auto& [from, to] : hard) edges.emplace_back(to, from);
+        std::sort(edges.begin(), edges.end());
+        for (Index f = 0; f < faces_.size(); ++f) {
+            const Triangle& t = mesh.triangles[f];
+            faces_[f] = {t, {}, true, quality_of(t)};
+            for (Index k = 0; k < 3; ++k) {
+                fans_[t[k]].push_back(f);
+                faces_[f].is_hard[k] = std::binary_search(edges.begin(), edges.end(),
+                                                          DirectedEdge(t[k], t[(k + 1) % 3]));
+            }
+        }
+    }
 
     [[nodiscard]] Index num_faces() const { return static_cast<Index>(faces_.size()); }
     [[nodiscard]] Index num_vertices() const { return static_cast<Index>(vertices_.size()); }
@@ -44,62 +78,418 @@ public:
     [[nodiscard]] std::span<const Index> faces_at(Index v) const { return fans_[v]; }
     [[nodiscard]] const Vec3& at(Index v) const { return vertices_[v].at; }
     [[nodiscard]] Mobility mobility(Index v) const { return vertices_[v].mobility; }
-    [[nodiscard]] double worst_at(Index v) const;
+    [[nodiscard]] double worst_at(Index v) const {
+        double worst = 1;
+        for (const Index f : fans_[v]) worst = std::min(worst, faces_[f].quality);
+        return worst;
+    }
     //! The neighbours before and after a vertex along its hard edges; no_index: none.
-    [[nodiscard]] std::array<Index, 2> hard_neighbours(Index v) const;
+    [[nodiscard]] std::array<Index, 2> hard_neighbours(Index v) const {
+        std::array<Index, 2> found{no_index, no_index};
+        for (const Index f : fans_[v]) {
+            for (Index h = 3 * f; h < 3 * f + 3; ++h) {
+                if (!is_hard(h)) continue;
+                if (tail(h) == v) found[1] = head(h);
+                if (head(h) == v) found[0] = tail(h);
+            }
+        }
+        return found;
+    }
 
     //! Flips the edge from corner k of the face to the next.
-    bool flip(Index face, Index k);
+    bool flip(Index face, Index k) {
+        const Index h = 3 * face + k;
+        if (is_hard(h)) return false;
+        const Index a = tail(h), b = head(h), c = apex(h), twin = half_edge(b, a);
+        if (twin == no_index) return false;
+        const Index d = apex(twin);
+        if (c == d || are_joined(c, d)) return false;
+        for (const Index v : {a, b}) {
+            if (fans_[v].size() <= (mobility(v) == Mobility::Free ? 3U : 2U)) return false;
+        }
+        if (folds(h, twin)) return false;
+        for (const Index v : {a, b, c, d}) log_fan(v);
+        std::erase(fans_[b], face);
+        std::erase(fans_[a], twin / 3);
+        fans_[d].push_back(face);
+        fans_[c].push_back(twin / 3);
+        const bool bc = is_hard(Surface::next(h)), ca = is_hard(Surface::previous(h));
+        const bool ad = is_hard(Surface::next(twin)), db = is_hard(Surface::previous(twin));
+        put_face(face, {c, a, d}, {ca, ad, false});
+        put_face(twin / 3, {d, b, c}, {db, bc, false});
+        return true;
+    }
     //! \return the new vertex, near the middle of that edge; no_index if it cannot be split.
-    Index split(Index face, Index k);
+    Index split(Index face, Index k) {
+        const Index h = 3 * face + k, a = tail(h), b = head(h);
+        if (mobility(a) == Mobility::Fixed && mobility(b) == Mobility::Fixed) return no_index;
+        Vertex vertex;
+        if (!find_between(a, b, is_hard(h), vertex)) return no_index;
+        const Index twin = half_edge(b, a);
+        const auto keeps_normal = [&](Index side) {
+            const Vec3 &p = at(tail(side)), &q = at(head(side)), &r = at(apex(side));
+            const Vec3 before = (q - p).cross(r - p);
+            return is_gentle(before, (vertex.at - p).cross(r - p)) &&
+                   is_gentle(before, (q - vertex.at).cross(r - vertex.at));
+        };
+        if (!keeps_normal(h) || (twin != no_index && !keeps_normal(twin))) return no_index;
+        const Index added = num_vertices();
+        vertices_.push_back(vertex);
+        fans_.emplace_back();
+        split_side(h, added);
+        if (twin != no_index) split_side(twin, added);
+        return added;
+    }
     //! Collapses the edge between two vertices: removes `gone`; `into` stays in place.
-    bool collapse(Index gone, Index into);
+    bool collapse(Index gone, Index into) {
+        if (!may_collapse(gone, into)) return false;
+        const std::vector<Index> fan = fans_[gone];
+        // Two sides of a removed face become one edge: hard if the side at `into` is.
+        std::vector<DirectedEdge> hard;
+        log_fan(gone);
+        log_fan(into);
+        fans_[gone].clear();
+        for (const Index f : fan) {
+            const Face old = faces_[f];
+            if (!has_corner(f, into)) {
+                Triangle moved = old.corner;
+                std::replace(moved.begin(), moved.end(), gone, into);
+                fans_[into].push_back(f);
+                put_face(f, moved, old.is_hard);
+                continue;
+            }
+            for (Index h = 3 * f; h < 3 * f + 3; ++h) {
+                if (apex(h) == gone && is_hard(h)) hard.emplace_back(tail(h), head(h));
+            }
+            drop_face(f);
+            for (const Index w : old.corner) {
+                if (w == gone) continue;
+                if (w != into) log_fan(w);
+                std::erase(fans_[w], f);
+            }
+        }
+        for (const auto& [from, to] : hard) {
+            // The face beyond the removed one now has this edge, in the same direction.
+            const Index h = half_edge(from, to);
+            if (h == no_index) continue;
+            Face face = faces_[h / 3];
+            face.is_hard[h % 3] = true;
+            put_face(h / 3, face.corner, face.is_hard);
+        }
+        return true;
+    }
     //! Moves a vertex along the surface if the worst face around it gets better by more than
     //! `gain`. Does not if its walk is cut off.
-    bool move(Index v, const Vec3& step, double gain);
+    bool move(Index v, const Vec3& step, double gain) {
+        Vertex vertex = vertices_[v];
+        if (vertex.mobility == Mobility::Fixed) return false;
+        if (vertex.mobility == Mobility::Boundary) {
+            const std::optional<Index> h = boundary_half_edge(surface_, vertex.point);
+            if (!h) return false;
+            vertex.point = walk_boundary(surface_, vertex.point, *h, step);
+        } else {
+            const Walk walk = walk_straight(surface_, vertex.point, step);
+            num_crossings_ += static_cast<std::size_t>(walk.num_crossings);
+            if (walk.is_cut_off) return false;
+            vertex.point = walk.end;
+        }
+        locate(vertex);
+        const double worst = worst_at(v);
+        const Vertex before = vertices_[v];
+        std::vector<Vec3> normals;
+        for (const Index f : fans_[v]) normals.push_back(normal_of(faces_[f].corner));
+        vertices_[v] = vertex;
+        bool is_better = true;
+        for (std::size_t i = 0; i < normals.size() && is_better; ++i) {
+            const Triangle& t = faces_[fans_[v][i]].corner;
+            is_better = quality_of(t) > worst + gain && is_gentle(normals[i], normal_of(t));
+        }
+        if (is_better && vertex.mobility == Mobility::Boundary) {
+            vertices_[v] = before;
+            const double bend_before = largest_bend_at(v);
+            vertices_[v] = vertex;
+            const auto [previous, next] = hard_neighbours(v);
+            is_better = (previous == no_index || keeps_bend(previous, v, bend_before)) &&
+                        (next == no_index || keeps_bend(v, next, bend_before));
+        }
+        vertices_[v] = before;
+        if (!is_better) return false;
+        put_vertex(v, vertex);
+        measure_around(v);
+        return true;
+    }
     //! Edges of the surface that all calls of `move` together crossed: their cost.
     [[nodiscard]] std::size_t num_crossings() const { return num_crossings_; }
 
-    [[nodiscard]] Mark mark() const;
-    void take_back(const Mark& mark);
+    [[nodiscard]] Mark mark() const {
+        return {old_faces_.size(), old_vertices_.size(), old_fans_.size(), num_faces(),
+                num_vertices()};
+    }
+    void take_back(const Mark& mark) {
+        const auto restore = [](auto& journal, std::size_t size, auto& values) {
+            while (journal.size() > size) {
+                values[journal.back().first] = std::move(journal.back().second);
+                journal.pop_back();
+            }
+        };
+        restore(old_faces_, mark.faces, faces_);
+        restore(old_vertices_, mark.vertices, vertices_);
+        restore(old_fans_, mark.fans, fans_);
+        faces_.resize(mark.num_faces);
+        vertices_.resize(mark.num_vertices);
+        fans_.resize(mark.num_vertices);
+    }
     //! Faces changed since the mark, each once.
     //! \param[out] now     the changed faces that exist now.
     //! \param[out] before  the old qualities of those that existed at the mark.
     void changed_since(const Mark& mark, std::vector<Index>& now,
-                       std::vector<double>& before) const;
+                       std::vector<double>& before) const {
+        now.clear();
+        before.clear();
+        std::vector<std::pair<Index, std::size_t>> first;
+        for (std::size_t i = mark.faces; i < old_faces_.size(); ++i) {
+            first.emplace_back(old_faces_[i].first, i);
+        }
+        std::sort(first.begin(), first.end());
+        for (std::size_t i = 0; i < first.size(); ++i) {
+            if (i > 0 && first[i].first == first[i - 1].first) continue;
+            const Face& old = old_faces_[first[i].second].second;
+            if (old.is_there) before.push_back(old.quality);
+            if (faces_[first[i].first].is_there) now.push_back(first[i].first);
+        }
+    }
 
     //! The mesh without removed faces and vertices.
     //! \param[out] numbers  by vertex of the result: its number here.
-    [[nodiscard]] PlacedMesh result(std::vector<Index>& numbers) const;
+    [[nodiscard]] PlacedMesh result(std::vector<Index>& numbers) const {
+        PlacedMesh mesh;
+        numbers.clear();
+        std::vector<Index> number(vertices_.size(), no_index);
+        for (Index v = 0; v < vertices_.size(); ++v) {
+            if (fans_[v].empty()) continue;
+            number[v] = static_cast<Index>(mesh.points.size());
+            numbers.push_back(v);
+            mesh.points.push_back(vertices_[v].point);
+            mesh.offsets.push_back(vertices_[v].offset);
+        }
+        for (const Face& f : faces_) {
+            if (!f.is_there) continue;
+            mesh.triangles.push_back(
+                {number[f.corner[0]], number[f.corner[1]], number[f.corner[2]]});
+        }
+        return mesh;
+    }
 
 private:
+    // Cosine of the largest turn of a normal, and of the angle up to which every edge may be sharp.
+    static constexpr double gentle_turn = 0.5;
+    // Share of the edge's length: a new vertex farther from the middle lies on another part of the
+    // surface.
+    static constexpr double largest_miss = 0.35;
+    // Largest distance between a hard edge and the boundary that it stands for, unless it was
+    // larger before: as a share of the edge's length, and of the mean edge length. With the first
+    // alone edges reach around the tips of slots.
+    static constexpr double largest_bend = 0.25, most_bend = 0.15;
+    // Most boundary edges of the surface that are compared with one hard edge.
+    static constexpr int most_passed = 10000;
+
+    static bool is_gentle(const Vec3& before, const Vec3& after) {
+        return after.dot(before) > gentle_turn * after.norm() * before.norm();
+    }
+
     struct Vertex {
         SurfacePoint point;
         Vec3 offset = Vec3::Zero(), at = offset, facing = offset;
         Mobility mobility = Mobility::Free;
     };
-    struct Half {
-        Index face = no_index, k = 0;
-    };
-
-    void locate(Vertex& vertex) const;
-    [[nodiscard]] double quality_of(const Triangle& t) const;
-    [[nodiscard]] Vec3 normal_of(const Triangle& t) const;
-    void put_face(Index f, const Triangle& corner, const std::array<bool, 3>& is_hard);
-    void drop_face(Index f);
-    void put_vertex(Index v, const Vertex& vertex);
+    void locate(Vertex& vertex) const {
+        vertex.facing = facing_at(surface_, vertex.point);
+        vertex.at = position(surface_.mesh.view(), vertex.point) + vertex.offset;
+    }
+    [[nodiscard]] double quality_of(const Triangle& t) const {
+        const auto& [a, b, c] = t;
+        const Vec3 facing = vertices_[a].facing + vertices_[b].facing + vertices_[c].facing;
+        const bool is_turned = !(normal_of(t).dot(facing) > 0);
+        return shape_quality(at(a), at(b), at(c)) - (is_turned ? 1 : 0);
+    }
+    [[nodiscard]] Vec3 normal_of(const Triangle& t) const {
+        return (at(t[1]) - at(t[0])).cross(at(t[2]) - at(t[0]));
+    }
+    void put_face(Index f, const Triangle& corner, const std::array<bool, 3>& is_hard) {
+        old_faces_.emplace_back(f, faces_[f]);
+        faces_[f] = {corner, is_hard, true, quality_of(corner)};
+    }
+    void drop_face(Index f) {
+        old_faces_.emplace_back(f, faces_[f]);
+        faces_[f].is_there = false;
+    }
+    void put_vertex(Index v, const Vertex& vertex) {
+        old_vertices_.emplace_back(v, vertices_[v]);
+        vertices_[v] = vertex;
+    }
     void log_fan(Index v) { old_fans_.emplace_back(v, fans_[v]); }
-    void measure_around(Index v);
-    [[nodiscard]] bool has_corner(Index f, Index v) const;
-    [[nodiscard]] std::optional<Half> half_edge(Index from, Index to) const;
-    [[nodiscard]] bool are_joined(Index a, Index b) const;
-    [[nodiscard]] bool folds(const std::array<Index, 4>& quad, Half first, Half second) const;
-    [[nodiscard]] bool may_collapse(Index gone, Index into) const;
-    [[nodiscard]] bool find_between(Index a, Index b, bool is_hard, Vertex& vertex) const;
-    void split_side(Half side, Index vertex);
-    [[nodiscard]] double bend(Index from, Index to) const;
-    [[nodiscard]] double largest_bend_at(Index v) const;
-    [[nodiscard]] bool keeps_bend(Index from, Index to, double most_before) const;
+    void measure_around(Index v) {
+        for (const Index f : fans_[v]) put_face(f, faces_[f].corner, faces_[f].is_hard);
+    }
+    [[nodiscard]] bool has_corner(Index f, Index v) const {
+        const Triangle& t = faces_[f].corner;
+        return t[0] == v || t[1] == v || t[2] == v;
+    }
+    // Half-edges are numbered as in Surface.
+    [[nodiscard]] Index tail(Index h) const { return faces_[h / 3].corner[h % 3]; }
+    [[nodiscard]] Index head(Index h) const { return tail(Surface::next(h)); }
+    [[nodiscard]] Index apex(Index h) const { return tail(Surface::previous(h)); }
+    [[nodiscard]] bool is_hard(Index h) const { return faces_[h / 3].is_hard[h % 3]; }
+    // no_index: there is none.
+    [[nodiscard]] Index half_edge(Index from, Index to) const {
+        for (const Index f : fans_[from]) {
+            for (Index h = 3 * f; h < 3 * f + 3; ++h) {
+                if (tail(h) == from && head(h) == to) return h;
+            }
+        }
+        return no_index;
+    }
+    [[nodiscard]] bool are_joined(Index a, Index b) const {
+        return std::any_of(fans_[a].begin(), fans_[a].end(),
+                           [&](Index f) { return has_corner(f, b); });
+    }
+    // Whether a flip would make an edge sharper than gentle_turn and than all edges of the quad
+    // were.
+    [[nodiscard]] bool folds(Index h, Index twin) const {
+        const Index a = tail(h), b = head(h), c = apex(h), d = apex(twin);
+        const auto unit = [&](const Triangle& t) -> Vec3 { return normal_of(t).normalized(); };
+        const Vec3 old_first = unit({a, b, c}), old_second = unit({b, a, d});
+        const Vec3 new_first = unit({c, a, d}), new_second = unit({d, b, c});
+        if (new_first.isZero() || new_second.isZero()) return true;
+        double before = old_first.dot(old_second), after = new_first.dot(new_second);
+        const auto compare = [&](Index side, const Vec3& old_normal, const Vec3& new_normal) {
+            if (is_hard(side)) return;
+            const Index across = half_edge(head(side), tail(side));
+            if (across == no_index) return;
+            const Vec3 beyond = unit(faces_[across / 3].corner);
+            before = std::min(before, beyond.dot(old_normal));
+            after = std::min(after, beyond.dot(new_normal));
+        };
+        compare(Surface::next(h), old_first, new_second);
+        compare(Surface::previous(h), old_first, new_first);
+        compare(Surface::next(twin), old_second, new_first);
+        compare(Surface::previous(twin), old_second, new_second);
+        return !(after >= std::min(before, gentle_turn));
+    }
+    [[nodiscard]] bool may_collapse(Index gone, Index into) const {
+        if (mobility(gone) == Mobility::Fixed) return false;
+        std::array<Index, 2> apexes{no_index, no_index};
+        std::size_t num_apexes = 0;
+        std::vector<Index> ring;
+        for (const Index f : fans_[gone]) {
+            for (const Index v : faces_[f].corner) {
+                if (v == gone) continue;
+                ring.push_back(v);
+                if (v != into && has_corner(f, into)) apexes[num_apexes++] = v;
+            }
+        }
+        if (num_apexes == 0) return false;
+        if (mobility(gone) == Mobility::Boundary && !may_leave_boundary(gone, into, apexes)) {
+            return false;
+        }
+        std::sort(ring.begin(), ring.end());
+        ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
+        const auto num_common = static_cast<std::size_t>(std::count_if(
+            ring.begin(), ring.end(), [&](Index w) { return w != into && are_joined(into, w); }));
+        if (num_common != num_apexes) return false;
+        const auto has_face = [&](Index v) {
+            return std::any_of(fans_[v].begin(), fans_[v].end(), [&](Index f) {
+                return has_corner(f, apexes[0]) && has_corner(f, apexes[1]);
+            });
+        };
+        if (num_apexes == 2 && has_face(gone) && has_face(into)) return false;
+        for (Index i = 0; i < num_apexes; ++i) {
+            // An inner vertex keeps three faces.
+            if (mobility(apexes[i]) == Mobility::Free && fans_[apexes[i]].size() <= 3) return false;
+        }
+        return std::all_of(fans_[gone].begin(), fans_[gone].end(), [&](Index f) {
+            if (has_corner(f, into)) return true;
+            Triangle moved = faces_[f].corner;
+            std::replace(moved.begin(), moved.end(), gone, into);
+            return is_gentle(normal_of(faces_[f].corner), normal_of(moved));
+        });
+    }
+    // For a vertex on the boundary: whether it goes along it, no triangle alone
+    // would be left, and the boundary stays near that of the surface.
+    [[nodiscard]] bool may_leave_boundary(Index gone, Index into,
+                                          const std::array<Index, 2>& apexes) const {
+        const auto [before, after] = hard_neighbours(gone);
+        if (before == no_index || after == no_index) return false;
+        if (into != before && into != after) return false;
+        const Index other = into == after ? before : after;
+        return other != apexes[0] && other != apexes[1] &&
+               keeps_bend(before, after, largest_bend_at(gone));
+    }
+    // Finds a point of the surface near the middle. False if walks from both ends miss it.
+    [[nodiscard]] bool find_between(Index a, Index b, bool is_hard, Vertex& vertex) const {
+        vertex.mobility = is_hard ? Mobility::Boundary : Mobility::Free;
+        vertex.offset = (vertices_[a].offset + vertices_[b].offset) / 2;
+        const Vec3 middle = (at(a) + at(b)) / 2;
+        const double most = largest_miss * (at(b) - at(a)).norm();
+        const Mobility best = is_hard ? Mobility::Boundary : Mobility::Free;
+        const bool takes_other = mobility(a) != best && mobility(b) == best;
+        for (const Index from : {takes_other ? b : a, takes_other ? a : b}) {
+            const SurfacePoint& point = vertices_[from].point;
+            const Vec3 step = middle - vertex.offset - position(surface_.mesh.view(), point);
+            if (is_hard) {
+                const std::optional<Index> h = boundary_half_edge(surface_, point);
+                if (!h) continue;
+                vertex.point = walk_boundary(surface_, point, *h, step);
+            } else {
+                vertex.point = walk_straight(surface_, point, step).end;
+            }
+            locate(vertex);
+            if ((vertex.at - middle).norm() <= most) return true;
+        }
+        return false;
+    }
+    void split_side(Index h, Index vertex) {
+        const Index a = tail(h), b = head(h), c = apex(h), face = h / 3, added = num_faces();
+        const bool ab = is_hard(h), bc = is_hard(Surface::next(h)),
+                   ca = is_hard(Surface::previous(h));
+        faces_.push_back({{vertex, b, c}});
+        log_fan(b);
+        log_fan(c);
+        std::replace(fans_[b].begin(), fans_[b].end(), face, added);
+        fans_[c].push_back(added);
+        fans_[vertex].push_back(face);
+        fans_[vertex].push_back(added);
+        put_face(face, {a, vertex, c}, {ab, false, ca});
+        put_face(added, {vertex, b, c}, {ab, bc, false});
+    }
+    // The largest distance of the surface's boundary between two vertices from the edge.
+    [[nodiscard]] double bend(Index from, Index to) const {
+        const std::optional<Index> first = boundary_half_edge(surface_, vertices_[from].point),
+                                   last = boundary_half_edge(surface_, vertices_[to].point);
+        if (!first || !last) return 0;
+        const Vec3 way = at(to) - at(from);
+        const double square = way.squaredNorm();
+        double most = 0;
+        int passed = 0;
+        for (Index h = *first; h != *last && passed < most_passed; ++passed) {
+            const Index v = surface_.head(h);
+            const Vec3 offset = surface_.mesh.positions[v] - at(from);
+            const double along = square > 0 ? std::clamp(offset.dot(way) / square, 0.0, 1.0) : 0;
+            most = std::max(most, (offset - along * way).norm());
+            h = surface_.outgoing[v];
+        }
+        return most;
+    }
+    [[nodiscard]] double largest_bend_at(Index v) const {
+        const auto [before, after] = hard_neighbours(v);
+        if (before == no_index || after == no_index) return 0;
+        return std::max(bend(before, v), bend(v, after));
+    }
+    [[nodiscard]] bool keeps_bend(Index from, Index to, double most_before) const {
+        const double length = (at(to) - at(from)).norm();
+        return bend(from, to) <=
+               std::max(most_before, std::min(largest_bend * length, most_bend * mean_length_));
+    }
 
     const Surface& surface_;
     double mean_length_ = 0;  // Of the initial edges.

@@ -67,32 +67,28 @@ std::array<Vec3, 2> pulls(const Surface& surface, const Curve& curve, const Chai
 
 void fit(const Surface& surface, const Curve& curve, const Chain& chain, std::span<Vec3> offsets) {
     const std::size_t num_intervals = chain.along.size() - 1;
-    const std::size_t shift = curve.is_closed() ? 0 : 1;  // The first vertex that moves.
-    std::vector<Vec3> right(chain.along.size(), Vec3::Zero());
+    // Of all vertices of the chain; the ends of an open one stay.
+    std::vector<Vec3> right(chain.along.size(), Vec3::Zero()), moves = right;
+    const std::size_t first = curve.is_closed() ? 0 : 1;
     for (std::size_t i = 0; i < num_intervals; ++i) {
         const std::array<Vec3, 2> pull = pulls(surface, curve, chain, i);
         right[i] += pull[0];
         right[curve.is_closed() ? (i + 1) % num_intervals : i + 1] += pull[1];
     }
+    const auto before = [&](std::size_t i) { return i == 0 ? num_intervals - 1 : i - 1; };
     const auto width = [&](std::size_t i) { return chain.along[i + 1] - chain.along[i]; };
-    const auto offset_at = [&](std::size_t vertex) {
-        if (curve.is_closed()) return offsets[vertex % num_intervals];
-        return vertex == 0 || vertex == num_intervals ? Vec3(Vec3::Zero()) : offsets[vertex - 1];
-    };
     for (int sweep = 0; sweep < num_sweeps; ++sweep) {
-        for (std::size_t i = 0; i < offsets.size(); ++i) {
-            const std::size_t vertex = i + shift;
-            const std::size_t before = vertex == 0 ? num_intervals - 1 : vertex - 1;
-            const double w = width(before), v = width(vertex);
-            const Vec3 sum = w * offset_at(before) + v * offset_at(vertex + 1);
-            offsets[i] = (6 * right[vertex] - sum) / (2 * (w + v));
+        for (std::size_t i = first; i < num_intervals; ++i) {
+            const double w = width(before(i)), v = width(i);
+            const Vec3 sum = w * moves[before(i)] + v * moves[i + 1];
+            moves[i] = (6 * right[i] - sum) / (2 * (w + v));
+            if (i == 0) moves.back() = moves[0];
         }
     }
-    for (std::size_t i = 0; i < offsets.size(); ++i) {
-        const std::size_t vertex = i + shift;
-        const std::size_t before = vertex == 0 ? num_intervals - 1 : vertex - 1;
-        const double most = longest_offset * std::min(width(before), width(vertex));
-        if (offsets[i].norm() > most) offsets[i] *= most / offsets[i].norm();
+    for (std::size_t i = first; i < num_intervals; ++i) {
+        const double most = longest_offset * std::min(width(before(i)), width(i));
+        Vec3& offset = offsets[i - first] = moves[i];
+        if (offset.norm() > most) offset *= most / offset.norm();
     }
 }
 

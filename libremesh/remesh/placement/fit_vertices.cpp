@@ -230,25 +230,20 @@ private:
     }
     void add_gap(const CellSample& sample, const Gap& gap) {
         if (sample.triangle == no_index) return;
-        const std::array<double, 3>& b = gap.barycentric;
-        if (gap.from_end > 0) {
-            add_overhang(sample, b, gap.direction, gap.from_end);
-            return;
-        }
         TriangleSums& sums = sums_[sample.triangle];
         for (std::size_t k = 0; k < 3; ++k) {
-            sums.squares[k] += sample.area * b[k] * b[k];
-            sums.products[k] += sample.area * b[k] * b[(k + 1) % 3];
-            sums.gaps[k] += sample.area * b[k] * gap.from_plane;
-        }
-    }
-    // Draws each corner towards the sample by itself: an upper bound of the square of their sum.
-    void add_overhang(const CellSample& sample, const std::array<double, 3>& b,
-                      const Vec3& direction, double distance) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            const Index v = mesh_.triangles[sample.triangle][k];
-            diagonal_[v] += sample.area * b[k] * direction * direction.transpose();
-            right_[v] += sample.area * b[k] * distance * direction;
+            const double weight = sample.area * gap.barycentric[k];
+            if (gap.from_end > 0) {
+                // Draws each corner towards the sample by itself: an upper bound of the square of
+                // their sum.
+                const Index v = mesh_.triangles[sample.triangle][k];
+                diagonal_[v] += weight * gap.direction * gap.direction.transpose();
+                right_[v] += weight * gap.from_end * gap.direction;
+                continue;
+            }
+            sums.squares[k] += weight * gap.barycentric[k];
+            sums.products[k] += weight * gap.barycentric[(k + 1) % 3];
+            sums.gaps[k] += weight * gap.from_plane;
         }
     }
 

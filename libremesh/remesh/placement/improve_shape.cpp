@@ -120,9 +120,7 @@ private:
     }
 
     void locate(Index v) {
-        const auto& p = surface_.mesh.positions;
-        const Triangle& t = surface_.mesh.triangles[mesh_.points[v].face.value()];
-        facing_[v] = (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]).normalized();
+        facing_[v] = detail::facing_at(surface_, mesh_.points[v]);
         at_[v] = mesh_.position(surface_.mesh.view(), v);
     }
 

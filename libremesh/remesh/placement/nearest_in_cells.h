@@ -9,6 +9,7 @@
 #include "agvd/core/groups.h"
 #include "agvd/intrinsic/intrinsic_triangulation.h"
 #include "agvd/mesh/closest_point.h"
+#include "agvd/mesh/surface.h"
 #include "remesh/names.h"
 
 namespace remesh::detail {

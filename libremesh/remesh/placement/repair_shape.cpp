@@ -353,20 +353,6 @@ private:
     std::size_t edits_left_ = 0;
 };
 
-// Whether a goal finds a triangle to repair: cheaper to tell without an EditedMesh.
-bool has_bad_triangle(const Surface& surface, std::span<const Mobility> mobility,
-                      const PlacedMesh& mesh, Ticker& ticker) {
-    const MeshView view = surface.mesh.view();
-    return std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const Triangle& t) {
-        ticker.tick();
-        const auto& [a, b, c] = t;
-        return detail::shape_quality(mesh.position(view, a), mesh.position(view, b),
-                                     mesh.position(view, c)) < goals.back().quality &&
-               std::any_of(t.begin(), t.end(),
-                           [&](Index v) { return mobility[v] != Mobility::Fixed; });
-    });
-}
-
 }  // namespace
 
 std::vector<Index> repair_shape(const Surface& surface, std::span<const Mobility> mobility,
@@ -375,7 +361,6 @@ std::vector<Index> repair_shape(const Surface& surface, std::span<const Mobility
     Poller poller(progress);
     Ticker ticker(poller);
     std::vector<Index> numbers;
-    if (!has_bad_triangle(surface, mobility, mesh, ticker)) return numbers;
     EditedMesh edited(surface, mesh, mobility, hard);
     bool is_changed = false;
     for (const Goal& goal : goals) {

@@ -9,7 +9,8 @@
 #include <span>
 #include <vector>
 
-#include "agvd/core/types.h"
+#include "agvd/mesh/surface.h"
+#include "agvd/mesh/mesh.h"
 #include "remesh/names.h"
 
 namespace remesh::detail {
@@ -31,6 +32,13 @@ inline constexpr double sine_weight = low_quality / 0.597;
     const double sine = doubled_area * std::min({ab, bc, ca}) / (ab * bc * ca);
     return std::min(2 * std::numbers::sqrt3 * doubled_area / ((ab + bc + ca) * longest),
                     sine_weight * sine);
+}
+
+//! The unit normal of the surface at a point.
+[[nodiscard]] inline Vec3 facing_at(const Surface& surface, const SurfacePoint& point) {
+    const auto& p = surface.mesh.positions;
+    const auto& [a, b, c] = surface.mesh.triangles[point.face.value()];
+    return (p[b] - p[a]).cross(p[c] - p[a]).normalized();
 }
 
 //! Appends eight unit vectors orthogonal to `normal`, which is not zero.

@@ -34,6 +34,12 @@ Index rounded_up(double count) {
     return static_cast<Index>(std::min(std::ceil(count / unit) * unit, most));
 }
 
+// Twice the area long.
+Vec3 area_vector(const MeshView& mesh, const Triangle& t) {
+    const Vec3& a = mesh.positions[t[0]];
+    return (mesh.positions[t[1]] - a).cross(mesh.positions[t[2]] - a);
+}
+
 struct VertexShape {
     Vec3 normal = Vec3::Zero();  // Unit, weighted by area.
     double edge_length = 0;      // Mean of its edges.
@@ -43,10 +49,7 @@ std::vector<VertexShape> vertex_shapes(const MeshView& mesh) {
     std::vector<VertexShape> shapes(mesh.positions.size());
     std::vector<Index> num_edges(mesh.positions.size(), 0);
     for (const Triangle& triangle : mesh.triangles) {
-        const Vec3& a = mesh.positions[triangle[0]];
-        const Vec3& b = mesh.positions[triangle[1]];
-        const Vec3& c = mesh.positions[triangle[2]];
-        const Vec3 area = (b - a).cross(c - a);
+        const Vec3 area = area_vector(mesh, triangle);
         for (std::size_t k = 0; k < 3; ++k) {
             const Index v = triangle[k];
             const Vec3& next = mesh.positions[triangle[(k + 1) % 3]];
@@ -88,10 +91,7 @@ Wall wall_at_depth(const MeshView& mesh, const ClosestPointTree& tree, Index ver
     const Index face = nearest.point.face.value();
     const Triangle& triangle = mesh.triangles[face];
     if (std::find(triangle.begin(), triangle.end(), vertex) != triangle.end()) return {};
-    const Vec3& a = mesh.positions[triangle[0]];
-    const Vec3 normal =
-        (mesh.positions[triangle[1]] - a).cross(mesh.positions[triangle[2]] - a).normalized();
-    if (normal.dot(outward) > most_wall_cosine) return {};
+    if (area_vector(mesh, triangle).normalized().dot(outward) > most_wall_cosine) return {};
     return {(place - nearest.position).norm(), face};
 }
 

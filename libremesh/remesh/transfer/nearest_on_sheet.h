@@ -2,12 +2,16 @@
 //! Nearest points of a mesh on the sheet that a point belongs to.
 #pragma once
 
-#include <cstdint>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <unordered_set>
 #include <vector>
 
 #include "agvd/core/groups.h"
 #include "agvd/core/progress.h"
 #include "agvd/mesh/closest_point.h"
+#include "agvd/mesh/any_mesh.h"
 #include "remesh/meshfile/read_mesh.h"
 
 namespace remesh::detail {
@@ -16,43 +20,47 @@ namespace remesh::detail {
 //! ball, with a given start. So the other side of a thin wall is never found, however near it is.
 //! Works on any triangles: vertices at equal positions count as one, and edges may have any number
 //! of faces.
+//!
+//! The search floods from face to face across the edges that meet the ball: what it visits is the
+//! connected part of the surface in the ball, and nothing else.
 class NearestOnSheet {
 public:
-    //! Faces that a search has seen. Searches on one thread share it, so that it is allocated once.
-    class Seen {
-    public:
-        void clear() {
-            ++round_;
-            count_ = 0;
-        }
-        //! False if it was there before.
-        bool insert(Index face);
-
-    private:
-        struct Slot {
-            Index face = no_index;
-            std::uint64_t round = 0;  // Taken in this round; otherwise free.
-        };
-        void grow();
-
-        std::vector<Slot> slots_ = std::vector<Slot>(64);  // Open addressing, 2^k slots.
-        std::uint64_t round_ = 1;
-        std::size_t count_ = 0;
-    };
-
     //! \param mesh  outlives this; finite, indices in range. Cost: O(n).
-    NearestOnSheet(const MeshView& mesh, Ticker ticker);
+    NearestOnSheet(const MeshView& mesh, Ticker ticker)
+        : mesh_(mesh),
+          points_(welded(mesh, ticker)),
+          faces_(triangles_by_vertex(points_, mesh.positions.size())) {
+        double largest = 0;
+        for (const Vec3& p : mesh.positions) largest = std::max(largest, p.cwiseAbs().maxCoeff());
+        rounding_ = rounding_share * largest;
+    }
 
     //! The point of the sheet that is nearest to `point`. It is `start` itself, bit for bit, if
     //! `point` lies there up to rounding.
     //! Cost: that of the faces in the ball around `point` that reaches to `start`.
-    [[nodiscard]] ClosestPoint query(const Vec3& point, const SurfacePoint& start,
-                                     Seen& seen) const;
+    [[nodiscard]] ClosestPoint query(const Vec3& point, const SurfacePoint& start) const {
+        ClosestPoint best{start, position(mesh_, start), 0};
+        best.distance_sq = (best.position - point).squaredNorm();
+        if (best.distance_sq <= rounding_ * rounding_) return best;
+        const double reach = (1 + margin) * std::sqrt(best.distance_sq);
+        flood(point, reach, start.face.value(), [&](Index face) {
+            const ClosestPoint here = closest(face, point);
+            if (here.distance_sq < best.distance_sq) best = here;
+            return true;
+        });
+        return best;
+    }
 
     //! Whether two faces are connected within a ball.
     //! Cost: that of the faces in the ball.
-    [[nodiscard]] bool are_connected(const Vec3& center, double radius, Index a, Index b,
-                                     Seen& seen) const;
+    [[nodiscard]] bool are_connected(const Vec3& point, double radius, Index a, Index b) const {
+        bool is_found = false;
+        flood(point, std::max(radius, rounding_), a, [&](Index face) {
+            is_found = face == b;
+            return !is_found;
+        });
+        return is_found;
+    }
 
     //! The same mesh where faces that do not agree at an edge are not neighbours.
     //! \param agree  outlives the copy.
@@ -65,12 +73,64 @@ public:
     [[nodiscard]] const MeshView& mesh() const { return mesh_; }
 
 private:
-    [[nodiscard]] ClosestPoint closest(Index face, const Vec3& point) const;
-    [[nodiscard]] std::size_t corner_at(Index face, Index point) const;
+    // As a share of the largest coordinate: a sum of three products of corners and barycentric
+    // coordinates, on the caller's mesh and on the cleaned one, differs by less.
+    static constexpr double rounding_share = 16 * std::numeric_limits<double>::epsilon();
+    // The ball reaches farther than the start by this share, so that edges through the start meet
+    // it.
+    static constexpr double margin = 1e-9;
+
+    // Vertices at equal positions become the first of them.
+    static std::vector<Triangle> welded(const MeshView& mesh, Ticker ticker) {
+        const std::vector<Index> first = first_at_position(mesh.positions, ticker);
+        std::vector<Triangle> triangles(mesh.triangles.begin(), mesh.triangles.end());
+        for_each_ticked(triangles, ticker, [&](Triangle& t) {
+            for (Index& v : t) v = first[v];
+        });
+        return triangles;
+    }
+
+    [[nodiscard]] ClosestPoint closest(Index face, const Vec3& point) const {
+        const auto& [a, b, c] = mesh_.triangles[face];
+        return closest_point_on_triangle(
+            {mesh_.positions[a], mesh_.positions[b], mesh_.positions[c]}, FaceId(face), point);
+    }
+    // The corner of a face at a point; 3: it has none there.
+    [[nodiscard]] std::size_t corner_at(Index face, Index point) const {
+        const Triangle& t = points_[face];
+        return static_cast<std::size_t>(std::find(t.begin(), t.end(), point) - t.begin());
+    }
     template <typename Visit>
-    void for_each_neighbor(Index face, std::size_t k, const Visit& visit) const;
+    void for_each_neighbor(Index face, std::size_t k, const Visit& visit) const {
+        const Index a = points_[face][k], b = points_[face][(k + 1) % 3];
+        for (const Index other : faces_.of(a)) {
+            const std::size_t at_b = corner_at(other, b);
+            if (at_b == 3 || other == face) continue;
+            if (agree_ != nullptr && !((*agree_)(face, k, other, corner_at(other, a)) &&
+                                       (*agree_)(face, (k + 1) % 3, other, at_b))) {
+                continue;
+            }
+            visit(other);
+        }
+    }
     template <typename Visit>
-    void flood(const Vec3& point, double reach, Index start, Seen& seen, const Visit& visit) const;
+    void flood(const Vec3& point, double reach, Index start, const Visit& visit) const {
+        std::vector<Index> waiting{start};
+        std::unordered_set<Index> seen{start};
+        while (!waiting.empty()) {
+            const Index face = waiting.back();
+            waiting.pop_back();
+            if (!visit(face)) return;
+            const Triangle& t = mesh_.triangles[face];
+            for (std::size_t k = 0; k < 3; ++k) {
+                const Vec3 &a = mesh_.positions[t[k]], &b = mesh_.positions[t[(k + 1) % 3]];
+                if (distance_to_segment(point, a, b) > reach) continue;
+                for_each_neighbor(face, k, [&](Index neighbor) {
+                    if (seen.insert(neighbor).second) waiting.push_back(neighbor);
+                });
+            }
+        }
+    }
 
     MeshView mesh_;
     std::vector<Triangle> points_;  // #F: for each corner the first vertex at its position.

@@ -1,6 +1,6 @@
 // Texture coordinates: from a point of its side each face looks for its corners along straight
 // lines, in steps, on the input cut at its seams. What the faces around a vertex find is then
-// compared: one place counts for all that are connected there.
+// compared: one point counts for all that are connected there.
 #include "remesh/transfer/transfer.h"
 
 #include <algorithm>
@@ -20,13 +20,59 @@ namespace {
 
 using detail::NearestOnSheet;
 
+constexpr Index vertex_grain = 256, face_grain = 64;
+
+// Barycentric coordinates of the centres of the parts that a triangle falls into when its sides are
+// cut in four, row by row, to and fro: each is next to the one before.
+std::array<std::array<double, 3>, 16> part_centers() {
+    constexpr int n = 4;
+    std::array<std::array<double, 3>, 16> centers{};
+    std::size_t count = 0;
+    for (int row = 0; row < n; ++row) {
+        const int parts = 2 * (n - row) - 1;
+        for (int i = 0; i < parts; ++i) {
+            const int part = row % 2 == 0 ? i : parts - 1 - i;
+            const double third = part % 2 == 0 ? 1.0 / 3 : 2.0 / 3;  // Upright, upside down.
+            const int column = part / 2;
+            const double v = (row + third) / n, u = (column + third) / n;
+            centers[count++] = {1 - u - v, u, v};
+        }
+    }
+    return centers;
+}
+
+using Centers = std::array<std::array<double, 3>, 16>;
+
+// Starts each search at the nearest of the three corners and the point of the sample before.
+FaceSamples sample_face(const MeshView& result, const Triangle& t,
+                        std::span<const SurfacePoint> points, const Centers& centers,
+                        const NearestOnSheet& nearest) {
+    std::array<SurfacePoint, 4> starts{points[t[0]], points[t[1]], points[t[2]], points[t[0]]};
+    std::array<Vec3, 4> at;
+    for (std::size_t k = 0; k < 4; ++k) at[k] = position(nearest.mesh(), starts[k]);
+    FaceSamples faces{};
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+        Vec3 point = Vec3::Zero();
+        for (std::size_t k = 0; k < 3; ++k) point += centers[i][k] * result.positions[t[k]];
+        std::size_t first = 3;
+        for (std::size_t k = 0; k < 3; ++k) {
+            if ((at[k] - point).squaredNorm() < (at[first] - point).squaredNorm()) first = k;
+        }
+        const ClosestPoint found = nearest.query(point, starts[first]);
+        starts[3] = found.point;
+        at[3] = found.position;
+        faces[i] = found.point.face.value();
+    }
+    return faces;
+}
+
 // The value at a point of a face. Sums of the same value stay that value, bit for bit; a corner of
 // weight 0 does not count.
 //
 // \param value_at  value_at(k): at corner k of the face.
 template <typename ValueAt>
-auto interpolated(const SurfacePoint& place, const ValueAt& value_at) {
-    const auto& b = place.barycentric;
+auto interpolated(const SurfacePoint& point, const ValueAt& value_at) {
+    const auto& b = point.barycentric;
     const auto k = static_cast<std::size_t>(std::max_element(b.begin(), b.end()) - b.begin());
     const auto largest = value_at(k);
     auto value = largest;
@@ -36,9 +82,9 @@ auto interpolated(const SurfacePoint& place, const ValueAt& value_at) {
     return value;
 }
 
-Index nearest_corner(const MeshView& input, const SurfacePoint& place) {
-    const Vec3 at = position(input, place);
-    const Triangle& t = input.triangles[place.face.value()];
+Index nearest_corner(const MeshView& input, const SurfacePoint& point) {
+    const Vec3 at = position(input, point);
+    const Triangle& t = input.triangles[point.face.value()];
     const auto key = [&](Index v) { return std::pair((input.positions[v] - at).squaredNorm(), v); };
     return *std::min_element(t.begin(), t.end(), [&](Index a, Index b) { return key(a) < key(b); });
 }
@@ -70,65 +116,63 @@ double most_frequent(std::span<const double> values, const FaceSamples& faces) {
 
 constexpr Index corner_grain = 64;
 constexpr int steps_to_corner = 4;  // From a face's centroid to a corner.
-// As a share of an edge of the result: places of a vertex are compared within a ball that is never
+// As a share of an edge of the result: points of a vertex are compared within a ball that is never
 // smaller than this.
 constexpr double least_radius = 1e-6;
-// In distances of a vertex from its place: the radius of that ball.
+// In distances of a vertex from its point: the radius of that ball.
 constexpr double radius_factor = 2;
 
-using FacePlaces = std::array<ClosestPoint, 3>;
+using FacePoints = std::array<ClosestPoint, 3>;
 
 class CornerFinder {
 public:
-    CornerFinder(const MeshView& result, std::span<const SurfacePoint> places,
+    CornerFinder(const MeshView& result, std::span<const SurfacePoint> points,
                  const NearestOnSheet& sheet, const NearestOnSheet& cut)
-        : result_(result), places_(places), sheet_(sheet), cut_(cut) {}
+        : result_(result), points_(points), sheet_(sheet), cut_(cut) {}
 
-    // The places of a face's corners on its side of the seams.
-    FacePlaces find(Index face, NearestOnSheet::Seen& seen) const {
+    // The points of a face's corners on its side of the seams.
+    FacePoints find(Index face) const {
         const Triangle& t = result_.triangles[face];
-        FacePlaces best = find_from(home(t, seen), t, seen);
+        FacePoints best = find_from(home(t), t);
         if (are_nearest(best, t)) return best;
         for (const Index v : t) {
-            const FacePlaces found = find_from(at(places_[v], result_.positions[v]), t, seen);
+            const FacePoints found = find_from(at(points_[v], result_.positions[v]), t);
             if (offset(found) < offset(best)) best = found;
         }
         return best;
     }
 
-    // Whether the places of two faces at their common vertex are on the same side of the seams.
-    bool is_same(Index face, Index vertex, const ClosestPoint& a, const ClosestPoint& b,
-                 NearestOnSheet::Seen& seen) const {
+    // Whether the points of two faces at their common vertex are on the same side of the seams.
+    bool is_same(Index face, Index vertex, const ClosestPoint& a, const ClosestPoint& b) const {
         if (a.point.face == b.point.face) return true;
         const Triangle& t = result_.triangles[face];
         const double size = (result_.positions[t[1]] - result_.positions[t[0]]).norm();
         const double radius = std::max(
             radius_factor * std::sqrt(std::max(a.distance_sq, b.distance_sq)), least_radius * size);
         return cut_.are_connected(result_.positions[vertex], radius, a.point.face.value(),
-                                  b.point.face.value(), seen);
+                                  b.point.face.value());
     }
 
-    [[nodiscard]] ClosestPoint at(const SurfacePoint& place, const Vec3& point) const {
-        const Vec3 found = position(sheet_.mesh(), place);
-        return {place, found, (found - point).squaredNorm()};
+    [[nodiscard]] ClosestPoint at(const SurfacePoint& on_input, const Vec3& point) const {
+        const Vec3 found = position(sheet_.mesh(), on_input);
+        return {on_input, found, (found - point).squaredNorm()};
     }
 
 private:
     // Where the centroid lies.
-    ClosestPoint home(const Triangle& t, NearestOnSheet::Seen& seen) const {
+    ClosestPoint home(const Triangle& t) const {
         const Vec3 center =
             (result_.positions[t[0]] + result_.positions[t[1]] + result_.positions[t[2]]) / 3;
         std::size_t first = 0;
         for (std::size_t k = 1; k < 3; ++k) {
-            if (at(places_[t[k]], center).distance_sq < at(places_[t[first]], center).distance_sq)
+            if (at(points_[t[k]], center).distance_sq < at(points_[t[first]], center).distance_sq)
                 first = k;
         }
-        return sheet_.query(center, places_[t[first]], seen);
+        return sheet_.query(center, points_[t[first]]);
     }
 
-    FacePlaces find_from(const ClosestPoint& start, const Triangle& t,
-                         NearestOnSheet::Seen& seen) const {
-        FacePlaces found;
+    FacePoints find_from(const ClosestPoint& start, const Triangle& t) const {
+        FacePoints found;
         for (std::size_t k = 0; k < 3; ++k) {
             found[k] = start;
             for (int step = 1; step <= steps_to_corner; ++step) {
@@ -137,34 +181,34 @@ private:
                     step == steps_to_corner
                         ? target
                         : Vec3(start.position + (target - start.position) * step / steps_to_corner);
-                found[k] = cut_.query(point, found[k].point, seen);
+                found[k] = cut_.query(point, found[k].point);
             }
         }
         return found;
     }
 
     // Whether no corner is nearer to another side.
-    [[nodiscard]] bool are_nearest(const FacePlaces& found, const Triangle& t) const {
+    [[nodiscard]] bool are_nearest(const FacePoints& found, const Triangle& t) const {
         const double tolerance =
             least_radius * (result_.positions[t[1]] - result_.positions[t[0]]).norm();
         for (std::size_t k = 0; k < 3; ++k) {
-            const double least = at(places_[t[k]], result_.positions[t[k]]).distance_sq;
+            const double least = at(points_[t[k]], result_.positions[t[k]]).distance_sq;
             if (std::sqrt(found[k].distance_sq) > std::sqrt(least) + tolerance) return false;
         }
         return true;
     }
-    static double offset(const FacePlaces& found) {
+    static double offset(const FacePoints& found) {
         return found[0].distance_sq + found[1].distance_sq + found[2].distance_sq;
     }
 
     const MeshView& result_;
-    std::span<const SurfacePoint> places_;
+    std::span<const SurfacePoint> points_;
     const NearestOnSheet &sheet_, &cut_;
 };
 
-void check(std::span<const SurfacePoint> places, const MeshView& result) {
-    if (places.size() == result.positions.size()) return;
-    throw InvalidOption("there are " + std::to_string(places.size()) + " places for " +
+void check(std::span<const SurfacePoint> points, const MeshView& result) {
+    if (points.size() == result.positions.size()) return;
+    throw InvalidOption("there are " + std::to_string(points.size()) + " places for " +
                         std::to_string(result.positions.size()) + " vertices; give one for each");
 }
 
@@ -196,20 +240,55 @@ bool is_part(const std::vector<Index>& face_polygon, Index face) {
 
 }  // namespace
 
+InputMap map_to_input(const MeshView& input, const MeshView& result,
+                      std::span<const SurfacePoint> sites, const MapOptions& options) {
+    check_num_threads(options.num_threads);
+    if (sites.size() != result.positions.size()) {
+        throw InvalidOption("there are " + std::to_string(sites.size()) + " sites for " +
+                            std::to_string(result.positions.size()) +
+                            " vertices; give one for each");
+    }
+    Poller poller(options.progress);
+    const NearestOnSheet nearest(input, Ticker(poller));
+    InputMap map;
+    map.vertices.resize(sites.size());
+    parallel_chunks(
+        static_cast<Index>(sites.size()), vertex_grain, options.num_threads,
+        [&](Index, Index begin, Index end) {
+            for (Index v = begin; v < end; ++v) {
+                map.vertices[v] = nearest.query(result.positions[v], sites[v]).point;
+            }
+        },
+        poller);
+    if (!options.with_faces) return map;
+    const Centers centers = part_centers();
+    map.faces.resize(result.triangles.size());
+    parallel_chunks(
+        static_cast<Index>(map.faces.size()), face_grain, options.num_threads,
+        [&](Index, Index begin, Index end) {
+            for (Index f = begin; f < end; ++f) {
+                map.faces[f] =
+                    sample_face(result, result.triangles[f], map.vertices, centers, nearest);
+            }
+        },
+        poller);
+    return map;
+}
+
 std::vector<double> transfer_vertex_values(std::span<const double> values, const MeshView& input,
-                                           std::span<const SurfacePoint> places, ValueKind kind) {
+                                           std::span<const SurfacePoint> points, ValueKind kind) {
     if (values.size() != input.positions.size()) {
         throw InvalidOption("there are " + std::to_string(values.size()) + " values for the " +
                             std::to_string(input.positions.size()) +
                             " vertices of the input; give one for each");
     }
     std::vector<double> result;
-    result.reserve(places.size());
-    for (const SurfacePoint& place : places) {
-        const Triangle& t = input.triangles[place.face.value()];
+    result.reserve(points.size());
+    for (const SurfacePoint& point : points) {
+        const Triangle& t = input.triangles[point.face.value()];
         result.push_back(kind == ValueKind::Label
-                             ? values[nearest_corner(input, place)]
-                             : interpolated(place, [&](std::size_t k) { return values[t[k]]; }));
+                             ? values[nearest_corner(input, point)]
+                             : interpolated(point, [&](std::size_t k) { return values[t[k]]; }));
     }
     return result;
 }
@@ -232,34 +311,33 @@ std::vector<double> transfer_face_values(std::span<const double> values,
 
 std::vector<CornerCoordinates> transfer_corner_values(std::span<const CornerCoordinates> values,
                                                       const MeshView& input, const MeshView& result,
-                                                      std::span<const SurfacePoint> places,
+                                                      std::span<const SurfacePoint> points,
                                                       const CornerOptions& options) {
     check_num_threads(options.num_threads);
-    check(places, result);
+    check(points, result);
     Poller poller(options.progress);
     const auto num_faces = static_cast<Index>(result.triangles.size());
     std::vector<CornerCoordinates> carried(num_faces, no_coordinates());
-    const auto value_at = [&](const SurfacePoint& place) {
-        const CornerCoordinates& corners = values[place.face.value()];
-        return interpolated(place, [&](std::size_t k) { return corners[k]; });
+    const auto value_at = [&](const SurfacePoint& point) {
+        const CornerCoordinates& corners = values[point.face.value()];
+        return interpolated(point, [&](std::size_t k) { return corners[k]; });
     };
     if (find_texture_seams(input, values, Ticker(poller)).empty()) {
         for (Index f = 0; f < num_faces; ++f) {
             for (std::size_t k = 0; k < 3; ++k) {
-                carried[f][k] = value_at(places[result.triangles[f][k]]);
+                carried[f][k] = value_at(points[result.triangles[f][k]]);
             }
         }
         return carried;
     }
     const CornerAgreement agree(values);
     const NearestOnSheet sheet(input, Ticker(poller)), cut = sheet.cut_at_seams(agree);
-    const CornerFinder finder(result, places, sheet, cut);
-    std::vector<FacePlaces> found(num_faces);
+    const CornerFinder finder(result, points, sheet, cut);
+    std::vector<FacePoints> found(num_faces);
     parallel_chunks(
         num_faces, corner_grain, options.num_threads,
         [&](Index, Index begin, Index end) {
-            NearestOnSheet::Seen seen;
-            for (Index f = begin; f < end; ++f) found[f] = finder.find(f, seen);
+            for (Index f = begin; f < end; ++f) found[f] = finder.find(f);
         },
         poller);
     // Corner k of face f of the result is number 3 f + k.
@@ -271,17 +349,16 @@ std::vector<CornerCoordinates> transfer_corner_values(std::span<const CornerCoor
     parallel_chunks(
         static_cast<Index>(result.positions.size()), corner_grain, options.num_threads,
         [&](Index, Index begin, Index end) {
-            NearestOnSheet::Seen seen;
             for (Index v = begin; v < end; ++v) {
-                std::vector<ClosestPoint> sides{finder.at(places[v], result.positions[v])};
+                std::vector<ClosestPoint> sides{finder.at(points[v], result.positions[v])};
                 for (const Index corner : corners.of(v)) {
                     const Index f = corner / 3;
-                    const ClosestPoint& place = found[f][corner % 3];
+                    const ClosestPoint& point = found[f][corner % 3];
                     const auto side = std::find_if(sides.begin(), sides.end(), [&](const auto& s) {
-                        return finder.is_same(f, v, s, place, seen);
+                        return finder.is_same(f, v, s, point);
                     });
-                    const ClosestPoint counted = side == sides.end() ? place : *side;
-                    if (side == sides.end()) sides.push_back(place);
+                    const ClosestPoint counted = side == sides.end() ? point : *side;
+                    if (side == sides.end()) sides.push_back(point);
                     carried[f][corner % 3] = value_at(counted.point);
                 }
             }
@@ -354,12 +431,12 @@ std::vector<Index> face_labels_of(const Attribute& attribute) {
     return labels;
 }
 
-std::string format_map(const MeshFile& input, std::span<const SurfacePoint> places) {
+std::string format_map(const MeshFile& input, std::span<const SurfacePoint> points) {
     std::string text;
-    for (const SurfacePoint& place : places) {
-        const Index face = place.face.value();
+    for (const SurfacePoint& point : points) {
+        const Index face = point.face.value();
         append_number(text, input.face_polygon[face]);
-        for (const double b : place.barycentric) append_number(text, b);
+        for (const double b : point.barycentric) append_number(text, b);
         if (is_part(input.face_polygon, face)) {
             for (const Index v : input.mesh.triangles[face]) append_number(text, v);
         }

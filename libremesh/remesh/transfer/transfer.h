@@ -58,12 +58,12 @@ enum class ValueKind {
 //! vertex, if several are as near).
 //!
 //! \param values  one for each vertex of the input.
-//! \param places  on the input, one for each vertex of the result: InputMap::vertices.
+//! \param points  on the input, one for each vertex of the result: InputMap::vertices.
 //! \throw InvalidOption  there is not one value for each vertex.
-//! Cost: O(#places).
+//! Cost: O(#points).
 [[nodiscard]] std::vector<double> transfer_vertex_values(std::span<const double> values,
                                                          const MeshView& input,
-                                                         std::span<const SurfacePoint> places,
+                                                         std::span<const SurfacePoint> points,
                                                          ValueKind kind);
 
 //! Values for the faces of a result. Numbers are means over each face, labels those with the
@@ -92,16 +92,16 @@ struct CornerOptions {
 //! each vertex has one value.
 //!
 //! \param values  #F of the input; NaN where a corner has none: so has what lies there.
-//! \param places  where the result's vertices lie on the input: InputMap::vertices.
+//! \param points  where the result's vertices lie on the input: InputMap::vertices.
 //! \return #F of the result.
 //! \throw InvalidOption  num_threads < 0, or there is not one value for each face of the
-//!        input or not one place for each vertex of the result.
+//!        input or not one point for each vertex of the result.
 //! \throw Cancelled      the progress callback returned false.
 //! Cost: O(#F log #F) of the input; for each face of the result, if there are seams, 13 searches
 //! over a quarter of its width.
 [[nodiscard]] std::vector<CornerCoordinates> transfer_corner_values(
     std::span<const CornerCoordinates> values, const MeshView& input, const MeshView& result,
-    std::span<const SurfacePoint> places, const CornerOptions& options = {});
+    std::span<const SurfacePoint> points, const CornerOptions& options = {});
 
 //! The same attributes for the result: numbers and colours are interpolated (faces: means), labels
 //! are chosen (transfer_vertex_values, transfer_face_values), texture coordinates are those of each
@@ -140,6 +140,6 @@ void keep_attributes(const MeshAttributes& input, std::span<const Index> vertice
 //! also the three vertices of the file (from 0) to which the coordinates belong:
 //! `FACE B0 B1 B2 V0 V1 V2`. Numbers have the shortest decimals that read back as the same double.
 //! \param input  needs mesh.triangles and face_polygon.
-[[nodiscard]] std::string format_map(const MeshFile& input, std::span<const SurfacePoint> places);
+[[nodiscard]] std::string format_map(const MeshFile& input, std::span<const SurfacePoint> points);
 
 }  // namespace remesh

@@ -1,5 +1,5 @@
 // Vertices that lie at one place but for rounding.
-#include "remesh/clean/places.h"
+#include "remesh/clean/soup.h"
 
 #include <gtest/gtest.h>
 

@@ -9,15 +9,15 @@
 
 using agvd::Index;
 using agvd::TriangleMesh;
-using remesh::DistanceOptions;
+using remesh::EvaluationOptions;
 using remesh::SurfaceDistance;
 
 namespace {
 
-const DistanceOptions few{.samples = 20'000, .num_threads = 2};
+const EvaluationOptions few{.samples = 20'000, .num_threads = 2};
 
 SurfaceDistance distance(const TriangleMesh& original, const TriangleMesh& result,
-                         const DistanceOptions& options = few) {
+                         const EvaluationOptions& options = few) {
     return remesh::surface_distance(original.view(), result.view(), options).value();
 }
 

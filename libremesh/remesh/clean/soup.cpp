@@ -13,7 +13,6 @@
 #include "agvd/core/error.h"
 #include "agvd/core/parallel.h"
 #include "agvd/mesh/scale.h"
-#include "remesh/clean/places.h"
 #include "remesh/clean/soup.h"
 
 namespace remesh {
@@ -136,7 +135,9 @@ void check_elements(const MeshView& mesh, Ticker ticker) {
     }
 }
 
-void erase_faces(Soup& soup, const std::vector<bool>& is_dead, std::vector<Index>& twin) {
+Index drop_faces(Soup& soup, const std::vector<bool>& is_dead, std::vector<Index>* twin) {
+    const auto dropped = static_cast<Index>(std::count(is_dead.begin(), is_dead.end(), true));
+    if (dropped == 0) return 0;
     std::vector<Index> new_face(soup.triangles.size(), no_index);
     Index count = 0;
     for (Index f = 0; f < new_face.size(); ++f) {
@@ -149,23 +150,16 @@ void erase_faces(Soup& soup, const std::vector<bool>& is_dead, std::vector<Index
     }
     soup.triangles.resize(count);
     soup.face_origin.resize(count);
-    if (twin.empty()) return;
-    for (Index f = 0; f < new_face.size(); ++f) {
+    if (twin == nullptr) return dropped;
+    for (Index h = 0; h < twin->size(); ++h) {
         soup.ticker.tick();
-        if (new_face[f] == no_index) continue;
-        for (Index k = 0; k < 3; ++k) {
-            const Index across = twin[3 * f + k];
-            const bool is_open = across == no_index || new_face[across / 3] == no_index;
-            twin[3 * new_face[f] + k] = is_open ? no_index : 3 * new_face[across / 3] + across % 3;
-        }
+        if (new_face[h / 3] == no_index) continue;
+        const Index across = (*twin)[h];
+        const bool is_open = across == no_index || new_face[across / 3] == no_index;
+        (*twin)[3 * new_face[h / 3] + h % 3] =
+            is_open ? no_index : 3 * new_face[across / 3] + across % 3;
     }
-    twin.resize(3 * std::size_t{count});
-}
-
-Index drop_faces(Soup& soup, const std::vector<bool>& is_dead) {
-    const auto dropped = static_cast<Index>(std::count(is_dead.begin(), is_dead.end(), true));
-    std::vector<Index> no_twins;
-    if (dropped > 0) erase_faces(soup, is_dead, no_twins);
+    twin->resize(3 * std::size_t{count});
     return dropped;
 }
 
