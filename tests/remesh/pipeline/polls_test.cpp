@@ -162,7 +162,7 @@ TEST(Polls, AreInTheStagesOnTheirOwn) {
     const std::optional<agvd::Connectivity> connectivity = agvd::find_connectivity(mesh.view());
     ASSERT_TRUE(connectivity);
     expect_polls("topology of what is connected", 20, [&](const Progress& progress) {
-        (void)remesh::analyze_topology(mesh.view(), *connectivity, 1, progress);
+        (void)remesh::analyze_topology(mesh.view(), *connectivity, progress);
     });
     expect_polls("surface", 30, [&](const Progress& progress) {
         (void)agvd::build_surface(mesh.view(), 1, progress);
