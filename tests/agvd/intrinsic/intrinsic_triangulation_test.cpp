@@ -308,7 +308,7 @@ TEST(IntrinsicTriangulation, SegmentsJoinAndKeepTheirLengths) {
         const Surface& s = base.surface();
         const double size = diagonal(mesh);
         Dice dice(seed);
-        for (int n = 0; n < 8; ++n) {
+        for (int n = 0; n < 16; ++n) {
             const Index face = dice.count(0, s.num_faces() - 1);
             const SurfacePoint begin = points::anywhere(dice, face);
             const SurfacePoint end = points::anywhere(dice, face);

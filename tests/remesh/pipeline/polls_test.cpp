@@ -165,7 +165,7 @@ TEST(Polls, AreInTheStagesOnTheirOwn) {
     expect_polls("surface", 30, [&](const Progress& progress) {
         (void)agvd::build_surface(mesh.view(), 1, progress);
     });
-    expect_polls("no surface", 180, [&](const Progress& progress) {
+    expect_polls("no surface", 60, [&](const Progress& progress) {
         try {
             (void)agvd::build_surface(dirty.view(), 1, progress);
         } catch (const agvd::InvalidInput&) {
