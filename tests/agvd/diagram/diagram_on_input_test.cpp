@@ -34,7 +34,6 @@ TEST(DiagramOnInput, EdgesRunOnTheFacesOfTheInputAndKeepTheirLengths) {
     for (const TriangleMesh& mesh : {needle_tube(), shapes::jitter(shapes::sphere(3), 0.08, 3)}) {
         const Surface surface = build_surface(mesh.view());
         const IntrinsicTriangulation base(surface, {.max_length = 0.15});
-        ASSERT_GT(base.counts().flips, 50u);
         ASSERT_GT(base.counts().splits, 50u);
         const auto sites = uniform_points(surface, 30, 5);
         const auto on_base = base.to_intrinsic(sites);

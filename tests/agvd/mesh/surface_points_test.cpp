@@ -47,7 +47,7 @@ TEST(DistinctPoints, RepeatedSitesCostNothingAndOwnNothing) {
     std::vector<SurfacePoint> sites(20, distinct[0]);
     sites.resize(40, distinct[1]);
     const auto name = [](agvd::SiteId site) { return agvd::SiteId(20 * site.value()); };
-    for (const auto engine : {agvd::Engine::Window, agvd::Engine::Steiner, agvd::Engine::Vertex}) {
+    for (const auto engine : {agvd::Engine::Window, agvd::Engine::Steiner}) {
         SCOPED_TRACE(agvd::engine_name(engine));
         const agvd::Propagation without = propagate(surface, distinct, {.engine = engine});
         const agvd::Propagation with = propagate(surface, sites, {.engine = engine});

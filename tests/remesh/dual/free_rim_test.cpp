@@ -17,7 +17,7 @@ TEST(FreeRim, AnEdgeThatIsInTheWayIsFlipped) {
     const agvd::Surface surface = agvd::build_surface(mesh.view());
     std::vector<agvd::SurfacePoint> points;
     for (Index v = 0; v < 4; ++v) points.push_back(agvd::point_at(surface, v));
-    agvd::SimplifiedMesh patch{mesh.triangles, {agvd::point_at(surface, 4)}, 0};
+    agvd::SimplifiedMesh patch{mesh.triangles, {agvd::point_at(surface, 4)}};
     remesh::free_rim(surface, points, patch);
     EXPECT_TRUE(patch.extra.empty());
     const std::vector<remesh::DirectedEdge> rim{{0, 1}, {1, 2}, {2, 0}};
@@ -33,7 +33,7 @@ TEST(FreeRim, InnerVerticesStay) {
     const auto at = [&](Index v) { return agvd::point_at(surface, v); };
     const std::vector<agvd::SurfacePoint> points{at(0), at(1), at(3)};
     // 0, 1 and 3 are points; 4 and 2 are extra.
-    agvd::SimplifiedMesh patch{{{0, 3, 4}, {3, 1, 4}, {1, 2, 4}, {2, 0, 4}}, {at(4), at(2)}, 0};
+    agvd::SimplifiedMesh patch{{{0, 3, 4}, {3, 1, 4}, {1, 2, 4}, {2, 0, 4}}, {at(4), at(2)}};
     remesh::free_rim(surface, points, patch);
     ASSERT_EQ(patch.extra.size(), 1u);
     EXPECT_EQ(patch.extra.front(), at(2));
