@@ -19,10 +19,10 @@ namespace {
 
 // The folders in the order in which the data passes through them.
 constexpr const char* folders[] = {
-    "agvd/core",       "agvd/mesh",       "agvd/intrinsic", "agvd/propagation", "agvd/diagram",
-    "agvd/paths",
-    "remesh",          "remesh/meshfile", "remesh/clean",   "remesh/curves",    "remesh/dual",
-    "remesh/sites",    "remesh/placement", "remesh/quality", "remesh/transfer", "remesh/pipeline",
+    "agvd/core",        "agvd/mesh",      "agvd/intrinsic",  "agvd/propagation",
+    "agvd/diagram",     "agvd/paths",     "remesh",          "remesh/meshfile",
+    "remesh/clean",     "remesh/curves",  "remesh/dual",     "remesh/sites",
+    "remesh/placement", "remesh/quality", "remesh/transfer", "remesh/pipeline",
 };
 
 struct Package {
@@ -33,8 +33,7 @@ struct Package {
 constexpr Package packages[] = {
     {"Eigen/", R"(agvd/core/types\.h)"},
     {"tbb/", R"(agvd/core/parallel\.cpp)"},
-    {"CGAL/",
-     R"(remesh/clean/hole_triangles\.cpp|remesh/quality/.*\.cpp)"},
+    {"CGAL/", R"(remesh/clean/hole_triangles\.cpp|remesh/quality/.*\.cpp)"},
     {"OpenMesh/", R"(remesh/meshfile/(.*\.cpp|openmesh_exchange\.h))"},
     {"nlohmann/", R"(remesh/meshfile/(.*\.cpp|gltf_(document|materials)\.h))"},
     {"fast_float/", R"(remesh/meshfile/(.*\.cpp|text_scanner\.h))"},

@@ -7,9 +7,9 @@
 
 #include "agvd/diagram/build_diagram.h"
 #include "agvd/propagation/propagate.h"
+#include "remesh/meshfile/diagram_file.h"
 #include "remesh/meshfile/numbers.h"
 #include "remesh/meshfile/packed.h"
-#include "remesh/meshfile/diagram_file.h"
 #include "remesh/meshfile/write_mesh.h"
 #include "support/dice.h"
 #include "support/points.h"

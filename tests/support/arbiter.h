@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "agvd/mesh/surface.h"
 #include "agvd/mesh/mesh.h"
+#include "agvd/mesh/surface.h"
 
 namespace arbiter {
 

@@ -2,8 +2,8 @@
 //! Points on surfaces, for sites and targets.
 #pragma once
 
-#include "agvd/mesh/surface.h"
 #include "agvd/mesh/mesh.h"
+#include "agvd/mesh/surface.h"
 #include "support/dice.h"
 
 namespace points {

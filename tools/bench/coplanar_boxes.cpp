@@ -7,8 +7,8 @@
 #include <cmath>
 #include <map>
 
-#include "agvd/core/types.h"
 #include "agvd/core/random.h"
+#include "agvd/core/types.h"
 
 namespace bench {
 namespace {

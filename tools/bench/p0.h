@@ -4,8 +4,8 @@
 
 #include <span>
 
-#include "agvd/mesh/surface.h"
 #include "agvd/mesh/mesh.h"
+#include "agvd/mesh/surface.h"
 
 namespace bench {
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "agvd/mesh/surface.h"
 #include "agvd/mesh/mesh.h"
+#include "agvd/mesh/surface.h"
 
 namespace bench {
 

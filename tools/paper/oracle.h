@@ -5,8 +5,8 @@
 
 #include <span>
 
-#include "agvd/mesh/surface.h"
 #include "agvd/mesh/mesh.h"
+#include "agvd/mesh/surface.h"
 
 namespace agvd {
 

@@ -7,8 +7,8 @@
 #include <span>
 
 #include "agvd/core/progress.h"
-#include "agvd/mesh/surface.h"
 #include "agvd/mesh/mesh.h"
+#include "agvd/mesh/surface.h"
 #include "agvd/propagation/propagate.h"
 
 namespace agvd {

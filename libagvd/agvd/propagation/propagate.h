@@ -10,8 +10,8 @@
 #include <span>
 
 #include "agvd/core/progress.h"
-#include "agvd/mesh/surface.h"
 #include "agvd/mesh/mesh.h"
+#include "agvd/mesh/surface.h"
 
 namespace agvd {
 

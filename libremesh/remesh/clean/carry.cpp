@@ -14,8 +14,8 @@
 #include "agvd/core/error.h"
 #include "agvd/core/groups.h"
 #include "agvd/mesh/closest_point.h"
-#include "agvd/mesh/surface_points.h"
 #include "agvd/mesh/scale.h"
+#include "agvd/mesh/surface_points.h"
 
 namespace remesh {
 namespace {

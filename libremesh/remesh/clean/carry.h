@@ -5,8 +5,8 @@
 #include <array>
 #include <span>
 
-#include "agvd/mesh/surface.h"
 #include "agvd/mesh/mesh.h"
+#include "agvd/mesh/surface.h"
 #include "remesh/clean/clean_input.h"
 
 namespace remesh {

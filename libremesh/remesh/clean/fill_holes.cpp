@@ -3,8 +3,8 @@
 #include <unordered_set>
 #include <utility>
 
-#include "agvd/core/types.h"
 #include "agvd/core/error.h"
+#include "agvd/core/types.h"
 #include "remesh/clean/soup.h"
 
 namespace remesh::detail {

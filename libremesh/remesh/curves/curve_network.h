@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "agvd/mesh/surface.h"
 #include "agvd/mesh/mesh.h"
+#include "agvd/mesh/surface.h"
 #include "remesh/curves/find_creases.h"
 
 namespace remesh {

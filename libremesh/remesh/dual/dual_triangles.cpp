@@ -7,8 +7,8 @@
 #include <array>
 #include <set>
 
-#include "agvd/core/types.h"
 #include "agvd/core/progress.h"
+#include "agvd/core/types.h"
 #include "agvd/core/union_find.h"
 #include "remesh/dual/closed_ball.h"
 

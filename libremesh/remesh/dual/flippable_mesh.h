@@ -6,8 +6,8 @@
 #include <unordered_set>
 #include <vector>
 
-#include "agvd/core/types.h"
 #include "agvd/core/progress.h"
+#include "agvd/core/types.h"
 #include "remesh/names.h"
 
 namespace remesh {

@@ -38,7 +38,7 @@ namespace remesh {
 //! \param points   in these faces, no two at one place.
 //! Cost: as thin.
 [[nodiscard]] SimplifiedMesh thin_patch(const Surface& surface, std::span<const Index> faces,
-                                     std::span<const SurfacePoint> points);
+                                        std::span<const SurfacePoint> points);
 
 //! Removes extra vertices on the boundary as far as topology allows. A vertex often stays because
 //! an inner edge joins its two neighbours on the boundary: then this edge is flipped first.

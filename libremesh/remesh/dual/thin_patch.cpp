@@ -90,7 +90,7 @@ void free_rim(const Surface& surface, std::span<const SurfacePoint> points, Simp
 }
 
 SimplifiedMesh thin_patch(const Surface& surface, std::span<const Index> faces,
-                       std::span<const SurfacePoint> points) {
+                          std::span<const SurfacePoint> points) {
     SimplifiedMesh patch = simplify(surface, faces, points);
     if (patch.extra.empty()) return patch;
     const std::vector<Vec3> positions = positions_of(surface, points, patch);

@@ -5,8 +5,8 @@
 #include <limits>
 #include <string>
 
-#include "agvd/core/types.h"
 #include "agvd/core/error.h"
+#include "agvd/core/types.h"
 #include "agvd/mesh/any_mesh.h"
 
 namespace remesh {

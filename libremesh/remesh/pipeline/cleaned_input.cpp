@@ -46,8 +46,7 @@ CleanedInput clean_stage(const InputMesh& input, const StageContext& context) {
     if (options.drop_components > 0) {
         result.components_dropped =
             drop_components(clean, cleaned.topology, options.drop_components);
-        if (result.components_dropped > 0)
-            cleaned.topology = topology_of(clean, half);
+        if (result.components_dropped > 0) cleaned.topology = topology_of(clean, half);
     }
     const bool is_unchanged = !clean.connectivity.twin.empty();
     if (!is_unchanged || refers_to_input(options)) {

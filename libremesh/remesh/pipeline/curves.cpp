@@ -201,8 +201,7 @@ std::unique_ptr<const CurvePlan> plan_curves(const CleanedInput& cleaned, const 
     // Pass the twins: vertex indices do not show a cut along a single edge, whose two sides have
     // the same ends.
     const Surface& cut = plan->network.cut.surface;
-    plan->patches =
-        analyze_topology(cut.mesh.view(), {cut.twin, cut.outgoing}, done);
+    plan->patches = analyze_topology(cut.mesh.view(), {cut.twin, cut.outgoing}, done);
     return plan;
 }
 

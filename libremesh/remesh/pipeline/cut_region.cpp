@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <unordered_map>
 
-#include "agvd/core/types.h"
 #include "agvd/core/error.h"
 #include "agvd/core/random.h"
+#include "agvd/core/types.h"
 #include "remesh/clean/soup.h"
 
 namespace remesh::detail {

@@ -5,8 +5,8 @@
 #include <numeric>
 #include <unordered_map>
 
-#include "agvd/core/types.h"
 #include "agvd/core/random.h"
+#include "agvd/core/types.h"
 
 namespace remesh::detail {
 namespace {

@@ -5,9 +5,9 @@
 #include <unordered_map>
 #include <utility>
 
-#include "agvd/core/types.h"
 #include "agvd/core/error.h"
 #include "agvd/core/random.h"
+#include "agvd/core/types.h"
 
 namespace remesh::detail {
 namespace {

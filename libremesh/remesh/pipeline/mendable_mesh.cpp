@@ -75,7 +75,7 @@ std::optional<MendedMesh> mend(const Domain& domain, MendableMesh mendable,
             const StageClock clock(Stage::Place, context.result);
             const Progress progress = progress_of(Stage::Place, context.options);
             numbers = repair_shape(domain.prepared.input(), mendable.mobility, mendable.hard,
-                                 mended.mesh, within(progress, 1, 1));
+                                   mended.mesh, within(progress, 1, 1));
         }
         if (numbers.empty()) return std::nullopt;
         const std::optional<CrossingFaces> crossings = finder.find(mended);

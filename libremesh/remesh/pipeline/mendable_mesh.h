@@ -33,8 +33,8 @@ struct MendedMesh {
     std::optional<CrossingCounts> self_intersections;  //!< Unset without CGAL.
 };
 
-//! Mends thin triangles (repair_shape). If mended triangles intersect, fixes their corners and tries
-//! again.
+//! Mends thin triangles (repair_shape). If mended triangles intersect, fixes their corners and
+//! tries again.
 //!
 //! \param most_crossings  self-intersecting pairs that the mesh may have; unset: not known.
 //! \return nothing if no mended mesh is better.

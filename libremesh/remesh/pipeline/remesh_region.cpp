@@ -4,8 +4,8 @@
 #include <string>
 #include <utility>
 
-#include "agvd/core/types.h"
 #include "agvd/core/error.h"
+#include "agvd/core/types.h"
 #include "remesh/pipeline/glue_region.h"
 #include "remesh/pipeline/region_crossings.h"
 #include "remesh/pipeline/stage_context.h"

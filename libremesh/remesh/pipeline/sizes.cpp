@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "agvd/core/progress.h"
+#include "agvd/mesh/scale.h"
 #include "agvd/mesh/surface.h"
 #include "agvd/mesh/surface_points.h"
-#include "agvd/mesh/scale.h"
 #include "remesh/pipeline/sample_count.h"
 #include "remesh/pipeline/thin_lengths.h"
 #include "remesh/sites/target_lengths.h"

@@ -390,7 +390,7 @@ private:
         std::vector<SurfacePoint> points = points_of(sites_, thinned.sites);
         dual_.site.insert(dual_.site.end(), thinned.sites.begin(), thinned.sites.end());
         SimplifiedMesh part = input_.chain.empty() ? simplify(surface_, thinned.faces, points)
-                                                : thin_patch(surface_, thinned.faces, points);
+                                                   : thin_patch(surface_, thinned.faces, points);
         if (input_.has_locked) free_rim(surface_, points, part);
         points.insert(points.end(), part.extra.begin(), part.extra.end());
         dual_.mesh.points.insert(dual_.mesh.points.end(), points.begin(), points.end());

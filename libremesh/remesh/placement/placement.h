@@ -8,8 +8,8 @@
 
 #include "agvd/core/progress.h"
 #include "agvd/mesh/mesh.h"
-#include "remesh/curves/glue.h"
 #include "remesh/curves/curve_sites.h"
+#include "remesh/curves/glue.h"
 #include "remesh/sites/cell_measures.h"
 #include "remesh/sites/prepared_surface.h"
 #include "remesh/sites/sample_sites.h"

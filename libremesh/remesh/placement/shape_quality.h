@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
-#include "agvd/mesh/surface.h"
 #include "agvd/mesh/mesh.h"
+#include "agvd/mesh/surface.h"
 #include "remesh/names.h"
 
 namespace remesh::detail {

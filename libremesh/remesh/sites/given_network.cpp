@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "agvd/mesh/closest_point.h"
-#include "agvd/mesh/surface_points.h"
 #include "agvd/mesh/surface.h"
+#include "agvd/mesh/surface_points.h"
 #include "remesh/sites/network_plan.h"
 
 namespace remesh {

@@ -257,8 +257,7 @@ RelaxResult sample_relaxed_sites(const PreparedSurface& surface, const SamplingO
         return relax_sites(surface, sample_sites(input, sampling), options);
     };
     const std::optional<Index> coarse =
-        coarse_count(surface.base.surface(), sampling.num_samples,
-                     within(options.progress, 0, 0));
+        coarse_count(surface.base.surface(), sampling.num_samples, within(options.progress, 0, 0));
     if (!coarse || options.steps == 0) return one_after_the_other();
     SamplingOptions first = sampling;
     first.num_samples = *coarse;

@@ -6,8 +6,8 @@
 #pragma once
 
 #include "agvd/core/progress.h"
-#include "agvd/mesh/surface.h"
 #include "agvd/mesh/mesh.h"
+#include "agvd/mesh/surface.h"
 #include "remesh/names.h"
 
 namespace remesh {

@@ -6,8 +6,8 @@
 #include <array>
 #include <optional>
 
-#include "agvd/mesh/surface.h"
 #include "agvd/mesh/mesh.h"
+#include "agvd/mesh/surface.h"
 #include "remesh/names.h"
 
 namespace remesh::detail {

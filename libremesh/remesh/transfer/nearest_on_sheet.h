@@ -10,8 +10,8 @@
 
 #include "agvd/core/groups.h"
 #include "agvd/core/progress.h"
-#include "agvd/mesh/closest_point.h"
 #include "agvd/mesh/any_mesh.h"
+#include "agvd/mesh/closest_point.h"
 #include "remesh/meshfile/read_mesh.h"
 
 namespace remesh::detail {

@@ -22,7 +22,8 @@ remesh::CleanResult three_rectangles() {
 }
 
 Index drop(remesh::CleanResult& clean, double least_share) {
-    return remesh::detail::drop_components(clean, remesh::analyze_topology(clean.mesh.view()), least_share);
+    return remesh::detail::drop_components(clean, remesh::analyze_topology(clean.mesh.view()),
+                                           least_share);
 }
 
 TEST(DropComponents, AComponentWithTheLeastShareStays) {

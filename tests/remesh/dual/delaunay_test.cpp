@@ -8,8 +8,8 @@
 #include <set>
 
 #include "agvd/diagram/build_diagram.h"
-#include "agvd/mesh/topology.h"
 #include "agvd/mesh/surface_points.h"
+#include "agvd/mesh/topology.h"
 #include "agvd/propagation/propagate.h"
 #include "remesh/dual/flippable_mesh.h"
 #include "support/points.h"

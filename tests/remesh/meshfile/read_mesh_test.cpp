@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "agvd/mesh/topology.h"
-#include "remesh/meshfile/numbers.h"
 #include "remesh/meshfile/diagram_file.h"
+#include "remesh/meshfile/numbers.h"
 #include "remesh/meshfile/read_sites.h"
 #include "remesh/meshfile/write_mesh.h"
 #include "support/files.h"

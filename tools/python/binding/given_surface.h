@@ -2,8 +2,8 @@
 //! The caller's mesh, cleaned, as a surface.
 #pragma once
 
-#include "agvd/mesh/surface.h"
 #include "agvd/mesh/mesh.h"
+#include "agvd/mesh/surface.h"
 #include "binding/python_progress.h"
 #include "remesh/clean/clean_input.h"
 

@@ -25,8 +25,7 @@ namespace python {
 
 [[nodiscard]] inline agvd::Engine engine_of(const std::string& name) {
     using agvd::Engine;
-    return choose<Engine>("engine", name, {Engine::Window, Engine::Steiner},
-                          agvd::engine_name);
+    return choose<Engine>("engine", name, {Engine::Window, Engine::Steiner}, agvd::engine_name);
 }
 
 }  // namespace python
