@@ -1,17 +1,13 @@
 //! \file
-//! All of libagvd that users need, but for meshes in arrays of other programs (agvd/adapt) and the
-//! oracle (paper/oracle.h, paper/compare.h).
+//! All of libagvd that users need, but for meshes in arrays of others (agvd/mesh/arrays.h).
 #pragma once
 
 #include "agvd/core/error.h"
 #include "agvd/core/version.h"
 #include "agvd/diagram/build_diagram.h"
 #include "agvd/intrinsic/intrinsic_triangulation.h"
-#include "agvd/intrinsic/simplify.h"
 #include "agvd/mesh/closest_point.h"
 #include "agvd/mesh/mesh.h"
-#include "agvd/mesh/scale.h"
 #include "agvd/mesh/surface.h"
-#include "agvd/mesh/surface_points.h"
 #include "agvd/paths/geodesic_path.h"
 #include "agvd/propagation/propagate.h"
