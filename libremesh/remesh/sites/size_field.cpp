@@ -6,7 +6,6 @@
 
 #include "agvd/mesh/surface.h"
 #include "agvd/mesh/surface_points.h"
-#include "remesh/sites/prepared_surface.h"
 
 namespace remesh {
 namespace {
