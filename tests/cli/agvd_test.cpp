@@ -117,7 +117,7 @@ TEST_F(AgvdDiagram, ExitCodes) {
     EXPECT_EQ(diagram({in, "-n", "0", "-o", at("d.vtp")}).exit_code, 2);
     EXPECT_EQ(diagram({in, "--engine", "magic", "-o", at("d.vtp")}).exit_code, 2);
     EXPECT_EQ(diagram({in, "--max-error", "1", "-o", at("d.vtp")}).exit_code, 2);
-    EXPECT_EQ(diagram({in, "--engine=vertex", "--max-error=0", "-o", at("d.vtp")}).exit_code, 2);
+    EXPECT_EQ(diagram({in, "--engine=steiner", "--max-error=0", "-o", at("d.vtp")}).exit_code, 2);
     EXPECT_EQ(diagram({in, "-o", at("d.stl")}).exit_code, 3);
     EXPECT_EQ(diagram({in, "-o", at("no/d.vtp")}).exit_code, 3);
     EXPECT_EQ(diagram({at("missing.off"), "-o", at("d.vtp")}).exit_code, 3);
@@ -174,7 +174,8 @@ protected:
 };
 
 TEST_F(AgvdCompare, JudgesADiagramByAnotherAndByTheExactOne) {
-    const std::string coarse = diagram_file("coarse.agvd", mesh_, {"-n", "12", "--engine=vertex"});
+    const std::string coarse =
+        diagram_file("coarse.agvd", mesh_, {"-n", "12", "--engine=steiner", "--steiner-points=0"});
     const std::string exact = diagram_file("exact.agvd", mesh_, {"-n", "12", "--max-error", "0"});
     const auto by_file = figures(coarse, exact);
     EXPECT_EQ(by_file["sites"], 12);
