@@ -225,16 +225,6 @@ std::vector<Component> find_components(const Surface& surface, const Progress& p
     return components;
 }
 
-double boundary_length(const Surface& surface, const Component& component) {
-    double length = 0;
-    for (const Index f : component.faces) {
-        for (Index h = 3 * f; h < 3 * f + 3; ++h) {
-            if (surface.twin[h] == no_index) length += surface.length_of(h);
-        }
-    }
-    return length;
-}
-
 double euler_of(const Surface& surface) {
     double euler = static_cast<double>(surface.num_faces()) - surface.num_edges();
     for (const Index h : surface.outgoing) euler += h != no_index ? 1 : 0;

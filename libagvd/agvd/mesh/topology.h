@@ -76,9 +76,6 @@ struct Component {
 [[nodiscard]] std::vector<Component> find_components(const Surface& surface,
                                                      const Progress& progress = {});
 
-//! Total length of a component's edges with a single face. Cost: O(faces).
-[[nodiscard]] double boundary_length(const Surface& surface, const Component& component);
-
 //! V - E + F of the whole surface; isolated vertices do not count. Cost: O(#V).
 [[nodiscard]] double euler_of(const Surface& surface);
 

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "agvd/core/reused_memory.h"
+#include "agvd/core/run_array.h"
 #include "agvd/core/types.h"
 
 namespace agvd {

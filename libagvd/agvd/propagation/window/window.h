@@ -15,7 +15,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "agvd/core/reused_memory.h"
+#include "agvd/core/run_array.h"
 #include "agvd/propagation/layout.h"
 
 namespace agvd {

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "agvd/core/progress.h"
-#include "agvd/core/reused_memory.h"
+#include "agvd/core/run_array.h"
 #include "agvd/mesh/mesh.h"
 #include "agvd/propagation/window/window.h"
 #include "agvd/propagation/window/window_queue.h"
