@@ -93,8 +93,7 @@ std::string complaint(const std::string& file, const std::string& line) {
         // Both libraries are built on core, mesh and intrinsic; of other folders only the other
         // library's installed headers may be seen.
         if (file.rfind("remesh/", 0) == 0 && header.rfind("agvd/", 0) == 0 &&
-            *row > *row_of("agvd/intrinsic/simplify.h") &&
-            !is_public(header)) {
+            *row > *row_of("agvd/intrinsic/simplify.h") && !is_public(header)) {
             return "is private to the other library";
         }
         // What propagation runs on is a surface, whatever made it.
