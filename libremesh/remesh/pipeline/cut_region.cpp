@@ -13,7 +13,7 @@ namespace remesh::detail {
 namespace {
 
 // #V: the first vertex at the same position.
-std::vector<Index> find_places(const MeshView& mesh, Ticker& ticker) {
+std::vector<Index> find_common_positions(const MeshView& mesh, Ticker& ticker) {
     std::unordered_map<Vec3, Index, PositionHash> first;
     first.reserve(mesh.positions.size());
     std::vector<Index> place(mesh.positions.size());
@@ -32,7 +32,7 @@ public:
           cleaning_(cleaning),
           poller_(cleaning.progress),
           ticker_(poller_),
-          place_(find_places(mesh, ticker_)),
+          place_(find_common_positions(mesh, ticker_)),
           is_inside_(is_marked.begin(), is_marked.end()),
           is_outer_place_(mesh.positions.size(), false) {
         find_flat_faces();

@@ -35,7 +35,7 @@ std::vector<double> carry_values(const ValueOf& value_of, std::span<const Index>
     std::vector<double> values;
     for (Index v = 0; v < input.num_vertices(); ++v) values.push_back(value_of(original[v]));
     for (Index v = input.num_vertices(); v < base.surface().num_vertices(); ++v) {
-        const SurfacePoint& place = base.place_of_added(v);
+        const SurfacePoint& place = base.added_point(v);
         const Triangle& t = input.mesh.triangles[place.face.value()];
         double value = 0;
         for (std::size_t k = 0; k < 3; ++k) value += place.barycentric[k] * values[t[k]];
@@ -55,7 +55,7 @@ std::vector<double> least_of_faces(const ValueOf& value_of, const IntrinsicTrian
         for (const Index v : input.mesh.triangles[f]) values[v] = std::min(values[v], value_of(f));
     }
     for (Index v = input.num_vertices(); v < values.size(); ++v) {
-        for_each_view(input, base.place_of_added(v), [&](const SurfacePoint& view) {
+        for_each_view(input, base.added_point(v), [&](const SurfacePoint& view) {
             values[v] = std::min(values[v], value_of(view.face.value()));
         });
     }
@@ -107,7 +107,7 @@ std::vector<double> carry_locked(std::span<const double> locked, std::span<const
     if (locked.empty()) return {};
     std::vector<double> result = carry_values([&](Index v) { return locked[v]; }, original, base);
     for (Index v = base.input().num_vertices(); v < result.size(); ++v) {
-        if (!is_on_boundary(base.input(), base.place_of_added(v))) result[v] = 0;
+        if (!is_on_boundary(base.input(), base.added_point(v))) result[v] = 0;
     }
     return result;
 }
