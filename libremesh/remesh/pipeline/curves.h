@@ -24,14 +24,6 @@ struct KeptCurves {
     double drop_share = 0;  //!< Share of the creases, in [0, 1]: see plan_network.
 };
 
-//! The caller's own sites, sorted into those on curves and the others.
-struct GivenSites {
-    CurveSites on_curves;
-    std::vector<SurfacePoint> inner;  //!< On the cleaned surface.
-    //! The caller's number of each copy, then of each inner site.
-    std::vector<Index> number;
-};
-
 //! A network of curves and the surface cut along it.
 struct CurvePlan {
     NetworkPlan network;              //!< Has curves.

@@ -33,6 +33,6 @@ struct Domain {
                                     const StageContext& context);
 
 //! Ends a domain and gives `cleaned` its surface back. Cost: O(#F) if it had moved.
-void give_back(Domain domain, CleanedInput& cleaned, const StageContext& context);
+void give_back(Domain domain, CleanedInput& cleaned, int num_threads);
 
 }  // namespace remesh::detail

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "agvd/mesh/surface_points.h"
-#include "remesh/pipeline/given_sites.h"
 #include "remesh/sites/relax_network.h"
 #include "remesh/sites/sampling.h"
 #include "remesh/sites/shares.h"
@@ -89,7 +88,7 @@ PlacedSites place_on_network(const Domain& domain, const StageContext& context) 
     const auto& [network, patches, given] = *domain.plan;
     NetworkSites made =
         given
-            ? relax_network_sites(domain.prepared, network, given->on_curves, given->inner, relax)
+            ? relax_network_sites(domain.prepared, network, given->curves, given->inner, relax)
             : sample_network_sites(domain.prepared, network,
                                    sampling_of(options, options.num_samples, domain.sizes), relax);
     PlacedSites placed{.sites = std::move(made.sites), .curves = std::move(made.curves)};

@@ -1,15 +1,9 @@
-#include "remesh/pipeline/remesh_region.h"
-
 #include <algorithm>
 #include <string>
 #include <utility>
 
-#include "agvd/core/error.h"
-#include "agvd/core/types.h"
-#include "remesh/pipeline/glue_region.h"
-#include "remesh/pipeline/region_crossings.h"
-#include "remesh/pipeline/stage_context.h"
-#include "remesh/pipeline/whole_mesh.h"
+#include "remesh/pipeline/crossings.h"
+#include "remesh/pipeline/region.h"
 
 namespace remesh::detail {
 namespace {
@@ -43,14 +37,13 @@ public:
     [[nodiscard]] std::vector<std::array<Index, 2>> edges(
         const std::vector<std::array<Index, 2>>& pairs, const std::string& what) const {
         if (pairs.empty()) return {};
-        const std::vector<std::uint64_t> inside = edges_of(region_.faces);
-        const std::vector<std::uint64_t> outside = edges_of(region_.kept);
+        const std::vector<EdgeSide> inside = sorted_edge_sides(region_.mesh.triangles);
+        const std::vector<EdgeSide> all = sorted_edge_sides(mesh_.triangles);
         std::vector<std::array<Index, 2>> result;
         for (const auto& [a, b] : pairs) {
-            const std::uint64_t edge = edge_key(a, b);
-            if (std::binary_search(inside.begin(), inside.end(), edge)) {
+            if (has_edge(inside, edge_key(of(a), of(b)))) {
                 result.push_back({of(a), of(b)});
-            } else if (!std::binary_search(outside.begin(), outside.end(), edge)) {
+            } else if (!has_edge(all, edge_key(a, b))) {
                 throw InvalidInput("the " + what + " edge between vertices " + std::to_string(a) +
                                    " and " + std::to_string(b) +
                                    " is no edge of the mesh; name the two ends of an edge, "
@@ -66,18 +59,6 @@ private:
         throw InvalidInput("vertex " + std::to_string(vertex) + " is " + what +
                            ", but the mesh has only " + std::to_string(mesh_.positions.size()) +
                            " vertices, counted from 0; name one of these");
-    }
-
-    [[nodiscard]] std::vector<std::uint64_t> edges_of(const std::vector<Index>& faces) const {
-        std::vector<std::uint64_t> edges;
-        for (const Index f : faces) {
-            const Triangle& t = mesh_.triangles[f];
-            for (std::size_t k = 0; k < 3; ++k) {
-                edges.push_back(edge_key(t[k], t[(k + 1) % 3]));
-            }
-        }
-        std::sort(edges.begin(), edges.end());
-        return edges;
     }
 
     const MeshView& mesh_;
@@ -142,8 +123,7 @@ std::vector<SurfacePoint> sites_of(const Region& region, const GluedRegion& glue
 void count_crossings(const MeshView& mesh, const Region& region, const RemeshOptions& options,
                      RemeshResult& result) {
     const StageClock clock(Stage::Check, result);
-    const Progress progress = progress_of(Stage::Check, options);
-    const Progress last = within(progress, 1, 1);
+    const Progress last = progress_at(Stage::Check, options, 1);
     std::vector<std::uint8_t> is_new(result.mesh.triangles.size(), 1);
     std::fill_n(is_new.begin(), region.kept.size(), 0);
     result.self_intersections =
@@ -162,14 +142,12 @@ void count_crossings(const MeshView& mesh, const Region& region, const RemeshOpt
 
 RemeshResult remesh_region(const MeshView& mesh, const RemeshOptions& options,
                            const RemeshWhole& run) {
-    const Progress progress = progress_of(Stage::Clean, options);
     CleanOptions cleaning = options.cleaning;
     cleaning.num_threads = options.num_threads;
-    cleaning.progress = within(progress, 0, 0);
+    cleaning.progress = progress_at(Stage::Clean, options, 0);
     const Region region = cut_region(mesh, options.region, cleaning);
     RemeshResult result = run(region.mesh.view(), options_of_region(mesh, options, region));
-    const Progress checking = progress_of(Stage::Check, options);
-    const Progress last = within(checking, 1, 1);
+    const Progress last = progress_at(Stage::Check, options, 1);
     Poller last_poller(last);
     Ticker last_ticker(last_poller);
     GluedRegion glued = glue_region(mesh, region, result.mesh, last_ticker);

@@ -155,18 +155,4 @@ std::optional<double> corrected_edge_length(double mean_edge, const RemeshOption
     return wanted->length * std::clamp(ratio, 1 / most_correction, most_correction);
 }
 
-double mean_edge(const MeshView& mesh) {
-    std::vector<std::uint64_t> edges;
-    for (const Triangle& t : mesh.triangles) {
-        for (std::size_t k = 0; k < 3; ++k) edges.push_back(edge_key(t[k], t[(k + 1) % 3]));
-    }
-    std::sort(edges.begin(), edges.end());
-    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-    double sum = 0;
-    for (const std::uint64_t edge : edges) {
-        sum += (mesh.positions[static_cast<Index>(edge)] - mesh.positions[edge >> 32]).norm();
-    }
-    return edges.empty() ? 0 : sum / static_cast<double>(edges.size());
-}
-
 }  // namespace remesh::detail

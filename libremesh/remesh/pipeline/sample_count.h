@@ -49,7 +49,4 @@ namespace remesh::detail {
 //! The number of faces by which so many samples come out. Cost: O(#F).
 [[nodiscard]] Index faces_for(Index count, const CleanedInput& cleaned);
 
-//! The mean length of the edges of a mesh; 0 without faces. Cost: O(#F).
-[[nodiscard]] double mean_edge(const MeshView& mesh);
-
 }  // namespace remesh::detail
