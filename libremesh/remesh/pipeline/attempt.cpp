@@ -1,10 +1,9 @@
-#include "remesh/pipeline/attempt.h"
-
 #include <stdexcept>
 #include <utility>
 
 #include "remesh/clean/carry.h"
 #include "remesh/pipeline/locked.h"
+#include "remesh/pipeline/run.h"
 #include "remesh/pipeline/sizes.h"
 
 namespace remesh::detail {

@@ -1,7 +1,5 @@
-// Builds cells, dual, the exact vertex count, Delaunay flips and positions in rounds. If the mesh
-// of a round self-intersects where the input does not, and more often, sites are added there and
-// another round follows. The mesh with the fewest intersecting pairs of faces wins. Its thin
-// triangles are mended last.
+// Each round builds cells, dual, the exact vertex count, Delaunay flips and positions. The mesh
+// with the fewest intersecting pairs of faces counts.
 #include "remesh/pipeline/build_mesh.h"
 
 #include <algorithm>
@@ -16,7 +14,6 @@ namespace {
 
 // Most rounds that add sites at self-intersections.
 constexpr int max_mends = 4;
-
 // As a multiple of the input's pairs. Up to this, further rounds can come down to their number.
 constexpr std::size_t few_more = 2;
 
@@ -30,17 +27,15 @@ void drop_points(Diagram& diagram) {
 
 // Removes these vertices and renumbers the others in their order.
 void compact(std::span<const Index> gone, ValidDual& dual) {
-    std::vector<Index> number(dual.points.size(), 0);
+    std::vector<Index> number(dual.points.size(), 0), left;
     for (const Index v : gone) number[v] = no_index;
-    Index num_left = 0;
     for (Index v = 0; v < number.size(); ++v) {
         if (number[v] == no_index) continue;
-        dual.points[num_left] = dual.points[v];
-        dual.site[num_left] = dual.site[v];
-        number[v] = num_left++;
+        number[v] = static_cast<Index>(left.size());
+        left.push_back(v);
     }
-    dual.points.resize(num_left);
-    dual.site.resize(num_left);
+    dual.points = take(dual.points, left);
+    dual.site = take(dual.site, left);
     dual.triangles = rename_vertices(dual.triangles, number);
 }
 
@@ -62,7 +57,6 @@ public:
           context_(context),
           finder_(domain, context),
           layout_(std::move(domain.prepared.layout)),
-          on_surface_(placed.sites),
           on_base_(domain.prepared.base.to_intrinsic(placed.sites)),
           first_on_base_(on_base_) {
         domain.prepared.pieces.reset();  // Not needed until vertices are placed.
@@ -115,7 +109,6 @@ private:
     ValidDual build_cells() {
         ValidDual dual =
             build_valid_dual(domain_, placed_, layout_, on_base_, is_thinned_, context_);
-        carry_sites_back();
         if (domain_.plan) {
             RemeshResult& result = context_.result;
             result.features.thinned_patches = std::exchange(result.components_thinned, 0);
@@ -123,21 +116,8 @@ private:
         return dual;
     }
 
-    // Carries the sites that repair moved or added on the base back to the surface.
-    void carry_sites_back() {
-        on_surface_.resize(first_on_base_.size());
-        for (Index s = 0; s < on_base_.size(); ++s) {
-            if (s >= on_surface_.size()) {
-                on_surface_.push_back(domain_.prepared.base.to_input(on_base_[s]));
-            } else if (on_base_[s] != first_on_base_[s]) {
-                on_surface_[s] = domain_.prepared.base.to_input(on_base_[s]);
-            }
-        }
-    }
-
-    // The number of vertices that the dual is to have, copies on curves included: as many as were
-    // asked for, or one for each given site that owns a part of the surface. Counts the other given
-    // sites.
+    // How many vertices the dual is to have, copies on curves included: as many as were asked for,
+    // or one for each given site that owns a part of the surface. Counts the other given sites.
     // \param diagram  of the first round.
     [[nodiscard]] Index target_count(const Diagram& diagram) const {
         const auto& [options, result] = context_;
@@ -160,8 +140,11 @@ private:
         places.reserve(dual.site.size());
         for (Index v = 0; v < dual.site.size(); ++v) {
             const Index site = dual.site[v];
-            places.push_back(site != no_index ? on_surface_[site]
-                                              : domain_.prepared.base.to_input(dual.points[v]));
+            // Not moved or added by repair.
+            const bool is_placed =
+                site < first_on_base_.size() && dual.points[v] == first_on_base_[site];
+            places.push_back(is_placed ? placed_.sites[site]
+                                       : domain_.prepared.base.to_input(dual.points[v]));
         }
         return places;
     }
@@ -311,8 +294,7 @@ private:
     const StageContext& context_;
     CrossingFinder finder_;
     std::optional<SurfaceLayout> layout_;
-    // The sites of this round: the placed ones, and those that repair has added.
-    std::vector<SurfacePoint> on_surface_, on_base_;
+    std::vector<SurfacePoint> on_base_;  // The sites: the placed ones, and those added by repair.
     const std::vector<SurfacePoint> first_on_base_;  // The placed ones.
     std::vector<bool> is_wanted_;   // By site: its vertex is removed last; may be shorter.
     std::vector<bool> is_thinned_;  // By component.

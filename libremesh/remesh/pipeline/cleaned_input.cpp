@@ -35,10 +35,7 @@ CleanedInput clean_stage(const InputMesh& input, const StageContext& context) {
     const auto& [options, result] = context;
     const StageClock clock(Stage::Clean, result);
     poll(progress_of(Stage::Clean, options), 0);
-    CleanOptions cleaning = options.cleaning;
-    cleaning.num_threads = options.num_threads;
-    cleaning.progress = progress_at(Stage::Clean, options, 0);
-    CleanResult clean = clean_input(input.view, cleaning);
+    CleanResult clean = clean_input(input.view, cleaning_of(options));
     result.cleaned = clean.counts;
     result.welded_slit_length = clean.slit_length;
     const Progress half = progress_at(Stage::Clean, options, cleaned_fraction / 2);

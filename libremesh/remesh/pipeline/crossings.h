@@ -70,8 +70,6 @@ private:
 
 //! Whether a result has so many more intersecting pairs of faces than the input that more sites
 //! would not help: more than one for four samples, as on meshes with spikes.
-//!
-//! \param num_pairs  of the result.
 [[nodiscard]] bool is_hopeless(std::size_t num_pairs, const StageContext& context);
 
 //! Moves vertices of intersecting triangles back onto the surface, in a few rounds.
@@ -80,7 +78,6 @@ std::optional<CrossingFaces> unfit_crossings(CrossingFinder& finder, const Curve
                                              PlacedDual& placed, RemeshResult& result);
 
 //! The number of intersecting pairs of faces of which at least one is marked.
-//!
 //! \param is_marked  #F: other than 0 for marked faces, of which there is one.
 //! \return unset without CGAL.
 //! Cost: O(#F), and that of find_self_intersections for the faces near the marked ones.

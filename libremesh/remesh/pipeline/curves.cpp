@@ -14,12 +14,10 @@ namespace remesh::detail {
 namespace {
 
 // Creases are sought at the spacing of at least this many sites, so that small parts keep theirs.
-// The report tells for which creases the sites are too few.
 constexpr std::size_t least_scale = 300;
 // In spacings. Cells would have to bend around shorter junctions.
 constexpr double least_junction = 2;
-// In spacings: given sites this near to a curve are put onto it if sites are relaxed. Fitted
-// vertices of an earlier result lie up to .05 off.
+// In spacings: given sites this near to a curve are put onto it if sites are relaxed.
 constexpr double on_curve = 0.1;
 
 // Adds marks to others.

@@ -29,8 +29,6 @@ struct CurvePlan {
     NetworkPlan network;              //!< Has curves.
     Topology patches;                 //!< Of network.cut.surface.
     std::optional<GivenSites> given;  //!< Only with the caller's sites.
-
-    [[nodiscard]] bool has_junctions() const { return !network.junctions.empty(); }
 };
 
 //! \param spacing  of the sites, mesh units.
@@ -40,8 +38,8 @@ struct CurvePlan {
 
 //! \param sizes  target lengths; null: all equal.
 //! \return null if the boundary is all that is to be reproduced.
-//! \throw TooFewSamples  more vertices are locked. Cost: see plan_network and
-//! plan_given_network.
+//! \throw TooFewSamples  more vertices are locked.
+//! Cost: see plan_network and plan_given_network.
 [[nodiscard]] std::unique_ptr<const CurvePlan> plan_curves(const CleanedInput& cleaned,
                                                            const FoundCurves& found,
                                                            const KeptCurves& kept, double spacing,

@@ -1,7 +1,9 @@
 // A place is a position: the number of its first vertex.
 #include <algorithm>
+#include <utility>
 
 #include "remesh/clean/soup.h"
+#include "remesh/curves/glue.h"
 #include "remesh/pipeline/region.h"
 
 namespace remesh::detail {
@@ -18,6 +20,7 @@ public:
           place_(first_at_position(mesh.positions, ticker_)),
           is_inside_(is_marked.begin(), is_marked.end()),
           is_outer_place_(mesh.positions.size(), false) {
+        check_elements(mesh, ticker_);
         find_flat_faces();
     }
 
@@ -32,29 +35,17 @@ public:
 private:
     Region divide() {
         Region region;
-        std::vector<Index> number(mesh_.positions.size(), no_index);
+        std::vector<Index> faces;
         for (Index f = 0; f < is_inside_.size(); ++f) {
-            ticker_.tick();
-            (is_inside_[f] != 0 ? region.faces : region.kept).push_back(f);
-            if (is_inside_[f] == 0) continue;
-            for (const Index v : mesh_.triangles[f]) number[v] = 0;
+            (is_inside_[f] != 0 ? faces : region.kept).push_back(f);
         }
-        if (std::ranges::none_of(region.faces, [&](Index f) { return has_area(f); })) {
+        if (std::ranges::none_of(faces, [&](Index f) { return has_area(f); })) {
             throw InvalidOption(
                 "the region has no face with an area; mark the faces to remesh with other values "
                 "than 0");
         }
-        for (Index v = 0; v < number.size(); ++v) {
-            if (number[v] == no_index) continue;
-            number[v] = static_cast<Index>(region.vertices.size());
-            region.vertices.push_back(v);
-            region.mesh.positions.push_back(mesh_.positions[v]);
-        }
-        for (const Index f : region.faces) {
-            const auto& [a, b, c] = mesh_.triangles[f];
-            region.mesh.triangles.push_back({number[a], number[b], number[c]});
-        }
-        find_seam(number, region);
+        static_cast<MeshPart&>(region) = take_faces(mesh_, std::move(faces), ticker_);
+        find_seam(region);
         return region;
     }
 
@@ -132,8 +123,8 @@ private:
         return is_changed;
     }
 
-    // \param number  #V of the caller: vertex of the region's mesh.
-    void find_seam(std::span<const Index> number, Region& region) {
+    void find_seam(Region& region) {
+        const std::vector<Index>& number = region.number;
         std::vector<Index> inner(mesh_.positions.size(), no_index);  // By place: a vertex inside.
         for (const Index v : region.vertices) {
             if (inner[place_[v]] == no_index) inner[place_[v]] = v;
@@ -191,11 +182,27 @@ private:
 
 }  // namespace
 
+MeshPart take_faces(const MeshView& mesh, std::vector<Index> faces, Ticker& ticker) {
+    MeshPart part;
+    part.number.assign(mesh.positions.size(), no_index);
+    for (const Index f : faces) {
+        ticker.tick();
+        part.mesh.triangles.push_back(mesh.triangles[f]);
+        for (const Index v : mesh.triangles[f]) part.number[v] = 0;
+    }
+    for (Index v = 0; v < part.number.size(); ++v) {
+        if (part.number[v] == no_index) continue;
+        part.number[v] = static_cast<Index>(part.vertices.size());
+        part.vertices.push_back(v);
+        part.mesh.positions.push_back(mesh.positions[v]);
+    }
+    part.mesh.triangles = rename_vertices(part.mesh.triangles, part.number);
+    part.faces = std::move(faces);
+    return part;
+}
+
 Region cut_region(const MeshView& mesh, std::span<const std::uint8_t> is_marked,
                   const CleanOptions& cleaning) {
-    Poller poller(cleaning.progress);
-    Ticker ticker(poller);
-    check_elements(mesh, ticker);
     return RegionCutter(mesh, is_marked, cleaning).run();
 }
 

@@ -9,15 +9,9 @@
 namespace remesh::detail {
 namespace {
 
-PreparedSurface prepare(CleanedInput& cleaned, const CurvePlan* plan, double spacing,
-                        const SizeField* sizes, int num_threads, const Progress& progress) {
-    if (plan != nullptr) return {plan->network.cut.surface, spacing, num_threads, progress, sizes};
-    return {std::move(cleaned.surface), spacing, num_threads, progress, sizes};
-}
-
-// For a base that is not Delaunay, since flips reached their limit. Rounding tilts edges around
-// parts that are 10^12 times as long as wide, and flips unwind these edges one turn after another.
-// Such a base is not refined: all later stages take minutes on it, and the result is far off.
+// For a base that is not Delaunay, since flips reached their limit: rounding tilts edges around
+// parts that are 10^12 times as long as wide, and each flip mends little of that. Later stages
+// would take long on it, and the result would be far off.
 [[noreturn]] void refuse_thin_parts(const Surface& surface, const CleanedInput& cleaned) {
     Index thinnest = 0;
     double most = 0;
@@ -44,18 +38,18 @@ Domain prepare_domain(CleanedInput& cleaned, std::unique_ptr<const CurvePlan> pl
     const StageClock clock(Stage::Clean, result);
     const Progress all = progress_of(Stage::Clean, options);
     const Progress progress = within(all, cleaned_fraction, 1);
+    const int num_threads = options.num_threads;
     const CurvePlan* cut = plan.get();
     Domain domain{.plan = std::move(plan),
-                  .prepared = prepare(cleaned, cut, spacing, sizes, options.num_threads, progress),
+                  .prepared = cut != nullptr ? PreparedSurface(cut->network.cut.surface, spacing,
+                                                               num_threads, progress, sizes)
+                                             : PreparedSurface(std::move(cleaned.surface), spacing,
+                                                               num_threads, progress, sizes),
                   .whole = &cleaned.surface,
-                  .parts = &cleaned.topology,
+                  .parts = cut != nullptr ? &cut->patches : &cleaned.topology,
                   .spacing = spacing,
                   .sizes = sizes};
-    if (cut != nullptr) {
-        domain.parts = &cut->patches;
-    } else {
-        domain.whole = &domain.prepared.input();
-    }
+    if (cut == nullptr) domain.whole = &domain.prepared.input();
     domain.component = parts_of_base(domain.prepared.base, domain.parts->face_component,
                                      progress_at(Stage::Clean, options, 1));
     if (!domain.prepared.base.counts().is_delaunay) refuse_thin_parts(*domain.whole, cleaned);

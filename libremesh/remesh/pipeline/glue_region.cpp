@@ -1,6 +1,8 @@
 // Vertices of the remeshed region are recognised as those of the seam by their positions.
 #include <algorithm>
+#include <string>
 #include <unordered_map>
+#include <utility>
 
 #include "agvd/core/random.h"
 #include "remesh/curves/glue.h"
@@ -15,78 +17,35 @@ using SharedVertices = std::unordered_map<Vec3, Index, PositionHash>;
 constexpr int most_flip_rounds = 10;
 
 // Flips edges of the region that gluing would give other faces than those beside them.
-class Parting {
-public:
-    // \param kept   edges of the kept faces.
-    // \param alone  edges that are left as they are, ascending.
-    Parting(const std::vector<EdgeSide>& kept, const std::vector<std::uint64_t>& alone,
-            std::span<const Index> vertex, std::vector<Triangle>& triangles)
-        : kept_(kept), alone_(alone), vertex_(vertex), triangles_(triangles) {}
-
-    // \return whether no such edge is left.
-    bool run() {
-        for (int round = 0; round < most_flip_rounds; ++round) {
-            edges_ = sorted_edge_sides(rename_vertices(triangles_, vertex_));
-            added_.clear();
-            is_changed_.assign(triangles_.size(), false);
-            bool has_repeated = false;
-            for_each_edge(std::span<const EdgeSide>(edges_), [&](std::span<const EdgeSide> sides) {
-                if (!is_repeated(sides)) return;
-                has_repeated = true;
-                flip_one(sides);
-            });
-            if (!has_repeated) return true;
-            if (added_.empty()) return false;
-        }
-        return false;
-    }
-
-private:
-    [[nodiscard]] Index tail(Index h) const { return triangles_[h / 3][h % 3]; }
-    [[nodiscard]] Index head(Index h) const { return triangles_[h / 3][(h % 3 + 1) % 3]; }
-    [[nodiscard]] Index apex(Index h) const { return triangles_[h / 3][(h % 3 + 2) % 3]; }
-
+// \param kept    edges of the kept faces.
+// \param alone   edges that are left as they are, ascending.
+// \param vertex  #V of the region: that of the glued mesh.
+// \return whether no such edge is left.
+bool part_edges(const std::vector<EdgeSide>& kept, const std::vector<std::uint64_t>& alone,
+                std::span<const Index> vertex, std::vector<Triangle>& triangles) {
+    bool has_repeated = false;
+    const auto ends_of = [&](const EdgeSide& side) {
+        const Triangle& t = triangles[side.face()];
+        return edge_key(t[side.half_edge % 3], t[(side.half_edge + 1) % 3]);
+    };
     // Whether the sides of an edge of the glued mesh come from different edges.
-    [[nodiscard]] bool is_repeated(std::span<const EdgeSide> sides) const {
-        if (std::ranges::binary_search(alone_, sides[0].ends)) return false;
-        if (has_edge(kept_, sides[0].ends)) return true;
-        const auto ends_of = [&](const EdgeSide& side) {
-            return edge_key(tail(side.half_edge), head(side.half_edge));
-        };
-        return std::ranges::any_of(
-            sides, [&](const EdgeSide& side) { return ends_of(side) != ends_of(sides[0]); });
-    }
-
-    void flip_one(std::span<const EdgeSide> sides) {
-        for (std::size_t i = 0; i < sides.size(); ++i) {
-            for (std::size_t j = i + 1; j < sides.size(); ++j) {
-                if (try_flip(sides[i].half_edge, sides[j].half_edge)) return;
-            }
-        }
-    }
-    bool try_flip(Index h, Index twin) {
-        const Index a = tail(h), b = head(h), c = apex(h), d = apex(twin);
-        if (tail(twin) != b || head(twin) != a || vertex_[c] == vertex_[d]) return false;
-        const std::uint64_t edge = edge_key(vertex_[c], vertex_[d]);
-        if (is_changed_[h / 3] || is_changed_[twin / 3] || has_edge(edges_, edge) ||
-            has_edge(kept_, edge) || std::ranges::find(added_, edge) != added_.end()) {
-            return false;
-        }
-        triangles_[h / 3] = {c, d, b};
-        triangles_[twin / 3] = {d, c, a};
-        is_changed_[h / 3] = is_changed_[twin / 3] = true;
-        added_.push_back(edge);
+    const auto is_repeated = [&](std::span<const EdgeSide> sides) {
+        if (std::ranges::binary_search(alone, sides[0].ends)) return false;
+        const bool is_one = std::ranges::all_of(
+            sides, [&](const EdgeSide& side) { return ends_of(side) == ends_of(sides[0]); });
+        if (is_one && !has_edge(kept, sides[0].ends)) return false;
+        has_repeated = true;
         return true;
+    };
+    const auto is_kept = [&](std::uint64_t ends) { return has_edge(kept, ends); };
+    for (int round = 0; round < most_flip_rounds; ++round) {
+        has_repeated = false;
+        const bool has_flipped = flip_repeated(triangles, vertex, is_repeated, is_kept);
+        if (!has_repeated) return true;
+        if (!has_flipped) return false;
     }
-
-    const std::vector<EdgeSide>& kept_;
-    const std::vector<std::uint64_t>& alone_;
-    std::span<const Index> vertex_;
-    std::vector<Triangle>& triangles_;
-    std::vector<EdgeSide> edges_;
-    std::vector<std::uint64_t> added_;  // In this round.
-    std::vector<bool> is_changed_;      // By triangle: in this round.
-};
+    return false;
+}
 
 // Edges of the glued mesh that may have more than two faces, ascending: the seam and what was so
 // before.
@@ -110,21 +69,14 @@ std::vector<std::uint64_t> edges_left_alone(const Region& region, const SharedVe
 GluedRegion glue_region(const MeshView& mesh, const Region& region, const TriangleMesh& remeshed,
                         Ticker& ticker) {
     GluedRegion result;
-    std::vector<Index> number(mesh.positions.size(), no_index);
-    for (const Index f : region.kept) {
-        ticker.tick();
-        for (const Index v : mesh.triangles[f]) number[v] = 0;
-    }
-    for (Index v = 0; v < number.size(); ++v) {
-        if (number[v] == no_index) continue;
-        number[v] = static_cast<Index>(result.kept_vertices.size());
-        result.kept_vertices.push_back(v);
-        result.mesh.positions.push_back(mesh.positions[v]);
-    }
+    MeshPart kept = take_faces(mesh, region.kept, ticker);
+    const std::vector<EdgeSide> kept_sides = sorted_edge_sides(kept.mesh.triangles);
+    result.kept_vertices = std::move(kept.vertices);
+    result.mesh = std::move(kept.mesh);
     SharedVertices shared;
     for (const SeamVertex& seam : region.seam) {
         if (seam.shared == no_index) continue;
-        shared.emplace(region.mesh.positions[seam.vertex], number[seam.shared]);
+        shared.emplace(region.mesh.positions[seam.vertex], kept.number[seam.shared]);
     }
     for (const Vec3& position : remeshed.positions) {
         ticker.tick();
@@ -136,14 +88,14 @@ GluedRegion glue_region(const MeshView& mesh, const Region& region, const Triang
         result.vertex.push_back(static_cast<Index>(result.mesh.positions.size()));
         result.mesh.positions.push_back(position);
     }
-    for (const Index f : region.kept) {
-        const auto& [a, b, c] = mesh.triangles[f];
-        result.mesh.triangles.push_back({number[a], number[b], number[c]});
-    }
     std::vector<Triangle> triangles = remeshed.triangles;
-    const std::vector<EdgeSide> kept = sorted_edge_sides(result.mesh.triangles);
     const std::vector<std::uint64_t> alone = edges_left_alone(region, shared);
-    result.is_joined = Parting(kept, alone, result.vertex, triangles).run();
+    if (!part_edges(kept_sides, alone, result.vertex, triangles)) {
+        throw ConstraintUnmet(
+            std::to_string(remeshed.positions.size()) +
+            " samples are too few for the region: an edge of its mesh would join two vertices of "
+            "the seam that another edge joins already; use more samples, or a larger region");
+    }
     for (const Triangle& t : rename_vertices(triangles, result.vertex)) {
         result.mesh.triangles.push_back(t);
     }

@@ -143,16 +143,10 @@ public:
     [[nodiscard]] const MeasuredDistance& farthest() const { return farthest_; }
 
 private:
-    // A length at the corners of a face of the input.
-    struct Lowered {
-        Index input_face;
-        double length;  // Of the edges of the result there.
-        double factor;  // To that length.
-    };
     // What a chunk of points has found.
     struct Found {
         MeasuredDistance distance;
-        std::vector<Lowered> lowered;
+        std::vector<std::pair<Index, double>> lengths;  // Of vertices of the input.
     };
 
     void take(bool is_input, const Vec3& point, Index face, const ClosestPoint& nearest,
@@ -161,9 +155,12 @@ private:
         if (distance > found.distance.largest) found.distance = {distance, false, point};
         if (distance < too_far * limit_) return;
         const Index other = nearest.point.face.value();
-        found.lowered.push_back({is_input ? face : other,
-                                 mean_side(result_.mesh, is_input ? other : face),
-                                 std::sqrt(aimed_share * limit_ / distance)});
+        const double factor = std::sqrt(aimed_share * limit_ / distance);
+        const double length = mean_side(result_.mesh, is_input ? other : face);
+        // Edges may be longer than they were meant to be: the shorter of both counts.
+        for (const Index v : input_.mesh.triangles[is_input ? face : other]) {
+            found.lengths.emplace_back(v, factor * std::min(length, before_[v]));
+        }
     }
     template <typename Look>
     void run(Index count, const Look& look) {
@@ -177,14 +174,9 @@ private:
             poller_);
         for (const Found& chunk : chunks) {
             if (chunk.distance.largest > farthest_.largest) farthest_ = chunk.distance;
-            for (const Lowered& lowered : chunk.lowered) lower(lowered);
-        }
-    }
-    // Edges may be longer than they were meant to be: the shorter of both counts.
-    void lower(const Lowered& lowered) {
-        for (const Index v : input_.mesh.triangles[lowered.input_face]) {
-            const double length = std::min(lowered.length, before_[v]);
-            most_lengths_[v] = std::min(most_lengths_[v], lowered.factor * length);
+            for (const auto& [v, length] : chunk.lengths) {
+                most_lengths_[v] = std::min(most_lengths_[v], length);
+            }
         }
     }
 

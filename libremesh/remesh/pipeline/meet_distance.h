@@ -19,8 +19,6 @@ struct MeasuredDistance {
 
 //! Measures at all vertices and at 100 000 points of each surface. If these are near enough, faces
 //! are divided until all of both surfaces is proved to be, or a point is found that is not.
-//!
-//! \param input_tree  of the input.
 //! \param limit  where a point is near it or beyond, lengths are lowered.
 //! \param most_lengths  #V of the input: at most so long are edges there. Edited.
 //! \throw Cancelled  the progress callback returned false.
@@ -38,7 +36,6 @@ using RunWithLengths =
 
 //! Begins with the lengths that curvature asks for, and shortens edges where the result is too far.
 //! Vertices that the topology needs are added (VertexCount::Add).
-//!
 //! \param cleaned  as before after each run.
 //! \param limit    > 0, mesh units: of MaxDistance.
 //! \throw ConstraintUnmet  it was not met in the rounds made; the text gives the best.

@@ -16,7 +16,6 @@ struct MendableMesh {
 //! Vertices may move in components that were thinned or have a boundary. Corners of the boundary
 //! that turn by more than 45 degrees over a whole spacing stay. Others, and those of small holes,
 //! may be no more than the teeth of a rough rim, and move.
-//!
 //! \param is_thinned  by component.
 //! \return nothing if there is no such component. With given sites only thinned ones count: the
 //!         vertices of others are those of the sites.
@@ -28,7 +27,6 @@ struct MendableMesh {
 
 //! Mends thin triangles (repair_shape). If more of the mended triangles intersect than before,
 //! fixes their corners and tries again.
-//!
 //! \param mendable   its mesh becomes the mended one.
 //! \param crossings  of the mesh, then of the mended one; unset without CGAL.
 //! \return false: no mended mesh is better, and `crossings` is as before.

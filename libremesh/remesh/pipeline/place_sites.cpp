@@ -1,6 +1,5 @@
-// Sites come from sampling or from the caller. On an uncut surface relaxation moves them anywhere
-// on the surface; with a plan, the sites of curves stay on their curves. The sharp corners of a
-// boundary that is kept get a site each.
+// On an uncut surface relaxation moves sites anywhere; with a plan, those of curves stay on their
+// curves. The sharp corners of a boundary that is kept get a site each.
 #include "remesh/pipeline/place_sites.h"
 
 #include <algorithm>

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <algorithm>
-#include <functional>
 
 #include "agvd/mesh/any_mesh.h"
 #include "remesh/pipeline/remesh_options.h"
@@ -18,10 +17,19 @@ struct SeamVertex {
     Index shared;
 };
 
-struct Region {
-    TriangleMesh mesh;             //!< The faces to remesh.
-    std::vector<Index> vertices;   //!< #V of mesh: the caller's, ascending.
-    std::vector<Index> faces;      //!< #F of mesh: likewise.
+//! Some faces of the caller's mesh as a mesh of its own.
+struct MeshPart {
+    TriangleMesh mesh;
+    std::vector<Index> vertices;  //!< #V of mesh: the caller's, ascending.
+    std::vector<Index> faces;     //!< #F of mesh: likewise.
+    std::vector<Index> number;    //!< By vertex of the caller: that of mesh, or no_index.
+};
+
+//! \param faces  ascending. Cost: O(n).
+[[nodiscard]] MeshPart take_faces(const MeshView& mesh, std::vector<Index> faces, Ticker& ticker);
+
+//! The faces to remesh.
+struct Region : MeshPart {
     std::vector<Index> kept;       //!< All other faces of the caller, ascending.
     std::vector<SeamVertex> seam;  //!< By position; ascending.
     //! Edges between remeshed and kept faces, as vertices of mesh.
@@ -34,7 +42,6 @@ struct Region {
 //! as one, as the mesh may not be welded. Marked faces without area are left to cleaning, which
 //! absorbs them. They stay where it would drop them instead, and with them an edge or a vertex of
 //! the seam: where a vertex inside the region lies on an edge of the seam.
-//!
 //! \param is_marked  #F: other than 0 for the faces to remesh.
 //! \param cleaning   of the region.
 //! \throw InvalidOption  no face is left to remesh.
@@ -51,32 +58,24 @@ struct Region {
 }
 
 struct GluedRegion {
-    TriangleMesh mesh;  //!< Kept vertices and faces first.
-    //! The caller's vertices that come first in mesh, ascending.
-    std::vector<Index> kept_vertices;
-    std::vector<Index> vertex;  //!< #V of the remeshed region: its vertex in mesh.
-    bool is_joined = true;      //!< No edge has more faces than in the input.
+    TriangleMesh mesh;                 //!< Kept vertices and faces first.
+    std::vector<Index> kept_vertices;  //!< The caller's vertices that come first, ascending.
+    std::vector<Index> vertex;         //!< #V of the remeshed region: its vertex in mesh.
 };
 
-//! Joins a remeshed region and the faces that stayed. An inner edge of the region between two
-//! vertices that a kept edge joins as well is flipped; if that is not possible, the mesh is not
-//! joined.
-//!
+//! Joins a remeshed region and the faces that stayed, so that no edge has more faces than in the
+//! input. For that it flips inner edges of the region between vertices that another edge joins.
 //! \param remeshed  has all vertices and edges of the region's seam, at their positions.
+//! \throw ConstraintUnmet  that is not possible.
 //! Cost: O(n log n).
 [[nodiscard]] GluedRegion glue_region(const MeshView& mesh, const Region& region,
                                       const TriangleMesh& remeshed, Ticker& ticker);
 
-//! Remeshes a whole mesh.
-using RemeshWhole = std::function<RemeshResult(const MeshView&, const RemeshOptions&)>;
-
 //! Takes the region out as a mesh of its own, locks its seam, remeshes it, and joins it with the
 //! faces that stay.
-//!
-//! \param options  with a region; checked, but for what `run` checks.
-//! \throw ConstraintUnmet  num_samples is too small; what `run` throws.
-//! Cost: O(n log n) for the whole mesh, and that of `run`.
-[[nodiscard]] RemeshResult remesh_region(const MeshView& mesh, const RemeshOptions& options,
-                                         const RemeshWhole& run);
+//! \param options  with a region; checked.
+//! \throw as remesh().
+//! Cost: O(n log n) for the whole mesh, and that of remesh() for the region.
+[[nodiscard]] RemeshResult remesh_region(const MeshView& mesh, const RemeshOptions& options);
 
 }  // namespace remesh::detail

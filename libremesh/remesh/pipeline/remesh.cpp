@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
-#include <tuple>
 
 #include "agvd/core/parallel.h"
 #include "agvd/mesh/scale.h"
@@ -32,14 +31,14 @@ void check_values(const std::string& name, const std::vector<double>& values, st
 
 // Whether what gives the number suits where edges are how long.
 void check_count(const Sizing& sizing) {
-    const auto& [edges, count] = std::tie(sizing.edges, sizing.count);
+    const auto& count = sizing.count;
     const bool has_values = !sizing.is_even() && !sizing.is_adaptive();
     require(!std::holds_alternative<MaxError>(count) || sizing.is_adaptive(),
             "max_error needs adaptive edges");
     require(!std::holds_alternative<MaxDistance>(count) || !has_values,
             "max_distance excludes target_lengths, face_lengths and densities");
     require(!std::holds_alternative<CountOfLengths>(count) ||
-                (has_values && !std::holds_alternative<VertexDensities>(edges)),
+                (has_values && !std::holds_alternative<VertexDensities>(sizing.edges)),
             "a number that follows from lengths needs target_lengths or face_lengths");
     const auto check = [](double value) {
         require(value > 0 && std::isfinite(value),
@@ -162,7 +161,7 @@ RemeshResult run(const detail::InputMesh& input, const RemeshOptions& options) {
 }  // namespace
 
 RemeshResult remesh(const MeshView& mesh, const RemeshOptions& options) {
-    if (is_part(mesh, options)) return detail::remesh_region(mesh, options, remesh);
+    if (is_part(mesh, options)) return detail::remesh_region(mesh, options);
     return run({mesh, nullptr}, options);
 }
 

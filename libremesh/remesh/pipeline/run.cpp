@@ -8,7 +8,6 @@
 #include <string>
 #include <utility>
 
-#include "remesh/pipeline/attempt.h"
 #include "remesh/pipeline/meet_distance.h"
 #include "remesh/pipeline/sample_count.h"
 #include "remesh/pipeline/sizes.h"
@@ -43,9 +42,6 @@ bool may_shorten(const RemeshOptions& options) {
             std::holds_alternative<NumFaces>(sizing.count));
 }
 
-// A rod that is thinner than the spacing gets shorter by some edges.
-bool has_lost_part(const Verdict& verdict) { return verdict.largest_distance > verdict.spacing; }
-
 // Whether an attempt with fewer creases, or without seams, would differ from this one.
 bool has_more_to_drop(const KeptCurves& kept, const FeatureCounts& features) {
     return features.curves > 0 && (kept.has_seams || features.length > 0);
@@ -75,8 +71,9 @@ public:
         // Only what is locked can make all attempts fail.
         if (!best_) throw TooFewSamples{options_.num_samples, options_.num_samples + 1};
         best_->seconds = first_.seconds;
-        if (!thin_places_.empty() && may_shorten(options_) && !work.is_spent() &&
-            has_lost_part(best_->verdict) &&
+        // A rod that is thinner than the spacing gets shorter by some edges.
+        const bool has_lost_part = best_->verdict.largest_distance > best_->verdict.spacing;
+        if (!thin_places_.empty() && may_shorten(options_) && !work.is_spent() && has_lost_part &&
             !is_hopeless(best_->self_intersections.value_or(0), {options_, *best_})) {
             shorten_thin(work);
         }

@@ -173,15 +173,6 @@ std::vector<double> least_lengths_on(const FieldBase& on, std::span<const double
     return least;
 }
 
-// The number of vertices of a mesh that follows the lengths. Vertices of locked edges on the
-// boundary count half in the area, and what is locked needs a least number.
-Index count_for(const SizeField& field, const CleanedInput& cleaned, double spacing) {
-    const double inside = field.area() * 2 / std::numbers::sqrt3;
-    if (cleaned.locked.empty()) return to_count(inside);
-    return std::max(to_count(inside + num_locked_on_boundary(cleaned) / 2.0),
-                    least_samples(cleaned, spacing));
-}
-
 // The mean over the vertices of a mesh that follows these lengths.
 double mean_length(const Surface& surface, std::span<const double> length) {
     double lengths = 0, vertices = 0;
@@ -246,7 +237,7 @@ RunSizes find_sizes(const CleanedInput& cleaned, const FoundCurves& found, doubl
     RunSizes sizes{std::make_unique<const SizeField>(on.base, std::move(targets)),
                    options.num_samples};
     if (gives_count || mean != nullptr) {
-        sizes.num_samples = count_for(*sizes.field, cleaned, spacing);
+        sizes.num_samples = count_for_area(sizes.field->area(), cleaned, spacing);
     }
     return sizes;
 }

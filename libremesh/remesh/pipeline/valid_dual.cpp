@@ -49,6 +49,8 @@ public:
 
     ValidDual run() {
         mend_sites();
+        result_.sites_added += static_cast<Index>(reasons_.size());
+        for (const SiteReason reason : reasons_) ++result_.added_because[reason];
         const StageClock clock(Stage::Dual, result_);
         poll(progress_of(Stage::Dual, options_), 0);
         build_mesh();
@@ -162,15 +164,7 @@ private:
     }
 
     [[nodiscard]] Violations find_violations() const {
-        Violations missing = find_missing_sites();
-        if (!missing.empty()) return missing;
-        return find_closed_ball_violations(surface_, dual_.diagram,
-                                           progress_of(Stage::Dual, options_));
-    }
-
-    // Components that no site reaches.
-    [[nodiscard]] Violations find_missing_sites() const {
-        Violations missing;
+        Violations missing;  // Components that no site reaches.
         std::vector<bool> is_told = has_failed_;
         for (Index f = 0; f < surface_.num_faces(); ++f) {
             const Index component = domain_.component[f];
@@ -179,7 +173,9 @@ private:
             is_told[component] = true;
             missing.push_back({{}, {}, SiteReason::NoSite, {{FaceId(f), {1, 0, 0}}}});
         }
-        return missing;
+        if (!missing.empty()) return missing;
+        return find_closed_ball_violations(surface_, dual_.diagram,
+                                           progress_of(Stage::Dual, options_));
     }
 
     // Moves sampled sites that own nothing, as many as the count needs, to the farthest Voronoi
@@ -226,8 +222,6 @@ private:
         if (!new_places_.insert(position(surface_.mesh.view(), place)).second) return;
         sites_.push_back(place);
         reasons_.push_back(reason);
-        ++result_.sites_added;
-        ++result_.added_because[reason];
     }
 
     // In components that were given up: moves sites back, drops added sites, and gives the corners
@@ -246,12 +240,7 @@ private:
         std::size_t num_left = given_.size();
         for (std::size_t s = given_.size(); s < sites_.size(); ++s) {
             const SiteReason reason = reasons_[s - given_.size()];
-            if (gave_up(sites_[s])) {
-                --result_.sites_added;
-                const auto count = result_.added_because.find(reason);
-                if (--count->second == 0) result_.added_because.erase(count);
-                continue;
-            }
+            if (gave_up(sites_[s])) continue;
             sites_[num_left] = sites_[s];
             reasons_[num_left++ - given_.size()] = reason;
         }
@@ -300,12 +289,14 @@ private:
             dual_.site.push_back(s);
             dual_.points.push_back(sites_[s]);
         }
-        result_.components_thinned = 0;
-        const std::vector<ThinPart> thinned = find_thinned();
+        const auto num_failed = std::count(has_failed_.begin(), has_failed_.end(), true);
+        result_.components_thinned = static_cast<Index>(num_failed);
+        // By component that is to be thinned: faces, ascending, and sites, one at each place.
+        std::vector<std::vector<Index>> faces(components_.size()), sites(components_.size());
+        if (num_failed > 0) find_parts(faces, sites);
         for (Index c = 0; c < triangles.size(); ++c) {
             if (has_failed_[c]) {
-                ++result_.components_thinned;
-                append_thinned(thinned[c]);
+                append_thinned(faces[c], sites[c]);
                 continue;
             }
             for (const auto& [i, j, k] : triangles[c]) {
@@ -332,8 +323,7 @@ private:
         return triangles;
     }
 
-    // The closed-ball property implies this, except for polygons of the dual without a valid
-    // diagonal.
+    // False for polygons of the dual without a valid diagonal.
     [[nodiscard]] bool has_right_topology(std::span<const Triangle> triangles,
                                           const ComponentTopology& wanted) const {
         std::vector<Index> used;
@@ -355,37 +345,25 @@ private:
                topology.components[0].same_type(wanted);
     }
 
-    // A component that is to be thinned.
-    struct ThinPart {
-        std::vector<Index> faces;  // Of the surface, ascending.
-        std::vector<Index> sites;  // One at each place.
-    };
-
-    // By component; empty for those that are not thinned. One pass over the faces: parts with
-    // creases may have hundreds of such patches.
-    [[nodiscard]] std::vector<ThinPart> find_thinned() const {
-        std::vector<ThinPart> parts(components_.size());
-        if (std::find(has_failed_.begin(), has_failed_.end(), true) == has_failed_.end()) {
-            return parts;
-        }
+    void find_parts(std::vector<std::vector<Index>>& faces,
+                    std::vector<std::vector<Index>>& sites) const {
         for (Index f = 0; f < surface_.num_faces(); ++f) {
             const Index component = domain_.component[f];
-            if (has_failed_[component]) parts[component].faces.push_back(f);
+            if (has_failed_[component]) faces[component].push_back(f);
         }
         for (const Index s : distinct_points(surface_, sites_)) {
             const Index component = component_of(sites_[s]);
-            if (has_failed_[component]) parts[component].sites.push_back(s);
+            if (has_failed_[component]) sites[component].push_back(s);
         }
-        return parts;
     }
 
-    // Appends the component, thinned to its sites and the extra vertices that must stay.
-    void append_thinned(const ThinPart& thinned) {
+    // Appends a component, thinned to its sites and the extra vertices that must stay.
+    void append_thinned(std::span<const Index> faces, std::span<const Index> sites) {
         const auto first = static_cast<Index>(dual_.points.size());
-        std::vector<SurfacePoint> points = points_of(sites_, thinned.sites);
-        dual_.site.insert(dual_.site.end(), thinned.sites.begin(), thinned.sites.end());
-        SimplifiedMesh part = placed_.chain.empty() ? simplify(surface_, thinned.faces, points)
-                                                    : thin_patch(surface_, thinned.faces, points);
+        std::vector<SurfacePoint> points = points_of(sites_, sites);
+        dual_.site.insert(dual_.site.end(), sites.begin(), sites.end());
+        SimplifiedMesh part = placed_.chain.empty() ? simplify(surface_, faces, points)
+                                                    : thin_patch(surface_, faces, points);
         if (domain_.has_locked()) free_rim(surface_, points, part);
         points.insert(points.end(), part.extra.begin(), part.extra.end());
         dual_.points.insert(dual_.points.end(), points.begin(), points.end());

@@ -17,19 +17,16 @@ struct ValidDual {
     std::vector<SurfacePoint> thin_places;
 };
 
-//! Propagates, checks cells on the boundary (Boundary::Keep) and the closed-ball property, and adds
-//! or moves sites where they fail, until both hold. A component that still fails after the last
-//! round, or would need several times the sites, is thinned to its first sites instead
-//! (thin), without the added ones. So is each patch between curves that fails at all: adding sites
-//! does not help there. For any sites each component of the result is an oriented manifold with the
-//! topology of the component.
-//!
+//! Checks cells on the boundary (Boundary::Keep) and the closed-ball property, and adds or moves
+//! sites where they fail, until both hold. A component that still fails after the last round, or
+//! would need several times the sites, is thinned to its first sites (simplify). So is each patch
+//! between curves that fails at all: more sites do not help there. For any sites each component of
+//! the result is an oriented manifold with the topology of the component.
 //! \param placed  boundary vertices that need a site, and the boundary that the mesh must have.
-//! \param layout  of the base, or none. The first propagation consumes it, as it is larger than the
-//!                surface; later ones make their own, which takes a tenth of a round.
+//! \param layout  of the base, or none. The first propagation consumes it.
 //! \param sites   on the base; moved, and new ones are appended.
-//! \param is_thinned  by component, empty at first: true for those thinned from the start because
-//!                    their cells failed before; those that fail now are added.
+//! \param is_thinned  by component, empty at first: those to thin from the start because their
+//!                    cells failed before; those that fail now are added.
 //! Cost: a propagation and a diagram per round.
 [[nodiscard]] ValidDual build_valid_dual(const Domain& domain, const PlacedSites& placed,
                                          std::optional<SurfaceLayout>& layout,
