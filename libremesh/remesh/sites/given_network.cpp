@@ -5,7 +5,6 @@
 
 #include "agvd/mesh/closest_point.h"
 #include "agvd/mesh/surface.h"
-#include "agvd/mesh/surface_points.h"
 #include "remesh/sites/network_plan.h"
 
 namespace remesh {
