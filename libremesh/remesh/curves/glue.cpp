@@ -6,53 +6,12 @@
 #include <set>
 
 #include "agvd/core/types.h"
-#include "agvd/mesh/any_mesh.h"
 
 namespace remesh {
 namespace {
 
 // Most rounds of flips.
 constexpr int most_flip_rounds = 10;
-
-// Flips inner edges of patches that would occur twice in the glued mesh. Returns false if nothing
-// was flipped.
-bool flip_repeated(std::vector<Triangle>& triangles, std::span<const Index> vertex) {
-    const std::vector<EdgeSide> all = sorted_edge_sides(rename_vertices(triangles, vertex));
-    std::set<std::uint64_t> added;
-    std::vector<bool> is_changed(triangles.size(), false);
-    const auto exists = [&](std::uint64_t ends) {
-        const auto found = std::lower_bound(
-            all.begin(), all.end(), ends,
-            [](const EdgeSide& side, std::uint64_t value) { return side.ends < value; });
-        return (found != all.end() && found->ends == ends) || added.contains(ends);
-    };
-    // Tries the flip of the edge between two sides; they may belong to different patches.
-    const auto try_flip = [&](Index h, Index g) {
-        const Index t = h / 3, u = g / 3;
-        const Index a = triangles[t][h % 3], b = triangles[t][(h + 1) % 3];
-        if (triangles[u][g % 3] != b || triangles[u][(g + 1) % 3] != a) return false;
-        const Index c = triangles[t][(h + 2) % 3], d = triangles[u][(g + 2) % 3];
-        const std::uint64_t ends = edge_key(vertex[c], vertex[d]);
-        if (is_changed[t] || is_changed[u] || vertex[c] == vertex[d] || exists(ends)) return false;
-        triangles[t] = {c, d, b};
-        triangles[u] = {d, c, a};
-        is_changed[t] = is_changed[u] = true;
-        added.insert(ends);
-        return true;
-    };
-    bool has_flipped = false;
-    for_each_edge(all, [&](std::span<const EdgeSide> edge) {
-        if (edge.size() <= 2) return;
-        for (std::size_t i = 0; i < edge.size(); ++i) {
-            for (std::size_t j = i + 1; j < edge.size(); ++j) {
-                if (!try_flip(edge[i].half_edge, edge[j].half_edge)) continue;
-                has_flipped = true;
-                return;  // One flip for each edge and round.
-            }
-        }
-    });
-    return has_flipped;
-}
 
 // Sets, numbered in order of their first elements.
 struct Numbering {
@@ -112,13 +71,53 @@ std::vector<Index> corners_of(std::span<const Triangle> triangles) {
 
 }  // namespace
 
+bool flip_repeated(std::vector<Triangle>& triangles, std::span<const Index> vertex,
+                   const std::function<bool(std::span<const EdgeSide>)>& is_repeated,
+                   const std::function<bool(std::uint64_t)>& is_taken) {
+    const std::vector<EdgeSide> all = sorted_edge_sides(rename_vertices(triangles, vertex));
+    std::set<std::uint64_t> added;
+    std::vector<bool> is_changed(triangles.size(), false);
+    const auto exists = [&](std::uint64_t ends) {
+        return std::ranges::binary_search(all, ends, {}, &EdgeSide::ends) || added.contains(ends) ||
+               is_taken(ends);
+    };
+    // Tries the flip of the edge between two sides; they may belong to different patches.
+    const auto try_flip = [&](Index h, Index g) {
+        const Index t = h / 3, u = g / 3;
+        const Index a = triangles[t][h % 3], b = triangles[t][(h + 1) % 3];
+        if (triangles[u][g % 3] != b || triangles[u][(g + 1) % 3] != a) return false;
+        const Index c = triangles[t][(h + 2) % 3], d = triangles[u][(g + 2) % 3];
+        const std::uint64_t ends = edge_key(vertex[c], vertex[d]);
+        if (is_changed[t] || is_changed[u] || vertex[c] == vertex[d] || exists(ends)) return false;
+        triangles[t] = {c, d, b};
+        triangles[u] = {d, c, a};
+        is_changed[t] = is_changed[u] = true;
+        added.insert(ends);
+        return true;
+    };
+    bool has_flipped = false;
+    for_each_edge(all, [&](std::span<const EdgeSide> edge) {
+        if (!is_repeated(edge)) return;
+        for (std::size_t i = 0; i < edge.size(); ++i) {
+            for (std::size_t j = i + 1; j < edge.size(); ++j) {
+                if (!try_flip(edge[i].half_edge, edge[j].half_edge)) continue;
+                has_flipped = true;
+                return;  // One flip for each edge and round.
+            }
+        }
+    });
+    return has_flipped;
+}
+
 GluedMesh glue(std::span<const Triangle> triangles, std::span<const Index> group,
                std::span<const Index> vertex) {
     GluedMesh result;
     result.triangles.assign(triangles.begin(), triangles.end());
     const Numbering groups = number_sets(group);
+    const auto is_repeated = [](std::span<const EdgeSide> sides) { return sides.size() > 2; };
+    const auto is_taken = [](std::uint64_t) { return false; };
     for (int round = 0; round < most_flip_rounds; ++round) {
-        if (!flip_repeated(result.triangles, groups.number)) break;
+        if (!flip_repeated(result.triangles, groups.number, is_repeated, is_taken)) break;
     }
     Numbering vertices = vertex.empty() ? groups : number_sets(vertex);
     result.vertex = std::move(vertices.number);

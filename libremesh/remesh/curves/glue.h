@@ -3,11 +3,12 @@
 //! sheets. Private to remeshing.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <utility>
 #include <vector>
 
-#include "agvd/mesh/mesh.h"
+#include "agvd/mesh/any_mesh.h"
 #include "remesh/names.h"
 
 namespace remesh {
@@ -30,6 +31,18 @@ struct GluedMesh {
 //! Cost: O(n log n).
 [[nodiscard]] GluedMesh glue(std::span<const Triangle> triangles, std::span<const Index> group,
                              std::span<const Index> vertex = {});
+
+//! A round of flips of inner edges of patches, so that fewer edges of the glued mesh are repeated:
+//! one flip for each repeated edge.
+//!
+//! \param triangles    edited in place.
+//! \param vertex       #V: the vertex of the glued mesh.
+//! \param is_repeated  tells of the sides of an edge of the glued mesh whether there are too many.
+//! \param is_taken     tells whether further faces have an edge, by its edge_key.
+//! \return whether there was a flip. Cost: O(n log n).
+bool flip_repeated(std::vector<Triangle>& triangles, std::span<const Index> vertex,
+                   const std::function<bool(std::span<const EdgeSide>)>& is_repeated,
+                   const std::function<bool(std::uint64_t)>& is_taken);
 
 using DirectedEdge = std::pair<Index, Index>;  //!< From, to.
 

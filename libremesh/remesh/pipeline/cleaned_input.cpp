@@ -1,12 +1,19 @@
 #include "remesh/pipeline/cleaned_input.h"
 
+#include <string>
 #include <utility>
 
+#include "agvd/core/error.h"
+#include "agvd/mesh/surface_points.h"
+#include "remesh/clean/carry.h"
 #include "remesh/clean/soup.h"
 #include "remesh/pipeline/locked.h"
 
 namespace remesh::detail {
 namespace {
+
+// Fewer sites may repeat as they like: relaxation parts them.
+constexpr std::size_t least_checked = 1000;
 
 // Sites, edges and labels refer to the caller's mesh; later stages carry them to the cleaned one.
 bool refers_to_input(const RemeshOptions& options) {
@@ -27,15 +34,11 @@ Topology topology_of(const CleanResult& clean, const Progress& progress) {
 CleanedInput clean_stage(const InputMesh& input, const StageContext& context) {
     const auto& [options, result] = context;
     const StageClock clock(Stage::Clean, result);
-    const Progress progress = progress_of(Stage::Clean, options);
-    poll(progress, 0);
-    CleanOptions cleaning = options.cleaning;
-    cleaning.num_threads = options.num_threads;
-    cleaning.progress = within(progress, 0, 0);
-    CleanResult clean = clean_input(input.view, cleaning);
+    poll(progress_of(Stage::Clean, options), 0);
+    CleanResult clean = clean_input(input.view, cleaning_of(options));
     result.cleaned = clean.counts;
     result.welded_slit_length = clean.slit_length;
-    const Progress half = within(progress, cleaned_fraction / 2, cleaned_fraction / 2);
+    const Progress half = progress_at(Stage::Clean, options, cleaned_fraction / 2);
     CleanedInput cleaned;
     cleaned.given = input.view;
     if (!clean.welded_positions.empty()) {
@@ -60,14 +63,25 @@ CleanedInput clean_stage(const InputMesh& input, const StageContext& context) {
             cleaned.given = {};
         }
     }
-    poll(progress, cleaned_fraction);
-    const Progress done = within(progress, cleaned_fraction, cleaned_fraction);
+    const Progress done = cleaned_progress(options);
+    poll(done, 1);
     cleaned.surface = is_unchanged
                           ? build_surface(std::move(clean.mesh), std::move(clean.connectivity),
                                           options.num_threads, done)
                           : build_surface(clean.mesh.view(), options.num_threads, done);
     cleaned.locked = find_locked(cleaned.given, options, cleaned.surface);
     return cleaned;
+}
+
+std::vector<SurfacePoint> given_sites(const CleanedInput& cleaned, const Surface& surface,
+                                      const std::vector<SurfacePoint>& sites) {
+    std::vector<SurfacePoint> carried =
+        to_cleaned(sites, cleaned.given, {surface.mesh.view(), cleaned.face_origin});
+    if (carried.size() < least_checked) return carried;
+    const std::size_t distinct = distinct_points(surface, carried).size();
+    if (distinct * 2 >= carried.size()) return carried;
+    throw InvalidSites(std::to_string(carried.size()) + " sites were given, but only at " +
+                       std::to_string(distinct) + " different points; give each point once");
 }
 
 }  // namespace remesh::detail

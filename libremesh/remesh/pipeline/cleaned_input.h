@@ -1,5 +1,5 @@
 //! \file
-//! First stage: turns the caller's mesh into a surface.
+//! First stage: turns the caller's mesh into a surface, and carries the caller's sites to it.
 #pragma once
 
 #include "remesh/clean/clean_input.h"
@@ -27,11 +27,27 @@ struct CleanedInput {
     LockedElements locked = {};             //!< Of the surface.
 };
 
+//! The options for a clean_input() at the beginning of a run.
+[[nodiscard]] inline CleanOptions cleaning_of(const RemeshOptions& options) {
+    CleanOptions cleaning = options.cleaning;
+    cleaning.num_threads = options.num_threads;
+    cleaning.progress = progress_at(Stage::Clean, options, 0);
+    return cleaning;
+}
+
 //! Cleans the mesh, and drops small components if the options ask for it. Empties an owned mesh as
 //! soon as nothing refers to it, so that a large mesh is in memory only once.
-//!
 //! \throw as clean_input, drop_components, build_surface and find_locked.
 //! Cost: that of clean_input.
 [[nodiscard]] CleanedInput clean_stage(const InputMesh& input, const StageContext& context);
+
+//! The caller's sites on the cleaned surface.
+//! \param surface  the cleaned one, which a later stage may own by now.
+//! \throw as to_cleaned.
+//! \throw InvalidSites  of 1000 sites or more, more than half lie where an earlier one does.
+//! Cost: that of to_cleaned and distinct_points.
+[[nodiscard]] std::vector<SurfacePoint> given_sites(const CleanedInput& cleaned,
+                                                    const Surface& surface,
+                                                    const std::vector<SurfacePoint>& sites);
 
 }  // namespace remesh::detail

@@ -1,6 +1,8 @@
 #include "remesh/pipeline/crossings.h"
 
-#include "remesh/curves/glue.h"
+#include <algorithm>
+
+#include "agvd/mesh/scale.h"
 #include "remesh/quality/evaluate.h"
 
 namespace remesh::detail {
@@ -10,6 +12,37 @@ namespace {
 constexpr int max_unfits = 4;
 // Fewer samples than this for each new pair are hopeless.
 constexpr std::size_t samples_per_pair = 4;
+
+using Corners = std::array<Vec3, 3>;
+
+Corners corners_of(const MeshView& mesh, Index face) {
+    const auto& [a, b, c] = mesh.triangles[face];
+    return {mesh.positions[a], mesh.positions[b], mesh.positions[c]};
+}
+
+Vec3 normal_of(const Corners& t) { return (t[1] - t[0]).cross(t[2] - t[0]); }
+
+double longest_edge_of(const Corners& t) {
+    return std::max({(t[1] - t[0]).norm(), (t[2] - t[1]).norm(), (t[0] - t[2]).norm()});
+}
+
+// The part of a triangle in the plane of another; empty if there is none or if it is all of it.
+std::vector<Vec3> segment_in_plane(const Corners& t, const Corners& plane) {
+    const Vec3 normal = normal_of(plane);
+    std::array<double, 3> height{};
+    for (std::size_t i = 0; i < 3; ++i) height[i] = normal.dot(t[i] - plane[0]);
+    std::vector<Vec3> ends;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t j = (i + 1) % 3;
+        if (height[i] == 0) ends.push_back(t[i]);
+        if ((height[i] < 0 && height[j] > 0) || (height[i] > 0 && height[j] < 0)) {
+            ends.emplace_back(t[i] + height[i] / (height[i] - height[j]) * (t[j] - t[i]));
+        }
+    }
+    if (ends.size() == 1) ends.push_back(ends[0]);
+    if (ends.size() != 2) ends.clear();
+    return ends;
+}
 
 std::optional<FacePairs> find_in(const MeshView& mesh, const RemeshOptions& options) {
     return find_self_intersections(mesh, options.num_threads, progress_of(Stage::Check, options));
@@ -28,16 +61,45 @@ void unfit(Index v, const CurveSites& curves, PlacedDual& placed) {
 
 }  // namespace
 
-std::optional<CrossingFaces> CrossingFinder::find(const PlacedDual& placed) {
-    std::optional<FacePairs> all = find_all(placed);
-    if (!all) return std::nullopt;
-    return tell_fresh(placed, *std::move(all));
+Corners crossing_place(const Corners& a, const Corners& b) {
+    std::vector<Vec3> of_a = segment_in_plane(a, b), of_b = segment_in_plane(b, a);
+    if (of_a.empty()) std::swap(of_a, of_b);
+    // In one plane, or apart by rounding.
+    if (of_a.empty()) return normal_of(a).norm() < normal_of(b).norm() ? a : b;
+    const bool is_b_shorter =
+        !of_b.empty() && (of_b[1] - of_b[0]).norm() < (of_a[1] - of_a[0]).norm();
+    const std::vector<Vec3>& ends = is_b_shorter ? of_b : of_a;
+    return {ends[0], ends[1], ends[1]};
 }
 
-std::optional<FacePairs> CrossingFinder::find_all(const PlacedDual& placed) {
+TriangleMesh crossing_places(const MeshView& mesh, const FacePairs& pairs) {
+    TriangleMesh places;
+    for (const auto& [f, g] : pairs) {
+        const auto first = static_cast<Index>(places.positions.size());
+        const Corners place = crossing_place(corners_of(mesh, f), corners_of(mesh, g));
+        places.positions.insert(places.positions.end(), place.begin(), place.end());
+        places.triangles.push_back({first, first + 1, first + 2});
+    }
+    return places;
+}
+
+FacePairs pairs_elsewhere(const ClosestPointTree& places, const MeshView& mesh,
+                          const FacePairs& pairs) {
+    FacePairs elsewhere;
+    for (const auto& [f, g] : pairs) {
+        const Corners a = corners_of(mesh, f), b = corners_of(mesh, g);
+        const Corners place = crossing_place(a, b);
+        const double reach = std::max(longest_edge_of(a), longest_edge_of(b));
+        const Vec3 middle = (place[0] + place[1]) / 2;
+        if (!places.is_within(middle, reach)) elsewhere.emplace_back(f, g);
+    }
+    return elsewhere;
+}
+
+std::optional<FacePairs> CrossingFinder::find(const PlacedDual& placed) {
     const StageClock clock(Stage::Check, context_.result);
     poll(progress_of(Stage::Check, context_.options), 0);
-    std::optional<FacePairs> all = find_in(welded_mesh(domain_, placed).view(), context_.options);
+    std::optional<FacePairs> all = find_in(welded_mesh(domain_, placed), context_.options);
     if (all && !all->empty() && !has_searched_input_) find_in_input();
     return all;
 }
@@ -46,9 +108,9 @@ CrossingFaces CrossingFinder::tell_fresh(const PlacedDual& placed, FacePairs all
     const StageClock clock(Stage::Check, context_.result);
     CrossingFaces found{std::move(all), {}};
     if (found.all.size() <= context_.result.input_self_intersections) return found;
-    found.fresh = input_places_ ? input_places_->pairs_elsewhere(
-                                      welded_mesh(domain_, placed).view(), found.all)
-                                : found.all;
+    found.fresh = input_places_
+                      ? pairs_elsewhere(*input_places_, welded_mesh(domain_, placed), found.all)
+                      : found.all;
     return found;
 }
 
@@ -56,7 +118,7 @@ void CrossingFinder::find_in_input() {
     const TriangleMesh& input = domain_.whole->mesh;
     std::vector<Triangle> welded;
     if (domain_.has_locked()) {
-        welded = join_positions(input.positions, input.triangles);
+        welded = join_positions(input);
     } else if (domain_.has_junctions()) {
         welded = rename_vertices(input.triangles, first_copies(domain_.plan->network.junctions,
                                                                domain_.whole->num_vertices()));
@@ -64,7 +126,8 @@ void CrossingFinder::find_in_input() {
     const MeshView mesh{input.positions, welded.empty() ? input.triangles : welded};
     const FacePairs pairs = find_in(mesh, context_.options).value();
     if (!pairs.empty()) {
-        input_places_.emplace(mesh, pairs, progress_of(Stage::Check, context_.options));
+        input_places_.emplace(crossing_places(mesh, pairs),
+                              progress_of(Stage::Check, context_.options));
     }
     context_.result.input_self_intersections = static_cast<Index>(pairs.size());
     has_searched_input_ = true;
@@ -77,7 +140,7 @@ bool is_hopeless(std::size_t num_pairs, const StageContext& context) {
 
 std::optional<CrossingFaces> unfit_crossings(CrossingFinder& finder, const CurveSites& curves,
                                              PlacedDual& placed, RemeshResult& result) {
-    std::optional<FacePairs> crossings = finder.find_all(placed);
+    std::optional<FacePairs> crossings = finder.find(placed);
     result.unfitted_vertices = 0;
     for (int round = 0; round < max_unfits && crossings && !crossings->empty(); ++round) {
         bool is_changed = false;
@@ -88,10 +151,41 @@ std::optional<CrossingFaces> unfit_crossings(CrossingFinder& finder, const Curve
             is_changed = true;
         });
         if (!is_changed) break;
-        crossings = finder.find_all(placed);
+        crossings = finder.find(placed);
     }
     if (!crossings) return std::nullopt;
     return finder.tell_fresh(placed, *std::move(crossings));
+}
+
+std::optional<Index> count_crossings_at(const MeshView& mesh,
+                                        std::span<const std::uint8_t> is_marked, int num_threads,
+                                        const Progress& progress) {
+    Poller poller(progress);
+    Ticker ticker(poller);
+    MeshBox marked;
+    for (Index f = 0; f < mesh.triangles.size(); ++f) {
+        ticker.tick();
+        if (is_marked[f] == 0) continue;
+        for (const Vec3& corner : corners_of(mesh, f)) marked.add(corner);
+    }
+    std::vector<Index> faces;
+    std::vector<Triangle> near;
+    for (Index f = 0; f < mesh.triangles.size(); ++f) {
+        ticker.tick();
+        MeshBox box;
+        for (const Vec3& corner : corners_of(mesh, f)) box.add(corner);
+        if ((box.low.array() > marked.high.array()).any() ||
+            (marked.low.array() > box.high.array()).any()) {
+            continue;
+        }
+        faces.push_back(f);
+        near.push_back(mesh.triangles[f]);
+    }
+    const auto pairs = find_self_intersections({mesh.positions, near}, num_threads, progress);
+    if (!pairs) return std::nullopt;
+    return static_cast<Index>(std::count_if(pairs->begin(), pairs->end(), [&](const auto& pair) {
+        return is_marked[faces[pair.first]] != 0 || is_marked[faces[pair.second]] != 0;
+    }));
 }
 
 }  // namespace remesh::detail

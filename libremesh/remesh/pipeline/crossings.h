@@ -1,11 +1,13 @@
 //! \file
-//! Self-intersections of the result.
+//! Self-intersections of the result, and which of them follow from the input's.
 #pragma once
 
-#include "remesh/pipeline/crossing_places.h"
-#include "remesh/pipeline/whole_mesh.h"
+#include "agvd/mesh/closest_point.h"
+#include "remesh/pipeline/placed_dual.h"
 
 namespace remesh::detail {
+
+using FacePairs = std::vector<std::pair<Index, Index>>;
 
 //! Pairs of faces that intersect.
 struct CrossingFaces {
@@ -29,6 +31,20 @@ void for_each_corner(const FacePairs& pairs, const std::vector<Triangle>& triang
     }
 }
 
+//! A triangle, mostly a segment with its second end twice, that holds all points which two
+//! intersecting triangles have in common: of the two segments in the plane of the other the shorter
+//! one, or the triangle of smaller area if they lie in one plane.
+[[nodiscard]] std::array<Vec3, 3> crossing_place(const std::array<Vec3, 3>& a,
+                                                 const std::array<Vec3, 3>& b);
+
+//! The places of intersecting pairs of faces as triangles.
+[[nodiscard]] TriangleMesh crossing_places(const MeshView& mesh, const FacePairs& pairs);
+
+//! The pairs of faces that intersect farther from all these places than the longest edge of the
+//! two. Cost: O(log #places) for each pair near a place.
+[[nodiscard]] FacePairs pairs_elsewhere(const ClosestPointTree& places, const MeshView& mesh,
+                                        const FacePairs& pairs);
+
 //! Finds self-intersections, and those of the input as soon as a result has any.
 class CrossingFinder {
 public:
@@ -36,13 +52,11 @@ public:
     CrossingFinder(const Domain& domain, const StageContext& context)
         : domain_(domain), context_(context) {}
 
-    //! Faces of placed.mesh. Sheets that meet at a junction do not count.
+    //! Intersecting faces of placed.mesh. Sheets that meet at a junction do not count.
     //! \return unset without CGAL.
     //! Cost: that of find_self_intersections.
-    [[nodiscard]] std::optional<CrossingFaces> find(const PlacedDual& placed);
-    //! The first step of find(): all pairs.
-    [[nodiscard]] std::optional<FacePairs> find_all(const PlacedDual& placed);
-    //! The second one: tells which of them are fresh.
+    [[nodiscard]] std::optional<FacePairs> find(const PlacedDual& placed);
+    //! Tells which of them are fresh.
     [[nodiscard]] CrossingFaces tell_fresh(const PlacedDual& placed, FacePairs all);
 
 private:
@@ -51,19 +65,24 @@ private:
     const Domain& domain_;
     const StageContext& context_;
     bool has_searched_input_ = false;
-    std::optional<CrossingPlaces> input_places_;  // Unset: there are none.
+    std::optional<ClosestPointTree> input_places_;  // Unset: there are none.
 };
 
 //! Whether a result has so many more intersecting pairs of faces than the input that more sites
-//! would not help: more than one for four samples. Meshes with spikes are of this kind; all rounds
-//! and attempts took an armadillo with spikes minutes, and it still had a pair for each sample.
-//!
-//! \param num_pairs  of the result.
+//! would not help: more than one for four samples, as on meshes with spikes.
 [[nodiscard]] bool is_hopeless(std::size_t num_pairs, const StageContext& context);
 
 //! Moves vertices of intersecting triangles back onto the surface, in a few rounds.
 //! \return the pairs that still intersect; unset without CGAL.
 std::optional<CrossingFaces> unfit_crossings(CrossingFinder& finder, const CurveSites& curves,
                                              PlacedDual& placed, RemeshResult& result);
+
+//! The number of intersecting pairs of faces of which at least one is marked.
+//! \param is_marked  #F: other than 0 for marked faces, of which there is one.
+//! \return unset without CGAL.
+//! Cost: O(#F), and that of find_self_intersections for the faces near the marked ones.
+[[nodiscard]] std::optional<Index> count_crossings_at(const MeshView& mesh,
+                                                      std::span<const std::uint8_t> is_marked,
+                                                      int num_threads, const Progress& progress);
 
 }  // namespace remesh::detail

@@ -1,6 +1,5 @@
 // Finds creases and junctions, and plans the network of curves at the spacing of the sites. If the
-// caller gives sites, these decide which creases the network keeps. Creases are sought at the
-// spacing of the sites, or of a least number of sites, so that small parts keep theirs.
+// caller gives sites, these decide which creases the network keeps.
 #include "remesh/pipeline/curves.h"
 
 #include <algorithm>
@@ -9,35 +8,31 @@
 #include "agvd/mesh/surface_points.h"
 #include "remesh/clean/carry.h"
 #include "remesh/curves/crease_chains.h"
-#include "remesh/pipeline/given_sites.h"
-#include "remesh/sites/network_plan.h"
 #include "remesh/sites/prepared_surface.h"
 
 namespace remesh::detail {
 namespace {
 
 // Creases are sought at the spacing of at least this many sites, so that small parts keep theirs.
-// The report tells for which creases the sites are too few.
 constexpr std::size_t least_scale = 300;
-// In spacings. Shorter junctions are specks on a scan: cells would have to bend around them. Five
-// of them on nefertiti cost .013 of the mean quality.
+// In spacings. Cells would have to bend around shorter junctions.
 constexpr double least_junction = 2;
-// In spacings: given sites this near to a curve are put onto it if sites are relaxed. Fitted
-// vertices of an earlier result lie up to .05 off.
+// In spacings: given sites this near to a curve are put onto it if sites are relaxed.
 constexpr double on_curve = 0.1;
 
-bool wants_creases(const RemeshOptions& options) {
-    return options.features != Features::Off || !options.feature_edges.empty() ||
-           !options.face_labels.empty();
+// Adds marks to others.
+void add_marks(std::span<const std::uint8_t> more, std::vector<std::uint8_t>& marks) {
+    for (std::size_t e = 0; e < more.size(); ++e) marks[e] |= more[e];
 }
 
-bool wants_junctions(const RemeshOptions& options) {
-    return !options.sites && options.boundary == Boundary::Keep;
-}
-
+// #E; empty: none are wanted.
 std::vector<std::uint8_t> find_all_creases(const CleanedInput& cleaned, double spacing,
-                                           const RemeshOptions& options, const Progress& progress) {
+                                           const RemeshOptions& options) {
     const Surface& surface = cleaned.surface;
+    if (options.features == Features::Off && options.feature_edges.empty() &&
+        options.face_labels.empty()) {
+        return {};
+    }
     std::vector<std::uint8_t> is_crease(surface.num_edges(), 0);
     if (options.features != Features::Off) {
         is_crease =
@@ -45,64 +40,52 @@ std::vector<std::uint8_t> find_all_creases(const CleanedInput& cleaned, double s
                                    .spacing = std::min(spacing, mean_spacing(surface, least_scale)),
                                    .is_automatic = options.features == Features::Auto,
                                    .num_threads = options.num_threads,
-                                   .progress = progress});
+                                   .progress = cleaned_progress(options)});
     }
-    const auto add = [&](const std::vector<std::uint8_t>& is_given) {
-        for (std::size_t e = 0; e < is_given.size(); ++e) is_crease[e] |= is_given[e];
-    };
     if (!options.feature_edges.empty()) {
-        add(carry_edges(options.feature_edges, cleaned.given,
-                        {surface.mesh.view(), cleaned.face_origin}, surface));
+        add_marks(carry_edges(options.feature_edges, cleaned.given,
+                              {surface.mesh.view(), cleaned.face_origin}, surface),
+                  is_crease);
     }
     if (!options.face_labels.empty()) {
-        add(find_label_borders(options.face_labels, cleaned.face_origin, surface));
+        add_marks(find_label_borders(options.face_labels, cleaned.face_origin, surface), is_crease);
     }
     return is_crease;
 }
 
 // \param found  its creases are known.
 void find_seams(const CleanedInput& cleaned, double spacing, const RemeshOptions& options,
-                const Progress& progress, FoundCurves& found) {
+                FoundCurves& found) {
     const Surface& surface = cleaned.surface;
-    Poller poller(progress);
     found.is_seam = carry_edges(options.texture_seams, cleaned.given,
                                 {surface.mesh.view(), cleaned.face_origin}, surface);
     for (Index e = 0; e < surface.num_edges(); ++e) {  // What cleaning has cut is boundary.
         if (surface.twin[surface.edge_half[e]] == no_index) found.is_seam[e] = 0;
     }
     found.is_wide = found.is_seam;
+    const Progress progress = cleaned_progress(options);
+    Poller poller(progress);
     prune_seams(surface, found.is_crease, spacing, found.is_wide, Ticker(poller));
 }
 
-std::pair<NetworkPlan, GivenSites> plan_with_given(const CleanedInput& cleaned,
-                                                   std::vector<std::uint8_t> is_crease,
-                                                   double drop_share, double spacing,
-                                                   const StageContext& context) {
-    const auto& [options, result] = context;
-    const Progress progress = progress_of(Stage::Clean, options);
+GivenNetwork plan_with_given(const CleanedInput& cleaned, std::vector<std::uint8_t> is_crease,
+                             double drop_share, double spacing, const RemeshOptions& options) {
     const std::vector<SurfacePoint> sites = given_sites(cleaned, cleaned.surface, *options.sites);
-    GivenNetwork given =
-        plan_given_network(cleaned.surface, std::move(is_crease),
-                           points_of(sites, distinct_points(cleaned.surface, sites)),
-                           {.spacing = spacing,
-                            .tolerance = is_relaxed(options) ? on_curve : site_rounding,
-                            .drop_share = drop_share,
-                            .num_threads = options.num_threads,
-                            .progress = within(progress, cleaned_fraction, cleaned_fraction)});
-    result.features.uncarried_curves = given.dropped_curves;
-    GivenSites sorted{std::move(given.curves), std::move(given.inner), {}};
-    for (const Index group : groups_of_copies(sorted.on_curves)) {
-        sorted.number.push_back(given.of_group[group]);
-    }
-    sorted.number.insert(sorted.number.end(), given.of_inner.begin(), given.of_inner.end());
-    return {std::move(given.plan), std::move(sorted)};
+    return plan_given_network(cleaned.surface, std::move(is_crease),
+                              points_of(sites, distinct_points(cleaned.surface, sites)),
+                              {.spacing = spacing,
+                               .tolerance = is_relaxed(options) ? on_curve : site_rounding,
+                               .drop_share = drop_share,
+                               .num_threads = options.num_threads,
+                               .progress = cleaned_progress(options)});
 }
 
 void count_plan(const NetworkPlan& plan, RemeshResult& result) {
+    const auto count = [&](const auto& is_counted) {
+        return static_cast<Index>(std::ranges::count_if(plan.network.curves, is_counted));
+    };
     FeatureCounts& counts = result.features;
-    const auto& curves = plan.network.curves;
-    counts.curves = static_cast<Index>(std::count_if(
-        curves.begin(), curves.end(), [](const Curve& curve) { return !curve.is_locked; }));
+    counts.curves = count([](const Curve& curve) { return !curve.is_locked; });
     counts.nodes = static_cast<Index>(plan.network.nodes.size());
     counts.length = plan.length;
     counts.dropped_length = plan.dropped_length;
@@ -110,9 +93,7 @@ void count_plan(const NetworkPlan& plan, RemeshResult& result) {
     result.junctions.samples_for_all = plan.sites_for_junctions;
     if (plan.network.curves.empty()) return;
     result.junctions.apart_edges -= static_cast<Index>(plan.junctions.edges.size());
-    result.junctions.curves =
-        static_cast<Index>(std::count_if(plan.network.curves.begin(), plan.network.curves.end(),
-                                         [](const Curve& curve) { return curve.is_junction(); }));
+    result.junctions.curves = count([](const Curve& curve) { return curve.is_junction(); });
 }
 
 // Of the network's edges which are creases, and which are seams: an edge may be both.
@@ -139,24 +120,17 @@ void count_seams(const Surface& surface, const NetworkPlan& plan, const FoundCur
 FoundCurves find_curves(const CleanedInput& cleaned, double spacing, const StageContext& context) {
     const auto& [options, result] = context;
     const StageClock clock(Stage::Clean, result);
-    const Progress progress = progress_of(Stage::Clean, options);
     FoundCurves found;
     found.junctions = find_junctions(cleaned.surface, cleaned.vertex_origin);
     found.junctions.in_result = options.junctions;
     result.junctions.edges = static_cast<Index>(found.junctions.edges.size());
-    if (!wants_junctions(options)) {
+    if (options.sites || options.boundary != Boundary::Keep) {
         found.junctions = {};
     } else if (options.junctions == Junctions::Apart) {
         drop_short_junctions(cleaned.surface, least_junction * spacing, found.junctions);
     }
-    if (wants_creases(options)) {
-        found.is_crease = find_all_creases(cleaned, spacing, options,
-                                           within(progress, cleaned_fraction, cleaned_fraction));
-    }
-    if (!options.texture_seams.empty()) {
-        find_seams(cleaned, spacing, options, within(progress, cleaned_fraction, cleaned_fraction),
-                   found);
-    }
+    found.is_crease = find_all_creases(cleaned, spacing, options);
+    if (!options.texture_seams.empty()) find_seams(cleaned, spacing, options, found);
     return found;
 }
 
@@ -165,8 +139,6 @@ std::unique_ptr<const CurvePlan> plan_curves(const CleanedInput& cleaned, const 
                                              const SizeField* sizes, const StageContext& context) {
     const auto& [options, result] = context;
     const StageClock clock(Stage::Clean, result);
-    const Progress progress = progress_of(Stage::Clean, options);
-    const Progress done = within(progress, cleaned_fraction, cleaned_fraction);
     result.junctions.apart_edges = result.junctions.edges;
     JunctionSet junctions = kept.has_junctions ? found.junctions : JunctionSet{};
     const bool has_seams = kept.has_seams && !found.is_seam.empty();
@@ -176,19 +148,18 @@ std::unique_ptr<const CurvePlan> plan_curves(const CleanedInput& cleaned, const 
     }
     std::vector<std::uint8_t> is_crease = found.is_crease;
     is_crease.resize(cleaned.surface.num_edges(), 0);
-    if (has_seams) {
-        for (std::size_t e = 0; e < is_crease.size(); ++e) is_crease[e] |= found.is_wide[e];
-    }
+    if (has_seams) add_marks(found.is_wide, is_crease);
     auto plan = std::make_unique<CurvePlan>();
     if (options.sites) {
-        auto [network, given] =
-            plan_with_given(cleaned, std::move(is_crease), kept.drop_share, spacing, context);
-        plan->network = std::move(network);
+        GivenNetwork given =
+            plan_with_given(cleaned, std::move(is_crease), kept.drop_share, spacing, options);
+        result.features.uncarried_curves = given.dropped_curves;
+        plan->network = std::move(given.plan);
         plan->given = std::move(given);
     } else {
         plan->network = plan_network(cleaned.surface, std::move(is_crease), options.num_samples,
                                      std::move(junctions), kept.drop_share, options.num_threads,
-                                     done, sizes, cleaned.locked);
+                                     cleaned_progress(options), sizes, cleaned.locked);
     }
     count_plan(plan->network, result);
     if (!found.is_seam.empty()) {
@@ -201,7 +172,8 @@ std::unique_ptr<const CurvePlan> plan_curves(const CleanedInput& cleaned, const 
     // Pass the twins: vertex indices do not show a cut along a single edge, whose two sides have
     // the same ends.
     const Surface& cut = plan->network.cut.surface;
-    plan->patches = analyze_topology(cut.mesh.view(), {cut.twin, cut.outgoing}, done);
+    plan->patches =
+        analyze_topology(cut.mesh.view(), {cut.twin, cut.outgoing}, cleaned_progress(options));
     return plan;
 }
 

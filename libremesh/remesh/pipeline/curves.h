@@ -24,21 +24,11 @@ struct KeptCurves {
     double drop_share = 0;  //!< Share of the creases, in [0, 1]: see plan_network.
 };
 
-//! The caller's own sites, sorted into those on curves and the others.
-struct GivenSites {
-    CurveSites on_curves;
-    std::vector<SurfacePoint> inner;  //!< On the cleaned surface.
-    //! The caller's number of each copy, then of each inner site.
-    std::vector<Index> number;
-};
-
 //! A network of curves and the surface cut along it.
 struct CurvePlan {
     NetworkPlan network;              //!< Has curves.
     Topology patches;                 //!< Of network.cut.surface.
     std::optional<GivenSites> given;  //!< Only with the caller's sites.
-
-    [[nodiscard]] bool has_junctions() const { return !network.junctions.empty(); }
 };
 
 //! \param spacing  of the sites, mesh units.
@@ -48,8 +38,8 @@ struct CurvePlan {
 
 //! \param sizes  target lengths; null: all equal.
 //! \return null if the boundary is all that is to be reproduced.
-//! \throw TooFewSamples  more vertices are locked. Cost: see plan_network and
-//! plan_given_network.
+//! \throw TooFewSamples  more vertices are locked.
+//! Cost: see plan_network and plan_given_network.
 [[nodiscard]] std::unique_ptr<const CurvePlan> plan_curves(const CleanedInput& cleaned,
                                                            const FoundCurves& found,
                                                            const KeptCurves& kept, double spacing,

@@ -1,28 +1,13 @@
 // A place is a position: the number of its first vertex.
-#include "remesh/pipeline/cut_region.h"
-
 #include <algorithm>
-#include <unordered_map>
+#include <utility>
 
-#include "agvd/core/error.h"
-#include "agvd/core/random.h"
-#include "agvd/core/types.h"
 #include "remesh/clean/soup.h"
+#include "remesh/curves/glue.h"
+#include "remesh/pipeline/region.h"
 
 namespace remesh::detail {
 namespace {
-
-// #V: the first vertex at the same position.
-std::vector<Index> find_common_positions(const MeshView& mesh, Ticker& ticker) {
-    std::unordered_map<Vec3, Index, PositionHash> first;
-    first.reserve(mesh.positions.size());
-    std::vector<Index> place(mesh.positions.size());
-    for (Index v = 0; v < place.size(); ++v) {
-        ticker.tick();
-        place[v] = first.try_emplace(mesh.positions[v], v).first->second;
-    }
-    return place;
-}
 
 class RegionCutter {
 public:
@@ -32,9 +17,10 @@ public:
           cleaning_(cleaning),
           poller_(cleaning.progress),
           ticker_(poller_),
-          place_(find_common_positions(mesh, ticker_)),
+          place_(first_at_position(mesh.positions, ticker_)),
           is_inside_(is_marked.begin(), is_marked.end()),
           is_outer_place_(mesh.positions.size(), false) {
+        check_elements(mesh, ticker_);
         find_flat_faces();
     }
 
@@ -49,29 +35,17 @@ public:
 private:
     Region divide() {
         Region region;
-        std::vector<Index> number(mesh_.positions.size(), no_index);
+        std::vector<Index> faces;
         for (Index f = 0; f < is_inside_.size(); ++f) {
-            ticker_.tick();
-            (is_inside_[f] != 0 ? region.faces : region.kept).push_back(f);
-            if (is_inside_[f] == 0) continue;
-            for (const Index v : mesh_.triangles[f]) number[v] = 0;
+            (is_inside_[f] != 0 ? faces : region.kept).push_back(f);
         }
-        if (std::ranges::none_of(region.faces, [&](Index f) { return has_area(f); })) {
+        if (std::ranges::none_of(faces, [&](Index f) { return has_area(f); })) {
             throw InvalidOption(
                 "the region has no face with an area; mark the faces to remesh with other values "
                 "than 0");
         }
-        for (Index v = 0; v < number.size(); ++v) {
-            if (number[v] == no_index) continue;
-            number[v] = static_cast<Index>(region.vertices.size());
-            region.vertices.push_back(v);
-            region.mesh.positions.push_back(mesh_.positions[v]);
-        }
-        for (const Index f : region.faces) {
-            const auto& [a, b, c] = mesh_.triangles[f];
-            region.mesh.triangles.push_back({number[a], number[b], number[c]});
-        }
-        find_seam(number, region);
+        static_cast<MeshPart&>(region) = take_faces(mesh_, std::move(faces), ticker_);
+        find_seam(region);
         return region;
     }
 
@@ -149,64 +123,50 @@ private:
         return is_changed;
     }
 
-    // An edge between two places of the seam.
-    struct Side {
-        std::uint64_t edge;
-        bool is_inside;
-        Index tail, head;  // Vertices of the caller.
-
-        [[nodiscard]] bool operator<(const Side& other) const {
-            return edge != other.edge ? edge < other.edge : is_inside < other.is_inside;
-        }
-    };
-
-    // \param number  #V of the caller: vertex of the region's mesh.
-    void find_seam(std::span<const Index> number, Region& region) {
+    void find_seam(Region& region) {
+        const std::vector<Index>& number = region.number;
         std::vector<Index> inner(mesh_.positions.size(), no_index);  // By place: a vertex inside.
         for (const Index v : region.vertices) {
             if (inner[place_[v]] == no_index) inner[place_[v]] = v;
         }
         std::vector<Index> shared(mesh_.positions.size(), no_index);  // By place.
         const auto share = [&](Index v) { shared[place_[v]] = std::min(shared[place_[v]], v); };
-        std::vector<Side> sides;
+        const auto is_on_seam = [&](Index p) { return is_outer_place_[p] && inner[p] != no_index; };
+        std::vector<EdgeSide> sides;  // Of edges between places of the seam.
         for (Index f = 0; f < is_inside_.size(); ++f) {
             ticker_.tick();
-            const Triangle& t = mesh_.triangles[f];
-            for (std::size_t k = 0; k < 3; ++k) {
-                const Index a = t[k], b = t[(k + 1) % 3];
-                if (is_inside_[f] == 0 && number[a] != no_index) share(a);
-                const auto is_on_seam = [&](Index p) {
-                    return is_outer_place_[p] && inner[p] != no_index;
-                };
-                if (place_[a] == place_[b] || !is_on_seam(place_[a]) || !is_on_seam(place_[b])) {
-                    continue;
-                }
-                sides.push_back({edge_key(place_[a], place_[b]), is_inside_[f] != 0, a, b});
+            for (Index k = 0; k < 3; ++k) {
+                const Index v = mesh_.triangles[f][k];
+                if (is_inside_[f] == 0 && number[v] != no_index) share(v);
+                const Index a = place_[v], b = place_[mesh_.triangles[f][(k + 1) % 3]];
+                if (a == b || !is_on_seam(a) || !is_on_seam(b)) continue;
+                sides.push_back({edge_key(a, b), 3 * f + k, a < b});
             }
         }
-        std::stable_sort(sides.begin(), sides.end());
-        for (std::size_t first = 0, last = 0; first < sides.size(); first = last) {
-            while (last < sides.size() && sides[last].edge == sides[first].edge) ++last;
-            const auto low = static_cast<Index>(sides[first].edge >> 32);
-            const auto high = static_cast<Index>(sides[first].edge);
-            if (sides[first].is_inside == sides[last - 1].is_inside) {
-                if (!sides[first].is_inside || last - first <= 2) continue;
-                region.branched_edges.push_back({number[inner[low]], number[inner[high]]});
-                continue;
+        sides = sort_edge_sides(sides, static_cast<Index>(place_.size()), ticker_);
+        for_each_edge(std::span<const EdgeSide>(sides), [&](std::span<const EdgeSide> edge) {
+            const std::array ends{number[inner[edge[0].low()]], number[inner[edge[0].high()]]};
+            const auto is_inside = [&](const EdgeSide& side) {
+                return is_inside_[side.face()] != 0;
+            };
+            const auto outer = std::ranges::find_if_not(edge, is_inside);
+            if (outer == edge.end()) {
+                if (edge.size() > 2) region.branched_edges.push_back(ends);
+                return;
             }
-            region.seam_edges.push_back({number[inner[low]], number[inner[high]]});
+            if (std::ranges::none_of(edge, is_inside)) return;
+            region.seam_edges.push_back(ends);
             // A crack: cleaning would weld it.
-            if (last - first == 2) {
-                share(sides[first].tail);
-                share(sides[first].head);
+            if (edge.size() == 2) {
+                const Triangle& t = mesh_.triangles[outer->face()];
+                share(t[outer->half_edge % 3]);
+                share(t[(outer->half_edge + 1) % 3]);
             }
-        }
+        });
         for (Index p = 0; p < inner.size(); ++p) {
-            if (inner[p] == no_index || !is_outer_place_[p]) continue;
-            region.seam.push_back({number[inner[p]], shared[p]});
+            if (is_on_seam(p)) region.seam.push_back({number[inner[p]], shared[p]});
         }
-        std::sort(region.seam.begin(), region.seam.end(),
-                  [](const SeamVertex& a, const SeamVertex& b) { return a.vertex < b.vertex; });
+        std::ranges::sort(region.seam, {}, &SeamVertex::vertex);
     }
 
     const MeshView& mesh_;
@@ -222,11 +182,27 @@ private:
 
 }  // namespace
 
+MeshPart take_faces(const MeshView& mesh, std::vector<Index> faces, Ticker& ticker) {
+    MeshPart part;
+    part.number.assign(mesh.positions.size(), no_index);
+    for (const Index f : faces) {
+        ticker.tick();
+        part.mesh.triangles.push_back(mesh.triangles[f]);
+        for (const Index v : mesh.triangles[f]) part.number[v] = 0;
+    }
+    for (Index v = 0; v < part.number.size(); ++v) {
+        if (part.number[v] == no_index) continue;
+        part.number[v] = static_cast<Index>(part.vertices.size());
+        part.vertices.push_back(v);
+        part.mesh.positions.push_back(mesh.positions[v]);
+    }
+    part.mesh.triangles = rename_vertices(part.mesh.triangles, part.number);
+    part.faces = std::move(faces);
+    return part;
+}
+
 Region cut_region(const MeshView& mesh, std::span<const std::uint8_t> is_marked,
                   const CleanOptions& cleaning) {
-    Poller poller(cleaning.progress);
-    Ticker ticker(poller);
-    check_elements(mesh, ticker);
     return RegionCutter(mesh, is_marked, cleaning).run();
 }
 

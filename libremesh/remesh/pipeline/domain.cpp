@@ -9,32 +9,17 @@
 namespace remesh::detail {
 namespace {
 
-PreparedSurface prepare(CleanedInput& cleaned, const CurvePlan* plan, double spacing,
-                        const SizeField* sizes, int num_threads, const Progress& progress) {
-    if (plan != nullptr) return {plan->network.cut.surface, spacing, num_threads, progress, sizes};
-    return {std::move(cleaned.surface), spacing, num_threads, progress, sizes};
-}
-
-// How many times as long as high a face is.
-double thinness(const Surface& surface, Index face) {
-    double most = 0;
-    for (Index h = 3 * face; h < 3 * face + 3; ++h) {
-        most = std::max(most, surface.length_of(h) / surface.apex_of(h).y());
-    }
-    return most;
-}
-
-// For a base that is not Delaunay, since flips reached their limit. Rounding tilts edges around
-// parts that are 10^12 times as long as wide, and flips unwind these edges one turn after another.
-// Such a base is not refined: all later stages take minutes on it, and the result is far off.
+// For a base that is not Delaunay, since flips reached their limit: rounding tilts edges around
+// parts that are 10^12 times as long as wide, and each flip mends little of that. Later stages
+// would take long on it, and the result would be far off.
 [[noreturn]] void refuse_thin_parts(const Surface& surface, const CleanedInput& cleaned) {
     Index thinnest = 0;
     double most = 0;
-    for (Index f = 0; f < surface.num_faces(); ++f) {
-        const double thin = thinness(surface, f);
+    for (Index h = 0; h < surface.twin.size(); ++h) {
+        const double thin = surface.length_of(h) / surface.apex_of(h).y();
         if (thin <= most) continue;
         most = thin;
-        thinnest = f;
+        thinnest = Surface::face(h);
     }
     std::ostringstream text;
     text.precision(1);
@@ -53,28 +38,28 @@ Domain prepare_domain(CleanedInput& cleaned, std::unique_ptr<const CurvePlan> pl
     const StageClock clock(Stage::Clean, result);
     const Progress all = progress_of(Stage::Clean, options);
     const Progress progress = within(all, cleaned_fraction, 1);
+    const int num_threads = options.num_threads;
     const CurvePlan* cut = plan.get();
     Domain domain{.plan = std::move(plan),
-                  .prepared = prepare(cleaned, cut, spacing, sizes, options.num_threads, progress),
+                  .prepared = cut != nullptr ? PreparedSurface(cut->network.cut.surface, spacing,
+                                                               num_threads, progress, sizes)
+                                             : PreparedSurface(std::move(cleaned.surface), spacing,
+                                                               num_threads, progress, sizes),
                   .whole = &cleaned.surface,
-                  .parts = &cleaned.topology,
+                  .parts = cut != nullptr ? &cut->patches : &cleaned.topology,
                   .spacing = spacing,
                   .sizes = sizes};
-    if (cut != nullptr) {
-        domain.parts = &cut->patches;
-    } else {
-        domain.whole = &domain.prepared.input();
-    }
-    domain.component =
-        parts_of_base(domain.prepared.base, domain.parts->face_component, within(all, 1, 1));
+    if (cut == nullptr) domain.whole = &domain.prepared.input();
+    domain.component = parts_of_base(domain.prepared.base, domain.parts->face_component,
+                                     progress_at(Stage::Clean, options, 1));
     if (!domain.prepared.base.counts().is_delaunay) refuse_thin_parts(*domain.whole, cleaned);
     result.refined_faces = domain.base().num_faces();
     return domain;
 }
 
-void give_back(Domain domain, CleanedInput& cleaned, const StageContext& context) {
+void give_back(Domain domain, CleanedInput& cleaned, int num_threads) {
     if (domain.plan) return;
-    cleaned.surface = build_surface(domain.whole->mesh.view(), context.options.num_threads);
+    cleaned.surface = build_surface(domain.whole->mesh.view(), num_threads);
 }
 
 }  // namespace remesh::detail

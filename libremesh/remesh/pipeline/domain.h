@@ -19,20 +19,18 @@ struct Domain {
 
     //! The surface on which propagation runs.
     [[nodiscard]] const Surface& base() const { return prepared.base.surface(); }
-    [[nodiscard]] bool has_junctions() const { return plan && plan->has_junctions(); }
+    [[nodiscard]] bool has_junctions() const { return plan && !plan->network.junctions.empty(); }
     [[nodiscard]] bool has_locked() const { return plan && !plan->network.locked.empty(); }
 };
 
-//! \param cleaned  outlives the domain. Without a plan its surface moves into the domain (see
-//!                 give_back).
-//! \throw InvalidInput  a part of the surface is too thin for double precision: it has no base that
-//!        is Delaunay.
+//! \param cleaned  outlives the domain. Without a plan its surface moves there (see give_back).
+//! \throw InvalidInput  a part of the surface is too thin for double precision.
 //! Cost: that of PreparedSurface.
 [[nodiscard]] Domain prepare_domain(CleanedInput& cleaned, std::unique_ptr<const CurvePlan> plan,
                                     double spacing, const SizeField* sizes,
                                     const StageContext& context);
 
 //! Ends a domain and gives `cleaned` its surface back. Cost: O(#F) if it had moved.
-void give_back(Domain domain, CleanedInput& cleaned, const StageContext& context);
+void give_back(Domain domain, CleanedInput& cleaned, int num_threads);
 
 }  // namespace remesh::detail

@@ -15,9 +15,7 @@ namespace {
 // Numbers of different positions.
 class Places {
 public:
-    void add(const Vec3& position) {
-        number_.try_emplace(position, static_cast<Index>(number_.size()));
-    }
+    Index add(const Vec3& position) { return number_.try_emplace(position, size()).first->second; }
     [[nodiscard]] Index find(const Vec3& position) const {
         const auto found = number_.find(position);
         return found == number_.end() ? no_index : found->second;
@@ -27,17 +25,6 @@ public:
 private:
     std::unordered_map<Vec3, Index, PositionHash> number_;
 };
-
-// Edges between places, ascending.
-std::vector<std::uint64_t> sorted(std::vector<std::uint64_t> edges) {
-    std::sort(edges.begin(), edges.end());
-    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-    return edges;
-}
-
-bool contains(const std::vector<std::uint64_t>& edges, std::uint64_t edge) {
-    return std::binary_search(edges.begin(), edges.end(), edge);
-}
 
 void require_vertex(const MeshView& given, Index vertex) {
     if (vertex < given.positions.size()) return;
@@ -67,10 +54,8 @@ void add_boundary(const Surface& surface, Places& places, std::vector<std::uint6
         const bool is_alone = (i == 0 || edges[i - 1].first != edge) &&
                               (i + 1 == edges.size() || edges[i + 1].first != edge);
         if (!is_alone || surface.twin[h] != no_index) continue;
-        const Vec3 &a = position(surface.tail(h)), &b = position(surface.head(h));
-        places.add(a);
-        places.add(b);
-        wanted.push_back(edge_key(places.find(a), places.find(b)));
+        wanted.push_back(
+            edge_key(places.add(position(surface.tail(h))), places.add(position(surface.head(h)))));
     }
 }
 
@@ -89,15 +74,13 @@ LockedElements find_locked(const MeshView& given, const RemeshOptions& options,
         places.add(given.positions[v]);
     }
     std::vector<std::uint64_t> wanted;
-    for (const auto& ends : edges) {
-        for (const Index v : ends) {
-            require_vertex(given, v);
-            places.add(given.positions[v]);
-        }
-        wanted.push_back(edge_key(place_of(ends[0]), place_of(ends[1])));
+    for (const auto& [a, b] : edges) {
+        require_vertex(given, a);
+        require_vertex(given, b);
+        wanted.push_back(edge_key(places.add(given.positions[a]), places.add(given.positions[b])));
     }
     if (options.lock_boundary) add_boundary(surface, places, wanted);
-    wanted = sorted(std::move(wanted));
+    std::ranges::sort(wanted);
     std::vector<Index> place(surface.num_vertices());
     std::vector<bool> is_found(places.size(), false);
     for (Index v = 0; v < surface.num_vertices(); ++v) {
@@ -118,13 +101,14 @@ LockedElements find_locked(const MeshView& given, const RemeshOptions& options,
     for (Index e = 0; e < surface.num_edges(); ++e) {
         const Index h = surface.edge_half[e];
         const Index a = place[surface.tail(h)], b = place[surface.head(h)];
-        if (a == no_index || b == no_index || !contains(wanted, edge_key(a, b))) continue;
+        if (a == no_index || b == no_index || !std::ranges::binary_search(wanted, edge_key(a, b)))
+            continue;
         locked.is_edge[e] = 1;
         found.push_back(edge_key(a, b));
     }
-    found = sorted(std::move(found));
+    std::ranges::sort(found);
     for (const auto& [a, b] : edges) {
-        if (contains(found, edge_key(place_of(a), place_of(b)))) continue;
+        if (std::ranges::binary_search(found, edge_key(place_of(a), place_of(b)))) continue;
         throw InvalidInput("the edge between vertices " + std::to_string(a) + " and " +
                            std::to_string(b) +
                            " is to stay, but is no edge of the cleaned mesh; leave out the "
@@ -139,8 +123,7 @@ bool has_locked(const Surface& surface, const LockedElements& locked, TriangleMe
     std::vector<Vec3> position;
     for (const Index v : locked.vertices) {
         const Vec3& p = surface.mesh.positions[v];
-        if (places.find(p) == no_index) position.push_back(p);
-        places.add(p);
+        if (places.add(p) == position.size()) position.push_back(p);
     }
     std::vector<Index> place(mesh.positions.size());
     std::vector<bool> is_found(places.size(), false);
@@ -159,13 +142,13 @@ bool has_locked(const Surface& surface, const LockedElements& locked, TriangleMe
             if (a != no_index && b != no_index) edges.push_back(edge_key(a, b));
         }
     }
-    edges = sorted(std::move(edges));
+    std::ranges::sort(edges);
     for (Index e = 0; e < surface.num_edges(); ++e) {
         if (!locked.has_edge(e)) continue;
         const Index h = surface.edge_half[e];
         const Index a = places.find(surface.mesh.positions[surface.tail(h)]);
         const Index b = places.find(surface.mesh.positions[surface.head(h)]);
-        if (!contains(edges, edge_key(a, b))) return false;
+        if (!std::ranges::binary_search(edges, edge_key(a, b))) return false;
     }
     return true;
 }

@@ -10,9 +10,7 @@ namespace remesh::detail {
 
 //! Vertices are recognised by their positions, so that those that cleaning welds or copies are
 //! found: all vertices at the position of a locked one are locked.
-//!
 //! \param given    the caller's mesh; may be empty if only the boundary is locked.
-//! \param options  its locked, locked_edges and lock_boundary are read.
 //! \param surface  of the cleaned mesh.
 //! \throw InvalidInput  there is no such vertex or edge; the text names it.
 //! Cost: O(#surface + #locked log #locked).

@@ -1,14 +1,29 @@
+// Points of each surface are compared with the other one. A point that is too far lowers the length
+// at the corners of the input's face that it lies on, or that is nearest to it: to the length of
+// the edges of the result there, times what the distance needs if it falls with their square.
 #include "remesh/pipeline/meet_distance.h"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 
-#include "agvd/core/error.h"
+#include "agvd/core/parallel.h"
 #include "agvd/mesh/scale.h"
-#include "remesh/pipeline/distance_check.h"
+#include "remesh/quality/area_samples.h"
 
 namespace remesh::detail {
 namespace {
+
+constexpr Index samples_per_surface = 100'000;
+constexpr Index query_grain = 1024;
+constexpr std::size_t query_steps = 64;
+// Share of the limit from which edges get shorter, and that they aim at.
+constexpr double too_far = 0.75, aimed_share = 0.6;
+// A point beyond this share of the limit counts as too far: nearer to the limit a proof would take
+// ever smaller parts.
+constexpr double provable_share = 0.98;
 
 constexpr int max_rounds = 16;
 // The error that the first edges aim at, as a share of the limit: fitted vertices lie on both sides
@@ -19,7 +34,180 @@ constexpr double first_error = 1.7;
 constexpr int local_rounds = 5;
 constexpr double global_factor = 0.8;
 
+using Corners = std::array<Vec3, 3>;
+
+Corners corners_at(const MeshView& mesh, Index face) {
+    const auto& [a, b, c] = mesh.triangles[face];
+    return {mesh.positions[a], mesh.positions[b], mesh.positions[c]};
+}
+
+double mean_side(const MeshView& mesh, Index face) {
+    const Corners t = corners_at(mesh, face);
+    double sum = 0;
+    for (std::size_t k = 0; k < 3; ++k) sum += (t[(k + 1) % 3] - t[k]).norm();
+    return sum / 3;
+}
+
+// #V: a face of each vertex; no_index: none.
+std::vector<Index> find_face_of_vertex(const MeshView& mesh) {
+    std::vector<Index> face(mesh.positions.size(), no_index);
+    for (Index f = 0; f < mesh.triangles.size(); ++f) {
+        for (const Index v : mesh.triangles[f]) face[v] = f;
+    }
+    return face;
+}
+
+// One of the two surfaces.
+struct Side {
+    MeshView mesh;
+    const ClosestPointTree& tree;
+};
+
+using FarPoint = std::pair<Vec3, ClosestPoint>;  // And the nearest of the other surface.
+
+// Proves that a triangle lies within a limit of a surface, or finds a point that does not. Part of
+// it is near enough if its centroid is, with its radius added, or if its corners are near one
+// triangle of the surface: the distance from a convex set is largest at a corner. Else it is
+// divided.
+// \return a point beyond provable_share of the limit, if there is one.
+std::optional<FarPoint> find_far(const Corners& triangle, const Side& other, double limit,
+                                 Ticker& ticker) {
+    const auto is_near = [&](const Corners& part, FaceId face) {
+        const Corners corners = corners_at(other.mesh, face.value());
+        return std::all_of(part.begin(), part.end(), [&](const Vec3& p) {
+            return closest_point_on_triangle(corners, face, p).distance_sq <= limit * limit;
+        });
+    };
+    std::vector<Corners> parts{triangle};
+    while (!parts.empty()) {
+        ticker.tick(query_steps);
+        const Corners part = parts.back();
+        parts.pop_back();
+        const Vec3 middle = (part[0] + part[1] + part[2]) / 3;
+        const ClosestPoint nearest = other.tree.query(middle);
+        const double distance = std::sqrt(nearest.distance_sq);
+        if (distance > provable_share * limit) return std::pair(middle, nearest);
+        double radius = 0;
+        for (const Vec3& corner : part) radius = std::max(radius, (corner - middle).norm());
+        if (distance + radius <= limit || is_near(part, nearest.point.face)) continue;
+        const Vec3 a = (part[1] + part[2]) / 2, b = (part[2] + part[0]) / 2,
+                   c = (part[0] + part[1]) / 2;
+        parts.push_back({part[0], c, b});
+        parts.push_back({c, part[1], a});
+        parts.push_back({b, a, part[2]});
+        parts.push_back({a, b, c});
+    }
+    return std::nullopt;
+}
+
+// The result, the input, and what is known of them.
+class Comparison {
+public:
+    Comparison(const Side& input, const Side& result, double limit, int num_threads, Poller& poller,
+               std::vector<double>& most_lengths)
+        : input_(input),
+          result_(result),
+          limit_(limit),
+          num_threads_(num_threads),
+          poller_(poller),
+          most_lengths_(most_lengths),
+          before_(most_lengths) {}
+
+    // Looks at the vertices and samples of one surface.
+    void look_at_points(bool is_input) {
+        const MeshView& mesh = (is_input ? input_ : result_).mesh;
+        const ClosestPointTree& other = (is_input ? result_ : input_).tree;
+        const AreaSamples samples(mesh);
+        const std::vector<Index> face_of_vertex = find_face_of_vertex(mesh);
+        const auto num_vertices = static_cast<Index>(mesh.positions.size());
+        run(num_vertices + samples_per_surface, [&](Index i, Found& found, Ticker&) {
+            if (i >= num_vertices) {
+                const SurfacePoint sample = samples.at(i - num_vertices, samples_per_surface);
+                const Vec3 point = position(mesh, sample);
+                take(is_input, point, sample.face.value(), other.query(point), found);
+            } else if (face_of_vertex[i] != no_index) {
+                const Vec3& point = mesh.positions[i];
+                take(is_input, point, face_of_vertex[i], other.query(point), found);
+            }
+        });
+    }
+    // Looks at all of one surface.
+    void prove(bool is_input) {
+        const MeshView& mesh = (is_input ? input_ : result_).mesh;
+        const Side& other = is_input ? result_ : input_;
+        run(static_cast<Index>(mesh.triangles.size()), [&](Index f, Found& found, Ticker& ticker) {
+            const auto far = find_far(corners_at(mesh, f), other, limit_, ticker);
+            if (far) take(is_input, far->first, f, far->second, found);
+        });
+    }
+    [[nodiscard]] const MeasuredDistance& farthest() const { return farthest_; }
+
+private:
+    // What a chunk of points has found.
+    struct Found {
+        MeasuredDistance distance;
+        std::vector<std::pair<Index, double>> lengths;  // Of vertices of the input.
+    };
+
+    void take(bool is_input, const Vec3& point, Index face, const ClosestPoint& nearest,
+              Found& found) const {
+        const double distance = std::sqrt(nearest.distance_sq);
+        if (distance > found.distance.largest) found.distance = {distance, false, point};
+        if (distance < too_far * limit_) return;
+        const Index other = nearest.point.face.value();
+        const double factor = std::sqrt(aimed_share * limit_ / distance);
+        const double length = mean_side(result_.mesh, is_input ? other : face);
+        // Edges may be longer than they were meant to be: the shorter of both counts.
+        for (const Index v : input_.mesh.triangles[is_input ? face : other]) {
+            found.lengths.emplace_back(v, factor * std::min(length, before_[v]));
+        }
+    }
+    template <typename Look>
+    void run(Index count, const Look& look) {
+        std::vector<Found> chunks(num_chunks(count, query_grain));
+        parallel_chunks(
+            count, query_grain, num_threads_,
+            [&](Index chunk, Index begin, Index end) {
+                Ticker ticker(poller_);
+                for (Index i = begin; i < end; ++i) look(i, chunks[chunk], ticker);
+            },
+            poller_);
+        for (const Found& chunk : chunks) {
+            if (chunk.distance.largest > farthest_.largest) farthest_ = chunk.distance;
+            for (const auto& [v, length] : chunk.lengths) {
+                most_lengths_[v] = std::min(most_lengths_[v], length);
+            }
+        }
+    }
+
+    Side input_, result_;
+    double limit_;
+    int num_threads_;
+    Poller& poller_;
+    std::vector<double>& most_lengths_;
+    std::vector<double> before_;
+    MeasuredDistance farthest_;
+};
+
 }  // namespace
+
+MeasuredDistance measure_distance(const MeshView& input, const ClosestPointTree& input_tree,
+                                  const MeshView& result, double limit,
+                                  std::vector<double>& most_lengths, int num_threads,
+                                  const Progress& progress) {
+    Poller poller(progress);
+    const ClosestPointTree result_tree(result, poller.progress());
+    Comparison comparison({input, input_tree}, {result, result_tree}, limit, num_threads, poller,
+                          most_lengths);
+    comparison.look_at_points(true);
+    comparison.look_at_points(false);
+    if (comparison.farthest().largest > provable_share * limit) return comparison.farthest();
+    comparison.prove(true);
+    comparison.prove(false);
+    MeasuredDistance found = comparison.farthest();
+    found.is_within = found.largest <= provable_share * limit;
+    return found;
+}
 
 RemeshResult meet_distance(const CleanedInput& cleaned, const RemeshOptions& options, double limit,
                            const RunWithLengths& run) {
@@ -27,20 +215,18 @@ RemeshResult meet_distance(const CleanedInput& cleaned, const RemeshOptions& opt
     finer.vertex_count = VertexCount::Add;
     finer.sizing.edges = AdaptiveEdges{};
     MaxError aim{first_error * limit};
-    const MeshView mesh = cleaned.surface.mesh.view();
-    const Progress cleaning = progress_of(Stage::Clean, options);
-    const DistanceCheck check(mesh, options.num_threads,
-                              within(cleaning, cleaned_fraction, cleaned_fraction));
-    const Progress checking = progress_of(Stage::Check, options);
-    const Progress last = within(checking, 1, 1);
+    const TriangleMesh& mesh = cleaned.surface.mesh;
+    const ClosestPointTree tree(mesh, cleaned_progress(options));
     const MeshBox box = box_of(mesh, options.num_threads);
     std::vector<double> most_lengths(mesh.positions.size(), (box.high - box.low).norm());
-    MeasuredDistance best{std::numeric_limits<double>::infinity(), false, {}};
+    MeasuredDistance best{infinity, false, {}};
     std::size_t num_vertices = 0;
     for (int round = 0; round < max_rounds; ++round) {
         finer.sizing.count = aim;
         RemeshResult result = run(finer, most_lengths);
-        const MeasuredDistance found = check.measure(result.mesh.view(), limit, most_lengths, last);
+        const MeasuredDistance found =
+            measure_distance(mesh, tree, result.mesh, limit, most_lengths, options.num_threads,
+                             progress_at(Stage::Check, options, 1));
         result.sizing.largest_distance = found.largest;
         if (found.is_within) return result;
         if (round >= local_rounds) aim.error *= global_factor;

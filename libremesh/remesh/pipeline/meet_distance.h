@@ -1,13 +1,33 @@
 //! \file
-//! Runs with shorter and shorter edges until the result is near enough to the input.
+//! Results near to the cleaned surface: how far they lie from it, and runs with shorter and shorter
+//! edges until one is near enough.
 #pragma once
 
 #include <functional>
-#include <span>
 
+#include "agvd/mesh/closest_point.h"
 #include "remesh/pipeline/cleaned_input.h"
 
 namespace remesh::detail {
+
+//! The distance of a result.
+struct MeasuredDistance {
+    double largest = 0;         //!< Both ways, at the points looked at; mesh units.
+    bool is_within = false;     //!< Proved: no point of either surface is too far.
+    Vec3 where = Vec3::Zero();  //!< A point of either surface that is so far.
+};
+
+//! Measures at all vertices and at 100 000 points of each surface. If these are near enough, faces
+//! are divided until all of both surfaces is proved to be, or a point is found that is not.
+//! \param limit  where a point is near it or beyond, lengths are lowered.
+//! \param most_lengths  #V of the input: at most so long are edges there. Edited.
+//! \throw Cancelled  the progress callback returned false.
+//! Cost: O((n + 100 000) log n); for the proof about O((n + length of all edges / limit) log n).
+[[nodiscard]] MeasuredDistance measure_distance(const MeshView& input,
+                                                const ClosestPointTree& input_tree,
+                                                const MeshView& result, double limit,
+                                                std::vector<double>& most_lengths,
+                                                int num_threads = 1, const Progress& progress = {});
 
 //! A whole run after cleaning.
 //! \param most_lengths  #V of the cleaned mesh: no target is longer.
@@ -16,11 +36,10 @@ using RunWithLengths =
 
 //! Begins with the lengths that curvature asks for, and shortens edges where the result is too far.
 //! Vertices that the topology needs are added (VertexCount::Add).
-//!
-//! \param limit  > 0, mesh units: of MaxDistance.
+//! \param cleaned  as before after each run.
+//! \param limit    > 0, mesh units: of MaxDistance.
 //! \throw ConstraintUnmet  it was not met in the rounds made; the text gives the best.
-//! Cost: that of a run and of DistanceCheck::measure in each round, of which there are one to
-//! eight.
+//! Cost: that of a run and of measure_distance in each of up to 16 rounds.
 [[nodiscard]] RemeshResult meet_distance(const CleanedInput& cleaned, const RemeshOptions& options,
                                          double limit, const RunWithLengths& run);
 

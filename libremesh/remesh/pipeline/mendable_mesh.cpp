@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "agvd/mesh/surface_points.h"
-#include "remesh/placement/placement.h"
 #include "remesh/sites/sampling.h"
 
 namespace remesh::detail {
@@ -54,7 +53,7 @@ std::optional<MendableMesh> find_mendable(const Domain& domain, const ValidDual&
     }
     const std::vector<bool> is_corner = lasting_corners(domain);
     for (Index i = 0; i < placed.points.size(); ++i) {
-        const SurfacePoint& point = dual.mesh.points[i];
+        const SurfacePoint& point = dual.points[i];
         const auto v = vertex_of(domain.base(), point);
         if ((v && *v < is_corner.size() && is_corner[*v]) ||
             !is_mendable[domain.component[point.face.value()]]) {
@@ -65,30 +64,29 @@ std::optional<MendableMesh> find_mendable(const Domain& domain, const ValidDual&
     return result;
 }
 
-std::optional<MendedMesh> mend(const Domain& domain, MendableMesh mendable,
-                               std::optional<Index> most_crossings, CrossingFinder& finder,
-                               const StageContext& context) {
+bool mend(const Domain& domain, CrossingFinder& finder, MendableMesh& mendable,
+          std::optional<CrossingCounts>& crossings, const StageContext& context) {
     for (int round = 0; round < most_mendings; ++round) {
         PlacedDual mended{mendable.mesh, {}};
         std::vector<Index> numbers;
         {
             const StageClock clock(Stage::Place, context.result);
-            const Progress progress = progress_of(Stage::Place, context.options);
             numbers = repair_shape(domain.prepared.input(), mendable.mobility, mendable.hard,
-                                   mended.mesh, within(progress, 1, 1));
+                                   mended.mesh, progress_at(Stage::Place, context.options, 1));
         }
-        if (numbers.empty()) return std::nullopt;
-        const std::optional<CrossingFaces> crossings = finder.find(mended);
-        if (!crossings) return MendedMesh{std::move(mended.mesh), std::nullopt};
-        if (crossings->counts().all <= most_crossings) {
-            return MendedMesh{std::move(mended.mesh), crossings->counts()};
+        if (numbers.empty()) return false;
+        std::optional<FacePairs> pairs = finder.find(mended);
+        if (!pairs || pairs->size() <= crossings->all) {
+            if (pairs) crossings = finder.tell_fresh(mended, *std::move(pairs)).counts();
+            mendable.mesh = std::move(mended.mesh);
+            return true;
         }
-        for_each_corner(crossings->all, mended.mesh.triangles, [&](Index v) {
+        for_each_corner(*pairs, mended.mesh.triangles, [&](Index v) {
             const Index before = numbers[v];
             if (before < mendable.mobility.size()) mendable.mobility[before] = Mobility::Fixed;
         });
     }
-    return std::nullopt;
+    return false;
 }
 
 }  // namespace remesh::detail

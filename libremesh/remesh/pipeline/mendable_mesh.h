@@ -3,7 +3,6 @@
 #pragma once
 
 #include "remesh/pipeline/crossings.h"
-#include "remesh/placement/placement.h"
 
 namespace remesh::detail {
 
@@ -14,11 +13,9 @@ struct MendableMesh {
     std::vector<DirectedEdge> hard;  //!< The boundary.
 };
 
-//! Which vertices may move: those of components that were thinned or have a boundary. Corners of
-//! the boundary that turn by more than 45 degrees over a whole spacing stay. Others, and those of
-//! small holes, are no larger than the teeth that the triangles of a scan make at its rim; they may
-//! move as far as repair_shape() moves the boundary.
-//!
+//! Vertices may move in components that were thinned or have a boundary. Corners of the boundary
+//! that turn by more than 45 degrees over a whole spacing stay. Others, and those of small holes,
+//! may be no more than the teeth of a rough rim, and move.
 //! \param is_thinned  by component.
 //! \return nothing if there is no such component. With given sites only thinned ones count: the
 //!         vertices of others are those of the sites.
@@ -28,19 +25,13 @@ struct MendableMesh {
                                                         const std::vector<bool>& is_thinned,
                                                         const RemeshOptions& options);
 
-struct MendedMesh {
-    PlacedMesh mesh;
-    std::optional<CrossingCounts> self_intersections;  //!< Unset without CGAL.
-};
-
-//! Mends thin triangles (repair_shape). If mended triangles intersect, fixes their corners and
-//! tries again.
-//!
-//! \param most_crossings  self-intersecting pairs that the mesh may have; unset: not known.
-//! \return nothing if no mended mesh is better.
+//! Mends thin triangles (repair_shape). If more of the mended triangles intersect than before,
+//! fixes their corners and tries again.
+//! \param mendable   its mesh becomes the mended one.
+//! \param crossings  of the mesh, then of the mended one; unset without CGAL.
+//! \return false: no mended mesh is better, and `crossings` is as before.
 //! Cost: that of repair_shape, twice at most.
-[[nodiscard]] std::optional<MendedMesh> mend(const Domain& domain, MendableMesh mendable,
-                                             std::optional<Index> most_crossings,
-                                             CrossingFinder& finder, const StageContext& context);
+[[nodiscard]] bool mend(const Domain& domain, CrossingFinder& finder, MendableMesh& mendable,
+                        std::optional<CrossingCounts>& crossings, const StageContext& context);
 
 }  // namespace remesh::detail

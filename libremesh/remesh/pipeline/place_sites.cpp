@@ -1,13 +1,11 @@
-// Sites come from sampling or from the caller. On an uncut surface relaxation moves them anywhere
-// on the surface; with a plan, the sites of curves stay on their curves. The sharp corners of a
-// boundary that is kept get a site each.
+// On an uncut surface relaxation moves sites anywhere; with a plan, those of curves stay on their
+// curves. The sharp corners of a boundary that is kept get a site each.
 #include "remesh/pipeline/place_sites.h"
 
 #include <algorithm>
 #include <utility>
 
 #include "agvd/mesh/surface_points.h"
-#include "remesh/pipeline/given_sites.h"
 #include "remesh/sites/relax_network.h"
 #include "remesh/sites/sampling.h"
 #include "remesh/sites/shares.h"
@@ -89,7 +87,7 @@ PlacedSites place_on_network(const Domain& domain, const StageContext& context) 
     const auto& [network, patches, given] = *domain.plan;
     NetworkSites made =
         given
-            ? relax_network_sites(domain.prepared, network, given->on_curves, given->inner, relax)
+            ? relax_network_sites(domain.prepared, network, given->curves, given->inner, relax)
             : sample_network_sites(domain.prepared, network,
                                    sampling_of(options, options.num_samples, domain.sizes), relax);
     PlacedSites placed{.sites = std::move(made.sites), .curves = std::move(made.curves)};

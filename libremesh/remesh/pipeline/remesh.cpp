@@ -3,127 +3,107 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
-#include <tuple>
 
 #include "agvd/core/parallel.h"
 #include "agvd/mesh/scale.h"
-#include "remesh/pipeline/remesh_region.h"
+#include "remesh/pipeline/region.h"
 #include "remesh/pipeline/run.h"
 
 namespace remesh {
 namespace {
 
-// What has a value each.
-struct Elements {
-    const char* one;
-    const char* many;
-    std::size_t count;
-};
+void require(bool is_fine, const std::string& text) {
+    if (!is_fine) throw InvalidOption(text);
+}
 
-void check_values(const char* name, const std::vector<double>& values, const Elements& elements) {
-    if (values.size() != elements.count) {
-        throw InvalidOption(std::string(name) + " has " + std::to_string(values.size()) +
-                            " values, but the mesh has " + std::to_string(elements.count) + ' ' +
-                            elements.many + "; give one for each, or none");
-    }
+// \param one, many  names of the elements that have a value each.
+void check_values(const std::string& name, const std::vector<double>& values, std::size_t count,
+                  const std::string& one, const std::string& many) {
+    require(values.size() == count, name + " has " + std::to_string(values.size()) +
+                                        " values, but the mesh has " + std::to_string(count) + ' ' +
+                                        many + "; give one for each, or none");
     const auto is_bad = [](double value) { return !(value > 0 && std::isfinite(value)); };
     const auto bad = std::find_if(values.begin(), values.end(), is_bad);
     if (bad == values.end()) return;
-    throw InvalidOption(std::string(name) + " is " + std::to_string(*bad) + " at " + elements.one +
-                        ' ' + std::to_string(bad - values.begin()) + "; use numbers above 0");
+    throw InvalidOption(name + " is " + std::to_string(*bad) + " at " + one + ' ' +
+                        std::to_string(bad - values.begin()) + "; use numbers above 0");
 }
 
 // Whether what gives the number suits where edges are how long.
 void check_count(const Sizing& sizing) {
-    const auto& [edges, count] = std::tie(sizing.edges, sizing.count);
+    const auto& count = sizing.count;
     const bool has_values = !sizing.is_even() && !sizing.is_adaptive();
-    if (std::holds_alternative<MaxError>(count) && !sizing.is_adaptive()) {
-        throw InvalidOption("max_error needs adaptive edges");
-    }
-    if (std::holds_alternative<MaxDistance>(count) && has_values) {
-        throw InvalidOption("max_distance excludes target_lengths, face_lengths and densities");
-    }
-    if (std::holds_alternative<CountOfLengths>(count) &&
-        (!has_values || std::holds_alternative<VertexDensities>(edges))) {
-        throw InvalidOption(
+    require(!std::holds_alternative<MaxError>(count) || sizing.is_adaptive(),
+            "max_error needs adaptive edges");
+    require(!std::holds_alternative<MaxDistance>(count) || !has_values,
+            "max_distance excludes target_lengths, face_lengths and densities");
+    require(!std::holds_alternative<CountOfLengths>(count) ||
+                (has_values && !std::holds_alternative<VertexDensities>(sizing.edges)),
             "a number that follows from lengths needs target_lengths or face_lengths");
-    }
-    const auto require = [](double value) {
-        if (value > 0 && std::isfinite(value)) return;
-        throw InvalidOption("max_error, max_distance, edge_length and num_faces must be above 0");
+    const auto check = [](double value) {
+        require(value > 0 && std::isfinite(value),
+                "max_error, max_distance, edge_length and num_faces must be above 0");
     };
-    if (const auto* mean = std::get_if<MeanEdge>(&count)) require(mean->length);
-    if (const auto* faces = std::get_if<NumFaces>(&count)) require(faces->number);
-    if (const auto* most = std::get_if<MaxError>(&count)) require(most->error);
-    if (const auto* most = std::get_if<MaxDistance>(&count)) require(most->distance);
+    if (const auto* mean = std::get_if<MeanEdge>(&count)) check(mean->length);
+    if (const auto* faces = std::get_if<NumFaces>(&count)) check(faces->number);
+    if (const auto* most = std::get_if<MaxError>(&count)) check(most->error);
+    if (const auto* most = std::get_if<MaxDistance>(&count)) check(most->distance);
 }
 
-void check_sizing(const Sizing& sizing, std::size_t num_vertices, std::size_t num_faces) {
-    if (const auto* lengths = std::get_if<VertexLengths>(&sizing.edges)) {
-        check_values("target_lengths", lengths->values, {"vertex", "vertices", num_vertices});
-    } else if (const auto* of_faces = std::get_if<FaceLengths>(&sizing.edges)) {
-        check_values("face_lengths", of_faces->values, {"face", "faces", num_faces});
+void check_sizing(const Sizing& sizing, const MeshView& mesh) {
+    const std::size_t num_vertices = mesh.positions.size();
+    if (const auto* at = std::get_if<VertexLengths>(&sizing.edges)) {
+        check_values("target_lengths", at->values, num_vertices, "vertex", "vertices");
+    } else if (const auto* of = std::get_if<FaceLengths>(&sizing.edges)) {
+        check_values("face_lengths", of->values, mesh.triangles.size(), "face", "faces");
     } else if (const auto* densities = std::get_if<VertexDensities>(&sizing.edges)) {
-        check_values("densities", densities->values, {"vertex", "vertices", num_vertices});
+        check_values("densities", densities->values, num_vertices, "vertex", "vertices");
     }
     check_count(sizing);
-    if (!(sizing.min_edge >= 0 && sizing.max_edge > 0 && sizing.min_edge <= sizing.max_edge)) {
-        throw InvalidOption("min_edge is " + std::to_string(sizing.min_edge) + " and max_edge " +
-                            std::to_string(sizing.max_edge) +
-                            "; use numbers above 0, the second not below the first");
-    }
-    if (!(sizing.gradation >= 1 && std::isfinite(sizing.gradation))) {
-        throw InvalidOption("gradation is " + std::to_string(sizing.gradation) +
-                            "; use a number of 1 or more");
-    }
+    require(sizing.min_edge >= 0 && sizing.max_edge > 0 && sizing.min_edge <= sizing.max_edge,
+            "min_edge is " + std::to_string(sizing.min_edge) + " and max_edge " +
+                std::to_string(sizing.max_edge) +
+                "; use numbers above 0, the second not below the first");
+    require(sizing.gradation >= 1 && std::isfinite(sizing.gradation),
+            "gradation is " + std::to_string(sizing.gradation) + "; use a number of 1 or more");
+}
+
+void check_options(const RemeshOptions& options, const MeshView& mesh) {
+    require(options.num_samples >= 1, "num_samples is 0; use 1 or more");
+    require(options.repair_rounds >= 0,
+            "repair_rounds is " + std::to_string(options.repair_rounds) + "; use 0 or more");
+    require(options.relax_steps >= 0,
+            "relax_steps is " + std::to_string(options.relax_steps) + "; use 0 or more");
+    require(options.drop_components >= 0 && options.drop_components <= 1,
+            "drop_components is " + std::to_string(options.drop_components) +
+                "; use a share from 0 to 1");
+    require(options.feature_angle > 0 && options.feature_angle < 180,
+            "feature_angle is " + std::to_string(options.feature_angle) +
+                "; use degrees above 0 and below 180");
+    require(options.face_labels.empty() || options.face_labels.size() == mesh.triangles.size(),
+            "face_labels has " + std::to_string(options.face_labels.size()) +
+                " labels, but the mesh has " + std::to_string(mesh.triangles.size()) +
+                " faces; give one for each, or none");
+    require(!options.sites ||
+                (options.locked.empty() && options.locked_edges.empty() && !options.lock_boundary),
+            "sites are given, and vertices or edges are locked; use one of them");
+    check_sizing(options.sizing, mesh);
+    check_num_threads(options.num_threads);
 }
 
 // Multiplies all lengths by 2^exponent.
 void scale_lengths(Sizing& sizing, int exponent) {
     const auto scale = [&](double& length) { length = std::ldexp(length, exponent); };
-    if (auto* at = std::get_if<VertexLengths>(&sizing.edges))
+    if (auto* at = std::get_if<VertexLengths>(&sizing.edges)) {
         std::ranges::for_each(at->values, scale);
-    if (auto* at = std::get_if<FaceLengths>(&sizing.edges))
-        std::ranges::for_each(at->values, scale);
+    } else if (auto* of = std::get_if<FaceLengths>(&sizing.edges)) {
+        std::ranges::for_each(of->values, scale);
+    }
     if (auto* mean = std::get_if<MeanEdge>(&sizing.count)) scale(mean->length);
     if (auto* most = std::get_if<MaxError>(&sizing.count)) scale(most->error);
     if (auto* most = std::get_if<MaxDistance>(&sizing.count)) scale(most->distance);
     scale(sizing.min_edge);
     scale(sizing.max_edge);
-}
-
-void check_options(const RemeshOptions& options, std::size_t num_vertices, std::size_t num_faces) {
-    if (options.num_samples < 1) {
-        throw InvalidOption("num_samples is 0; use 1 or more");
-    }
-    if (options.repair_rounds < 0) {
-        throw InvalidOption("repair_rounds is " + std::to_string(options.repair_rounds) +
-                            "; use 0 or more");
-    }
-    if (options.relax_steps < 0) {
-        throw InvalidOption("relax_steps is " + std::to_string(options.relax_steps) +
-                            "; use 0 or more");
-    }
-    if (!(options.drop_components >= 0 && options.drop_components <= 1)) {
-        throw InvalidOption("drop_components is " + std::to_string(options.drop_components) +
-                            "; use a share from 0 to 1");
-    }
-    if (!(options.feature_angle > 0 && options.feature_angle < 180)) {
-        throw InvalidOption("feature_angle is " + std::to_string(options.feature_angle) +
-                            "; use degrees above 0 and below 180");
-    }
-    if (!options.face_labels.empty() && options.face_labels.size() != num_faces) {
-        throw InvalidOption("face_labels has " + std::to_string(options.face_labels.size()) +
-                            " labels, but the mesh has " + std::to_string(num_faces) +
-                            " faces; give one for each, or none");
-    }
-    const bool locks =
-        !options.locked.empty() || !options.locked_edges.empty() || options.lock_boundary;
-    if (options.sites && locks) {
-        throw InvalidOption("sites are given, and vertices or edges are locked; use one of them");
-    }
-    check_sizing(options.sizing, num_vertices, num_faces);
-    check_num_threads(options.num_threads);
 }
 
 // Scales the lengths of a result back: it was computed from the mesh times 2^-exponent.
@@ -152,24 +132,20 @@ void scale_back(RemeshResult& result, int exponent) {
 bool is_part(const MeshView& mesh, const RemeshOptions& options) {
     const std::vector<std::uint8_t>& region = options.region;
     if (region.empty()) return false;
-    if (region.size() != mesh.triangles.size()) {
-        throw InvalidOption("region has " + std::to_string(region.size()) +
-                            " values, but the mesh has " + std::to_string(mesh.triangles.size()) +
-                            " faces; give one for each, or none");
-    }
-    if (options.sites || options.drop_components > 0 || options.cleaning.weld > 0 ||
-        options.cleaning.fill_holes > 0) {
-        throw InvalidOption(
+    require(region.size() == mesh.triangles.size(),
+            "region has " + std::to_string(region.size()) + " values, but the mesh has " +
+                std::to_string(mesh.triangles.size()) + " faces; give one for each, or none");
+    require(!options.sites && !(options.drop_components > 0) && !(options.cleaning.weld > 0) &&
+                options.cleaning.fill_holes == 0,
             "a region is given, and sites, drop_components, weld or fill_holes as well; leave out "
             "one of them");
-    }
     if (std::find(region.begin(), region.end(), 0) == region.end()) return false;
-    check_options(options, mesh.positions.size(), mesh.triangles.size());
+    check_options(options, mesh);
     return true;
 }
 
 RemeshResult run(const detail::InputMesh& input, const RemeshOptions& options) {
-    check_options(options, input.view.positions.size(), input.view.triangles.size());
+    check_options(options, input.view);
     const double size = box_of(input.view, options.num_threads).longest_side();
     if (is_in_scale(size)) return detail::run_stages(input, options);
     const int exponent = std::ilogb(size);
@@ -185,7 +161,7 @@ RemeshResult run(const detail::InputMesh& input, const RemeshOptions& options) {
 }  // namespace
 
 RemeshResult remesh(const MeshView& mesh, const RemeshOptions& options) {
-    if (is_part(mesh, options)) return detail::remesh_region(mesh, options, remesh);
+    if (is_part(mesh, options)) return detail::remesh_region(mesh, options);
     return run({mesh, nullptr}, options);
 }
 

@@ -11,10 +11,9 @@ namespace remesh {
 //! Replaces a mesh by the dual of its geodesic Voronoi diagram ([meng2023] Sec. 7).
 //!
 //! The result is an oriented 2-manifold with the components of the cleaned input, each with its
-//! genus and boundary loops. It has num_samples vertices (or one for each of `sites` that owns a
-//! part of the surface). Both are checked before it is returned. Where k sheets meet at a junction,
-//! the result has k vertices at one point; Junctions::Keep welds them. docs/algorithm.md says why
-//! this always ends well.
+//! genus and boundary loops, and has num_samples vertices (or one for each of `sites` that owns a
+//! part of the surface). Both are checked; docs/algorithm.md says why they can be had. Where k
+//! sheets meet at a junction, it has k vertices at one point; Junctions::Keep welds them.
 //! \param mesh  #V x 3 positions, #F x 3 indices; read only during the call; may be dirty.
 //! \throw InvalidOption    an option is out of range.
 //! \throw InvalidInput the mesh cannot be repaired (see clean_input), a given site does not

@@ -1,41 +1,26 @@
 #include "remesh/pipeline/remesh_options.h"
 
+#include <array>
+
 namespace remesh {
+namespace {
+
+// The name of the value of an enum, whose names are given in order.
+template <typename Enum, std::size_t n>
+const char* name_of(Enum value, const std::array<const char*, n>& names) {
+    const auto i = static_cast<std::size_t>(value);
+    return i < n ? names[i] : "unknown";
+}
+
+}  // namespace
 
 const char* features_name(Features features) {
-    switch (features) {
-        case Features::Auto:
-            return "auto";
-        case Features::Angle:
-            return "angle";
-        case Features::Off:
-            return "off";
-    }
-    return "unknown";
+    return name_of(features, std::array{"auto", "angle", "off"});
 }
 
 const char* stage_name(Stage stage) {
-    switch (stage) {
-        case Stage::Clean:
-            return "clean";
-        case Stage::Sample:
-            return "sample";
-        case Stage::Relax:
-            return "relax";
-        case Stage::Propagate:
-            return "propagate";
-        case Stage::Diagram:
-            return "diagram";
-        case Stage::Dual:
-            return "dual";
-        case Stage::Delaunay:
-            return "delaunay";
-        case Stage::Place:
-            return "place";
-        case Stage::Check:
-            return "check";
-    }
-    return "unknown";
+    return name_of(stage, std::array{"clean", "sample", "relax", "propagate", "diagram", "dual",
+                                     "delaunay", "place", "check"});
 }
 
 }  // namespace remesh

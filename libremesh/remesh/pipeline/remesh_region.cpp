@@ -1,88 +1,52 @@
-#include "remesh/pipeline/remesh_region.h"
-
 #include <algorithm>
 #include <string>
 #include <utility>
 
-#include "agvd/core/error.h"
-#include "agvd/core/types.h"
-#include "remesh/pipeline/glue_region.h"
-#include "remesh/pipeline/region_crossings.h"
-#include "remesh/pipeline/stage_context.h"
-#include "remesh/pipeline/whole_mesh.h"
+#include "remesh/pipeline/crossings.h"
+#include "remesh/pipeline/region.h"
+#include "remesh/pipeline/remesh.h"
 
 namespace remesh::detail {
 namespace {
 
-// The same elements as numbered in the region.
-class RegionNumbers {
-public:
-    RegionNumbers(const MeshView& mesh, const Region& region) : mesh_(mesh), region_(region) {}
-
-    // The vertex of the region; no_index: it is not in the region.
-    [[nodiscard]] Index of(Index vertex) const {
-        const auto found =
-            std::lower_bound(region_.vertices.begin(), region_.vertices.end(), vertex);
-        if (found == region_.vertices.end() || *found != vertex) return no_index;
-        return static_cast<Index>(found - region_.vertices.begin());
-    }
-
-    // Vertices outside the region stay anyway.
-    [[nodiscard]] std::vector<Index> locked(const std::vector<Index>& vertices) const {
-        std::vector<Index> result;
-        for (const SeamVertex& seam : region_.seam) result.push_back(seam.vertex);
-        for (const Index v : vertices) {
-            require_vertex(v, "locked");
-            if (of(v) != no_index) result.push_back(of(v));
+// The seam and other vertices of the region, numbered as in it. Vertices outside stay anyway.
+std::vector<Index> locked_vertices(const Region& region, const std::vector<Index>& locked) {
+    std::vector<Index> result;
+    for (const SeamVertex& seam : region.seam) result.push_back(seam.vertex);
+    for (const Index v : locked) {
+        if (v >= region.number.size()) {
+            throw InvalidInput("vertex " + std::to_string(v) +
+                               " is locked, but the mesh has only " +
+                               std::to_string(region.number.size()) +
+                               " vertices, counted from 0; name one of these");
         }
-        return result;
+        if (region.number[v] != no_index) result.push_back(region.number[v]);
     }
+    return result;
+}
 
-    // Edges of the region among pairs of vertices.
-    // \param what  they are, for an error.
-    [[nodiscard]] std::vector<std::array<Index, 2>> edges(
-        const std::vector<std::array<Index, 2>>& pairs, const std::string& what) const {
-        if (pairs.empty()) return {};
-        const std::vector<std::uint64_t> inside = edges_of(region_.faces);
-        const std::vector<std::uint64_t> outside = edges_of(region_.kept);
-        std::vector<std::array<Index, 2>> result;
-        for (const auto& [a, b] : pairs) {
-            const std::uint64_t edge = edge_key(a, b);
-            if (std::binary_search(inside.begin(), inside.end(), edge)) {
-                result.push_back({of(a), of(b)});
-            } else if (!std::binary_search(outside.begin(), outside.end(), edge)) {
-                throw InvalidInput("the " + what + " edge between vertices " + std::to_string(a) +
-                                   " and " + std::to_string(b) +
-                                   " is no edge of the mesh; name the two ends of an edge, "
-                                   "counted from 0");
-            }
+using Edges = std::vector<std::array<Index, 2>>;
+
+// The edges of the region among edges of the mesh, numbered as in it.
+// \param what  they are, for an error.
+Edges edges_inside(const MeshView& mesh, const Region& region, const Edges& edges,
+                   const std::string& what) {
+    if (edges.empty()) return {};
+    const std::vector<EdgeSide> inside = sorted_edge_sides(region.mesh.triangles);
+    const std::vector<EdgeSide> all = sorted_edge_sides(mesh.triangles);
+    Edges result;
+    for (const auto& [a, b] : edges) {
+        if (!has_edge(all, edge_key(a, b))) {
+            throw InvalidInput("the " + what + " edge between vertices " + std::to_string(a) +
+                               " and " + std::to_string(b) +
+                               " is no edge of the mesh; name the two ends of an edge, counted "
+                               "from 0");
         }
-        return result;
+        const Index i = region.number[a], j = region.number[b];
+        if (has_edge(inside, edge_key(i, j))) result.push_back({i, j});
     }
-
-private:
-    void require_vertex(Index vertex, const std::string& what) const {
-        if (vertex < mesh_.positions.size()) return;
-        throw InvalidInput("vertex " + std::to_string(vertex) + " is " + what +
-                           ", but the mesh has only " + std::to_string(mesh_.positions.size()) +
-                           " vertices, counted from 0; name one of these");
-    }
-
-    [[nodiscard]] std::vector<std::uint64_t> edges_of(const std::vector<Index>& faces) const {
-        std::vector<std::uint64_t> edges;
-        for (const Index f : faces) {
-            const Triangle& t = mesh_.triangles[f];
-            for (std::size_t k = 0; k < 3; ++k) {
-                edges.push_back(edge_key(t[k], t[(k + 1) % 3]));
-            }
-        }
-        std::sort(edges.begin(), edges.end());
-        return edges;
-    }
-
-    const MeshView& mesh_;
-    const Region& region_;
-};
+    return result;
+}
 
 // Target lengths let edges grow from those of the seam. Where all are to be equally long, they are
 // given: the mean of all edges would count those near the seam, too.
@@ -105,15 +69,17 @@ Sizing sizing_of_region(const Sizing& given, const Region& region) {
 
 RemeshOptions options_of_region(const MeshView& mesh, const RemeshOptions& given,
                                 const Region& region) {
-    const RegionNumbers numbers(mesh, region);
+    const auto inside = [&](const Edges& edges, const char* what) {
+        return edges_inside(mesh, region, edges, what);
+    };
     RemeshOptions options = given;
     options.region.clear();
-    options.locked = numbers.locked(given.locked);
-    options.locked_edges = numbers.edges(given.locked_edges, "locked");
+    options.locked = locked_vertices(region, given.locked);
+    options.locked_edges = inside(given.locked_edges, "locked");
     options.locked_edges.insert(options.locked_edges.end(), region.seam_edges.begin(),
                                 region.seam_edges.end());
-    options.feature_edges = numbers.edges(given.feature_edges, "feature");
-    options.texture_seams = numbers.edges(given.texture_seams, "seam");
+    options.feature_edges = inside(given.feature_edges, "feature");
+    options.texture_seams = inside(given.texture_seams, "seam");
     if (!given.face_labels.empty()) options.face_labels = take(given.face_labels, region.faces);
     if (!region.seam_edges.empty()) options.sizing = sizing_of_region(given.sizing, region);
     return options;
@@ -142,8 +108,7 @@ std::vector<SurfacePoint> sites_of(const Region& region, const GluedRegion& glue
 void count_crossings(const MeshView& mesh, const Region& region, const RemeshOptions& options,
                      RemeshResult& result) {
     const StageClock clock(Stage::Check, result);
-    const Progress progress = progress_of(Stage::Check, options);
-    const Progress last = within(progress, 1, 1);
+    const Progress last = progress_at(Stage::Check, options, 1);
     std::vector<std::uint8_t> is_new(result.mesh.triangles.size(), 1);
     std::fill_n(is_new.begin(), region.kept.size(), 0);
     result.self_intersections =
@@ -160,25 +125,13 @@ void count_crossings(const MeshView& mesh, const Region& region, const RemeshOpt
 
 }  // namespace
 
-RemeshResult remesh_region(const MeshView& mesh, const RemeshOptions& options,
-                           const RemeshWhole& run) {
-    const Progress progress = progress_of(Stage::Clean, options);
-    CleanOptions cleaning = options.cleaning;
-    cleaning.num_threads = options.num_threads;
-    cleaning.progress = within(progress, 0, 0);
-    const Region region = cut_region(mesh, options.region, cleaning);
-    RemeshResult result = run(region.mesh.view(), options_of_region(mesh, options, region));
-    const Progress checking = progress_of(Stage::Check, options);
-    const Progress last = within(checking, 1, 1);
+RemeshResult remesh_region(const MeshView& mesh, const RemeshOptions& options) {
+    const Region region = cut_region(mesh, options.region, cleaning_of(options));
+    RemeshResult result = remesh(region.mesh, options_of_region(mesh, options, region));
+    const Progress last = progress_at(Stage::Check, options, 1);
     Poller last_poller(last);
     Ticker last_ticker(last_poller);
     GluedRegion glued = glue_region(mesh, region, result.mesh, last_ticker);
-    if (!glued.is_joined) {
-        throw ConstraintUnmet(
-            std::to_string(result.mesh.positions.size()) +
-            " samples are too few for the region: an edge of its mesh would join two vertices of "
-            "the seam that another edge joins already; use more samples, or a larger region");
-    }
     result.sites = sites_of(region, glued, result.sites);
     result.mesh = std::move(glued.mesh);
     result.kept = {std::move(glued.kept_vertices), region.kept,

@@ -8,76 +8,13 @@
 #include <string>
 #include <utility>
 
-#include "remesh/clean/carry.h"
-#include "remesh/pipeline/check_result.h"
-#include "remesh/pipeline/crossings.h"
 #include "remesh/pipeline/meet_distance.h"
 #include "remesh/pipeline/sample_count.h"
 #include "remesh/pipeline/sizes.h"
-#include "remesh/pipeline/work_limit.h"
 #include "remesh/sites/shares.h"
 
 namespace remesh::detail {
 namespace {
-
-double spacing_of(const CleanedInput& cleaned, const RemeshOptions& options) {
-    return mean_spacing(cleaned.surface,
-                        options.sites ? options.sites->size() : options.num_samples);
-}
-
-Verdict judge(const MeshView& cleaned, const MeshView& mesh, const Topology& topology,
-              const StageContext& context) {
-    const StageClock clock(Stage::Check, context.result);
-    const Progress progress = progress_of(Stage::Check, context.options);
-    return judge_result(cleaned, mesh, topology, context.options.num_threads,
-                        within(progress, 1, 1));
-}
-
-// All stages after cleaning, in their order: cleaned surface, curves, domain, sites, mesh.
-//
-// \param work  counts the attempt.
-// \return where cells wrapped around thin parts (ValidDual).
-// \throw TooFewSamples, NetworkFailed; `cleaned` is unchanged then.
-std::vector<SurfacePoint> run_attempt(CleanedInput& cleaned, const FoundCurves& found,
-                                      const KeptCurves& kept, const SizeField* sizes,
-                                      WorkLimit& work, const StageContext& context) {
-    const double spacing = spacing_of(cleaned, context.options);
-    std::unique_ptr<const CurvePlan> plan =
-        plan_curves(cleaned, found, kept, spacing, sizes, context);
-    // Of the vertices that seams take, creases come first.
-    if (kept.has_seams && !found.is_seam.empty() && !context.options.sites &&
-        context.result.features.dropped_length > 0) {
-        throw NetworkFailed{};
-    }
-    Domain domain = prepare_domain(cleaned, std::move(plan), spacing, sizes, context);
-    work.add(domain.base().num_faces());
-    const PlacedSites sites = place_sites(cleaned, domain, context);
-    try {
-        BuiltMesh built = build_mesh(domain, sites, work, context);
-        const Topology topology = check_result(cleaned, domain, sites.chain, built, context);
-        const MeshView cleaned_mesh = domain.whole->mesh.view();
-        context.result.sizing =
-            measure_edges(built.mesh.view(), built.sites, context.options.num_samples, sizes);
-        context.result.verdict = judge(cleaned_mesh, built.mesh.view(), topology, context);
-        context.result.sites =
-            to_original(built.sites, cleaned.given, {cleaned_mesh, cleaned.face_origin});
-        context.result.mesh = std::move(built.mesh);
-        if (const auto& crossings = built.self_intersections) {
-            context.result.self_intersections = crossings->all;
-            context.result.new_self_intersections = crossings->fresh;
-        }
-        // The surface is needed again if the edges are not as long as asked for, or as parts are
-        // thin.
-        const auto& count = context.options.sizing.count;
-        if (std::holds_alternative<MeanEdge>(count) || std::holds_alternative<MaxError>(count) ||
-            !built.thin_places.empty())
-            give_back(std::move(domain), cleaned, context);
-        return std::move(built.thin_places);
-    } catch (const TooFewSamples&) {
-        give_back(std::move(domain), cleaned, context);
-        throw;
-    }
-}
 
 // Intersecting pairs of faces, less those that the input has.
 Index num_more_crossings(const RemeshResult& result) {
@@ -105,111 +42,126 @@ bool may_shorten(const RemeshOptions& options) {
             std::holds_alternative<NumFaces>(sizing.count));
 }
 
-// A rod that is thinner than the spacing gets shorter by some edges.
-bool has_lost_part(const Verdict& verdict) { return verdict.largest_distance > verdict.spacing; }
-
-// Runs an attempt again with shorter edges on thin parts, where cells wrapped around them, and
-// keeps the better result.
-void shorten_thin(CleanedInput& cleaned, const FoundCurves& found, const KeptCurves& kept,
-                  std::span<const SurfacePoint> thin_places, const RemeshOptions& options,
-                  WorkLimit& work, RemeshResult again, RemeshResult& best) {
-    try {
-        const RunSizes sizes = find_sizes(cleaned, found, spacing_of(cleaned, options), {},
-                                          thin_places, {options, again});
-        run_attempt(cleaned, found, kept, sizes.field.get(), work, {options, again});
-    } catch (const TooFewSamples&) {
-        return;
-    } catch (const NetworkFailed&) {
-        return;
-    }
-    best.seconds = again.seconds;
-    if (num_more_crossings(again) > num_more_crossings(best) ||
-        again.verdict.largest_distance >= best.verdict.largest_distance) {
-        return;
-    }
-    again.features.gave_up = best.features.gave_up;
-    best = std::move(again);
-}
-
-// What is tried, in order.
-std::vector<KeptCurves> attempts_with(const FoundCurves& found, bool has_junctions) {
-    std::vector<KeptCurves> attempts;
-    if (!found.is_seam.empty()) attempts.push_back({has_junctions, true, 0});
-    for (const double drop_share : {0.0, 0.3, 0.6, 1.0}) {
-        if (drop_share > 0 && found.is_crease.empty()) break;
-        attempts.push_back({has_junctions, false, drop_share});
-    }
-    return attempts;
-}
-
 // Whether an attempt with fewer creases, or without seams, would differ from this one.
 bool has_more_to_drop(const KeptCurves& kept, const FeatureCounts& features) {
     return features.curves > 0 && (kept.has_seams || features.length > 0);
 }
 
-// Tries all curves, then all creases, then fewer and fewer, at last none, until a mesh has no new
-// self-intersections. If none of these gives a mesh, tries the same without junctions.
-RemeshResult run_with_curves(CleanedInput& cleaned, const RemeshResult& after_cleaning,
-                             const RemeshOptions& given,
-                             std::span<const double> most_lengths = {}) {
-    RemeshResult first = after_cleaning;
-    RemeshOptions options = given;
-    FoundCurves found = find_curves(cleaned, spacing_of(cleaned, options), {options, first});
-    RunSizes sizes = find_sizes(cleaned, found, spacing_of(cleaned, options), most_lengths, {},
-                                {options, first});
-    if (sizes.num_samples != options.num_samples) {
-        options.num_samples = sizes.num_samples;
-        found = find_curves(cleaned, spacing_of(cleaned, options), {options, first});
-        sizes = find_sizes(cleaned, found, spacing_of(cleaned, options), most_lengths, {},
-                           {options, first});
-        options.num_samples = sizes.num_samples;
+// A run after cleaning. Tries all curves, then all creases, then fewer and fewer, at last none,
+// until a mesh has no new self-intersections. If none of these gives a mesh, tries the same without
+// junctions.
+class Attempts {
+public:
+    // \param most_lengths  see find_sizes.
+    Attempts(CleanedInput& cleaned, const RemeshResult& after_cleaning, const RemeshOptions& given,
+             std::span<const double> most_lengths)
+        : cleaned_(cleaned), options_(given), first_(after_cleaning) {
+        find_lengths(most_lengths);
+        if (sizes_.num_samples != options_.num_samples) {
+            options_.num_samples = sizes_.num_samples;
+            find_lengths(most_lengths);
+            options_.num_samples = sizes_.num_samples;
+        }
     }
-    WorkLimit work(cleaned.surface.num_faces(), options.num_samples);
-    std::optional<RemeshResult> best;
-    KeptCurves kept_of_best;
-    std::vector<SurfacePoint> thin_places;  // Of the best.
-    for (const bool has_junctions : {true, false}) {
+
+    RemeshResult run() {
+        WorkLimit work(cleaned_.surface.num_faces(), options_.num_samples);
+        run_all(true, work);
+        if (!best_) run_all(false, work);
+        // Only what is locked can make all attempts fail.
+        if (!best_) throw TooFewSamples{options_.num_samples, options_.num_samples + 1};
+        best_->seconds = first_.seconds;
+        // A rod that is thinner than the spacing gets shorter by some edges.
+        const bool has_lost_part = best_->verdict.largest_distance > best_->verdict.spacing;
+        if (!thin_places_.empty() && may_shorten(options_) && !work.is_spent() && has_lost_part &&
+            !is_hopeless(best_->self_intersections.value_or(0), {options_, *best_})) {
+            shorten_thin(work);
+        }
+        return *std::move(best_);
+    }
+
+private:
+    void find_lengths(std::span<const double> most_lengths) {
+        const double spacing = spacing_for(cleaned_, options_);
+        found_ = find_curves(cleaned_, spacing, {options_, first_});
+        sizes_ = find_sizes(cleaned_, found_, spacing, most_lengths, {}, {options_, first_});
+    }
+
+    // What is tried, in order.
+    [[nodiscard]] std::vector<KeptCurves> attempts_with(bool has_junctions) const {
+        std::vector<KeptCurves> attempts;
+        if (!found_.is_seam.empty()) attempts.push_back({has_junctions, true, 0});
+        for (const double drop_share : {0.0, 0.3, 0.6, 1.0}) {
+            if (drop_share > 0 && found_.is_crease.empty()) break;
+            attempts.push_back({has_junctions, false, drop_share});
+        }
+        return attempts;
+    }
+
+    void run_all(bool has_junctions, WorkLimit& work) {
         bool needs_none = false;  // Dropping some curves would not help.
-        const std::vector<KeptCurves> attempts = attempts_with(found, has_junctions);
+        const std::vector<KeptCurves> attempts = attempts_with(has_junctions);
         for (const KeptCurves& kept : attempts) {
             const bool is_last = &kept == &attempts.back();
-            if (work.is_spent() && best) break;
+            if (work.is_spent() && best_) return;
             if (!is_last && (needs_none || work.is_spent())) continue;
-            RemeshResult result = first;
-            std::vector<SurfacePoint> thin;
+            RemeshResult result = first_;
+            std::vector<SurfacePoint> thin_places;
             const std::size_t done = work.done();
             try {
-                thin =
-                    run_attempt(cleaned, found, kept, sizes.field.get(), work, {options, result});
+                thin_places = run_attempt(cleaned_, found_, kept, sizes_.field.get(), work,
+                                          {options_, result});
                 result.features.gave_up = kept.drop_share > 0;
             } catch (const NetworkFailed&) {
-                first.seconds = result.seconds;
+                first_.seconds = result.seconds;
                 work.add_again(done);
-                if (!has_more_to_drop(kept, result.features)) break;
+                if (!has_more_to_drop(kept, result.features)) return;
                 continue;
             }
-            first.seconds = result.seconds;
-            needs_none = is_hopeless(result.self_intersections.value_or(0), {options, result});
+            first_.seconds = result.seconds;
+            needs_none = is_hopeless(result.self_intersections.value_or(0), {options_, result});
             const bool is_bare = !has_more_to_drop(kept, result.features);
-            if (!best || is_better(result, *best)) {
-                best = std::move(result);
-                kept_of_best = kept;
-                thin_places = std::move(thin);
+            if (!best_ || is_better(result, *best_)) {
+                best_ = std::move(result);
+                kept_ = kept;
+                thin_places_ = std::move(thin_places);
             }
-            if (is_fine(*best) || is_bare) break;
+            if (is_fine(*best_) || is_bare) return;
         }
-        if (best) break;
     }
-    // Only what is locked can make all attempts fail.
-    if (!best) throw TooFewSamples{options.num_samples, options.num_samples + 1};
-    best->seconds = first.seconds;
-    if (!thin_places.empty() && may_shorten(options) && !work.is_spent() &&
-        has_lost_part(best->verdict) &&
-        !is_hopeless(best->self_intersections.value_or(0), {options, *best})) {
-        shorten_thin(cleaned, found, kept_of_best, thin_places, options, work, first, *best);
+
+    // Runs the best attempt again with shorter edges on thin parts, where cells wrapped around
+    // them, and keeps the better result.
+    void shorten_thin(WorkLimit& work) {
+        RemeshResult again = first_;
+        const StageContext context{options_, again};
+        try {
+            const RunSizes sizes = find_sizes(cleaned_, found_, spacing_for(cleaned_, options_), {},
+                                              thin_places_, context);
+            run_attempt(cleaned_, found_, kept_, sizes.field.get(), work, context);
+        } catch (const TooFewSamples&) {
+            return;
+        } catch (const NetworkFailed&) {
+            return;
+        }
+        best_->seconds = again.seconds;
+        if (num_more_crossings(again) > num_more_crossings(*best_) ||
+            again.verdict.largest_distance >= best_->verdict.largest_distance) {
+            return;
+        }
+        again.features.gave_up = best_->features.gave_up;
+        best_ = std::move(again);
     }
-    return *std::move(best);
-}
+
+    CleanedInput& cleaned_;
+    RemeshOptions options_;
+    RemeshResult first_;  // Of cleaning and what was found here; its times include all attempts.
+    FoundCurves found_;
+    RunSizes sizes_;
+    std::optional<RemeshResult> best_;
+    KeptCurves kept_;                        // Of the best.
+    std::vector<SurfacePoint> thin_places_;  // Of the best.
+};
 
 // \throw TooFewSamples  no mesh of this topology has as few vertices as are asked for.
 void require_least_samples(const Topology& topology, const RemeshOptions& options) {
@@ -243,7 +195,7 @@ EnoughSamples find_enough(CleanedInput cleaned, const RemeshResult& after_cleani
             RemeshResult result = after_cleaning;
             RunSizes sizes;
             if (!cleaned.locked.empty()) {
-                sizes = find_sizes(cleaned, {}, spacing_of(cleaned, more), {}, {}, {more, result});
+                sizes = find_sizes(cleaned, {}, spacing_for(cleaned, more), {}, {}, {more, result});
             }
             WorkLimit work = WorkLimit::spent();
             run_attempt(cleaned, {}, {}, sizes.field.get(), work, {more, result});
@@ -327,7 +279,7 @@ RemeshResult run_stages(const InputMesh& input, const RemeshOptions& given) {
         require_least_samples(cleaned.topology, options);
         RemeshResult after_cleaning = result;
         const auto run = [&](const RemeshOptions& changed, std::span<const double> most_lengths) {
-            RemeshResult made = run_with_curves(cleaned, after_cleaning, changed, most_lengths);
+            RemeshResult made = Attempts(cleaned, after_cleaning, changed, most_lengths).run();
             after_cleaning.seconds = made.seconds;
             return made;
         };

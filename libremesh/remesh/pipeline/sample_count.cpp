@@ -41,9 +41,10 @@ BoundarySize measure_boundary(const CleanedInput& cleaned) {
 }
 
 // Vertices of a mesh of equilateral triangles.
-double vertices_for(double edge, double area, const BoundarySize& boundary) {
-    return 2 / std::numbers::sqrt3 * area / (edge * edge) + boundary.length / (2 * edge) +
-           boundary.locked_edges / 2.0;
+double vertices_for_edge(double edge, const CleanedInput& cleaned) {
+    const BoundarySize boundary = measure_boundary(cleaned);
+    return 2 / std::numbers::sqrt3 * surface_area(cleaned.surface) / (edge * edge) +
+           boundary.length / (2 * edge) + boundary.locked_edges / 2.0;
 }
 
 double euler_characteristic(const CleanedInput& cleaned) {
@@ -85,12 +86,28 @@ double excess_of(const RemeshOptions& options) {
     return options.relax_steps > 0 ? relaxed_excess : unrelaxed_excess;
 }
 
+// The nearest number of samples, at least 1.
+Index to_count(double vertices) {
+    if (!(vertices <= most_samples)) {
+        throw InvalidOption("the lengths asked for need more than " +
+                            std::to_string(static_cast<Index>(most_samples)) +
+                            " vertices; use longer ones, or a larger distance");
+    }
+    return static_cast<Index>(std::max(1.0, std::round(vertices)));
+}
+
+// What topology and what is locked need; 1 if nothing is locked.
+Index least_samples(const CleanedInput& cleaned, double spacing) {
+    if (cleaned.locked.empty()) return 1;
+    return std::max(minimum_samples(cleaned.topology),
+                    fewest_locked_vertices(cleaned.surface, spacing, cleaned.locked));
+}
+
 // As the sizing asks for it, whatever is locked.
 Index count_by_sizing(const CleanedInput& cleaned, const RemeshOptions& options) {
     const Sizing& sizing = options.sizing;
     if (const auto* mean = std::get_if<MeanEdge>(&sizing.count)) {
-        return to_count(vertices_for(mean->length / excess_of(options),
-                                     surface_area(cleaned.surface), measure_boundary(cleaned)));
+        return to_count(vertices_for_edge(mean->length / excess_of(options), cleaned));
     }
     if (const auto* faces = std::get_if<NumFaces>(&sizing.count)) {
         return to_count(vertices_for_faces(faces->number, cleaned));
@@ -103,23 +120,11 @@ Index count_by_sizing(const CleanedInput& cleaned, const RemeshOptions& options)
 
 }  // namespace
 
-Index to_count(double vertices) {
-    if (!(vertices <= most_samples)) {
-        throw InvalidOption("the lengths asked for need more than " +
-                            std::to_string(static_cast<Index>(most_samples)) +
-                            " vertices; use longer ones, or a larger distance");
-    }
-    return static_cast<Index>(std::max(1.0, std::round(vertices)));
-}
-
-Index num_locked_on_boundary(const CleanedInput& cleaned) {
-    return measure_boundary(cleaned).locked_edges;
-}
-
-Index least_samples(const CleanedInput& cleaned, double spacing) {
-    if (cleaned.locked.empty()) return 1;
-    return std::max(minimum_samples(cleaned.topology),
-                    fewest_locked_vertices(cleaned.surface, spacing, cleaned.locked));
+Index count_for_area(double area, const CleanedInput& cleaned, double spacing) {
+    // Vertices of locked edges on the boundary count half in the area.
+    const double vertices =
+        area * 2 / std::numbers::sqrt3 + measure_boundary(cleaned).locked_edges / 2.0;
+    return std::max(to_count(vertices), least_samples(cleaned, spacing));
 }
 
 Index sample_count(const CleanedInput& cleaned, const RemeshOptions& options) {
@@ -128,7 +133,7 @@ Index sample_count(const CleanedInput& cleaned, const RemeshOptions& options) {
     return std::max(count, least_samples(cleaned, mean_spacing(cleaned.surface, count)));
 }
 
-// The inverse of vertices_for().
+// The inverse of vertices_for_edge().
 double edge_length_for(Index count, const CleanedInput& cleaned, const RemeshOptions& options) {
     const BoundarySize boundary = measure_boundary(cleaned);
     const double area = 2 / std::numbers::sqrt3 * surface_area(cleaned.surface);
@@ -153,20 +158,6 @@ std::optional<double> corrected_edge_length(double mean_edge, const RemeshOption
     const double ratio = wanted->length / mean_edge;
     if (std::abs(ratio - 1) < near_enough) return std::nullopt;
     return wanted->length * std::clamp(ratio, 1 / most_correction, most_correction);
-}
-
-double mean_edge(const MeshView& mesh) {
-    std::vector<std::uint64_t> edges;
-    for (const Triangle& t : mesh.triangles) {
-        for (std::size_t k = 0; k < 3; ++k) edges.push_back(edge_key(t[k], t[(k + 1) % 3]));
-    }
-    std::sort(edges.begin(), edges.end());
-    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-    double sum = 0;
-    for (const std::uint64_t edge : edges) {
-        sum += (mesh.positions[static_cast<Index>(edge)] - mesh.positions[edge >> 32]).norm();
-    }
-    return edges.empty() ? 0 : sum / static_cast<double>(edges.size());
 }
 
 }  // namespace remesh::detail

@@ -12,15 +12,15 @@ namespace remesh::detail {
     return lengths.values[cleaned.face_origin.empty() ? face : cleaned.face_origin[face]];
 }
 
-//! The nearest number of samples, at least 1.
-//! \throw InvalidOption  it is above 8e8.
-[[nodiscard]] Index to_count(double vertices);
+//! The vertices of a mesh that follows target lengths, and no fewer than what is locked needs.
+//! \param area     of the surface in squares of the local length.
+//! \param spacing  mesh units: of the sites in the mean.
+//! \throw InvalidOption  it is above 8e8. Cost: O(n).
+[[nodiscard]] Index count_for_area(double area, const CleanedInput& cleaned, double spacing);
 
 //! The number of samples by which the options' edge length, number of faces or target lengths come
 //! out; num_samples if they have none of these. Creases and junctions do not count yet.
-//!
-//! \throw InvalidOption  the number would be too large.
-//! Cost: O(#F).
+//! \throw InvalidOption  it is above 8e8. Cost: O(#F).
 [[nodiscard]] Index sample_count(const CleanedInput& cleaned, const RemeshOptions& options);
 
 //! Whether the number of samples follows from lengths or faces.
@@ -28,16 +28,8 @@ namespace remesh::detail {
     return !std::holds_alternative<NumSamples>(sizing.count);
 }
 
-//! The number of locked edges on the boundary. Cost: O(n).
-[[nodiscard]] Index num_locked_on_boundary(const CleanedInput& cleaned);
-
-//! The fewest samples that topology and what is locked allow; 1 if nothing is locked.
-//! Cost: O(n).
-[[nodiscard]] Index least_samples(const CleanedInput& cleaned, double spacing);
-
-//! The edge length to ask for so that the mean edge comes nearer to that of MeanEdge;
-//! nothing if it is near enough.
-//!
+//! The edge length to ask for so that the mean edge comes nearer to that of MeanEdge; nothing if it
+//! is near enough.
 //! \param mean_edge  of the result with these options.
 [[nodiscard]] std::optional<double> corrected_edge_length(double mean_edge,
                                                           const RemeshOptions& options);
@@ -48,8 +40,5 @@ namespace remesh::detail {
 
 //! The number of faces by which so many samples come out. Cost: O(#F).
 [[nodiscard]] Index faces_for(Index count, const CleanedInput& cleaned);
-
-//! The mean length of the edges of a mesh; 0 without faces. Cost: O(#F).
-[[nodiscard]] double mean_edge(const MeshView& mesh);
 
 }  // namespace remesh::detail

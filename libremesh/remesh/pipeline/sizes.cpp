@@ -8,12 +8,10 @@
 #include <numbers>
 #include <utility>
 
-#include "agvd/core/progress.h"
+#include "agvd/mesh/any_mesh.h"
 #include "agvd/mesh/scale.h"
-#include "agvd/mesh/surface.h"
 #include "agvd/mesh/surface_points.h"
 #include "remesh/pipeline/sample_count.h"
-#include "remesh/pipeline/thin_lengths.h"
 #include "remesh/sites/target_lengths.h"
 
 namespace remesh::detail {
@@ -26,16 +24,58 @@ constexpr double cells_per_site = 4;
 // With a mean edge given, the number of samples is found in so many rounds.
 constexpr int edge_length_tries = 2;
 
+// Thin parts: the length is that of so many edges around, but not less than this share of the
+// spacing.
+constexpr double vertices_around = 5, shortest_of_spacing = 0.125;
+// Cells that wrap around a rod lie next to cells that fit: all within so many spacings are looked
+// at.
+constexpr double reach_of_place = 3;
+// Patches that measure curvature have to be narrower than the rod.
+constexpr double patches_per_site = 32;
+constexpr double most_of_sites = 0.25;
+
+Index bounded_count(double count) { return static_cast<Index>(std::clamp(count, 1.0, 1e9)); }
+
+// What target lengths are found on.
+struct FieldBase {
+    std::shared_ptr<const IntrinsicTriangulation> base;
+    std::vector<Index> original;  // #V of the base's input: a vertex of the cleaned surface.
+    std::vector<std::pair<Index, Index>> joined;  // Copies of a vertex.
+};
+
+// \param drops_vertices  whether it has no close vertices where there is no curvature.
+FieldBase make_base(const CleanedInput& cleaned, const FoundCurves& found, double spacing,
+                    double num_sites, bool drops_vertices, const RemeshOptions& options) {
+    std::vector<std::uint8_t> is_crease = found.is_crease;
+    is_crease.resize(cleaned.surface.num_edges(), 0);  // Empty: there are none.
+    CutSurface cut =
+        cut_surface(cleaned.surface, edges_to_cut(found.junctions, std::move(is_crease)),
+                    options.num_threads, cleaned_progress(options));
+    FieldBase made;
+    for (Index v = cut.num_original; v < cut.original.size(); ++v) {
+        made.joined.emplace_back(cut.original[v], v);
+    }
+    made.original = std::move(cut.original);
+    made.base = std::make_shared<const IntrinsicTriangulation>(
+        std::move(cut.surface),
+        IntrinsicOptions{
+            .max_length = longest_edge * spacing,
+            .min_length = drops_vertices ? shortest_edge * spacing : 0,
+            .most_splits = static_cast<Index>(std::min(
+                most_splits_per_site * (num_sites + 1) + cleaned.surface.num_vertices(), 1e9)),
+            .num_threads = options.num_threads,
+            .progress = cleaned_progress(options)});
+    return made;
+}
+
 // The value at each vertex of the base.
-// \param value_of  of a vertex of the cleaned mesh.
-template <typename ValueOf>
-std::vector<double> carry_values(const ValueOf& value_of, std::span<const Index> original,
-                                 const IntrinsicTriangulation& base) {
-    const Surface& input = base.input();
+// \param of_vertex  #V of the cleaned mesh.
+std::vector<double> carry_values(std::span<const double> of_vertex, const FieldBase& on) {
+    const Surface& input = on.base->input();
     std::vector<double> values;
-    for (Index v = 0; v < input.num_vertices(); ++v) values.push_back(value_of(original[v]));
-    for (Index v = input.num_vertices(); v < base.surface().num_vertices(); ++v) {
-        const SurfacePoint& place = base.added_point(v);
+    for (const Index v : on.original) values.push_back(of_vertex[v]);
+    for (Index v = input.num_vertices(); v < on.base->surface().num_vertices(); ++v) {
+        const SurfacePoint& place = on.base->added_point(v);
         const Triangle& t = input.mesh.triangles[place.face.value()];
         double value = 0;
         for (std::size_t k = 0; k < 3; ++k) value += place.barycentric[k] * values[t[k]];
@@ -44,22 +84,41 @@ std::vector<double> carry_values(const ValueOf& value_of, std::span<const Index>
     return values;
 }
 
-// The least value of the faces around each vertex of the base.
-// \param value_of  of a face of the base's input.
-template <typename ValueOf>
-std::vector<double> least_of_faces(const ValueOf& value_of, const IntrinsicTriangulation& base) {
+// The least length of the faces around each vertex of the base.
+std::vector<double> least_of_faces(const CleanedInput& cleaned, const FaceLengths& lengths,
+                                   const IntrinsicTriangulation& base) {
     const Surface& input = base.input();
-    std::vector<double> values(base.surface().num_vertices(),
-                               std::numeric_limits<double>::infinity());
+    std::vector<double> values(base.surface().num_vertices(), infinity);
+    const auto look_at = [&](Index v, Index face) {
+        values[v] = std::min(values[v], face_length(cleaned, lengths, face));
+    };
     for (Index f = 0; f < input.num_faces(); ++f) {
-        for (const Index v : input.mesh.triangles[f]) values[v] = std::min(values[v], value_of(f));
+        for (const Index v : input.mesh.triangles[f]) look_at(v, f);
     }
     for (Index v = input.num_vertices(); v < values.size(); ++v) {
-        for_each_view(input, base.added_point(v), [&](const SurfacePoint& view) {
-            values[v] = std::min(values[v], value_of(view.face.value()));
-        });
+        for_each_view(input, base.added_point(v),
+                      [&](const SurfacePoint& view) { look_at(v, view.face.value()); });
     }
     return values;
+}
+
+// #V of the base: curvatures, lengths or densities, whichever the sizing asks for.
+std::vector<double> values_for(const Sizing& sizing, const CleanedInput& cleaned,
+                               const FieldBase& on, double num_sites, Ticker& ticker) {
+    if (sizing.is_adaptive()) {
+        return patch_curvature(*on.base, bounded_count(cells_per_site * num_sites), ticker);
+    }
+    if (sizing.is_even()) return std::vector<double>(on.base->surface().num_vertices(), 1);
+    if (const auto* lengths = std::get_if<FaceLengths>(&sizing.edges)) {
+        return least_of_faces(cleaned, *lengths, *on.base);
+    }
+    const auto* densities = std::get_if<VertexDensities>(&sizing.edges);
+    const std::vector<double>& given =
+        densities != nullptr ? densities->values : std::get<VertexLengths>(sizing.edges).values;
+    if (cleaned.vertex_origin.empty()) return carry_values(given, on);
+    std::vector<double> of_vertex;
+    for (const Index v : cleaned.vertex_origin) of_vertex.push_back(given[v]);
+    return carry_values(of_vertex, on);
 }
 
 // #V: the mean length of the locked edges at each vertex; 0: there are none. Empty: nowhere.
@@ -86,39 +145,32 @@ std::vector<double> locked_lengths(const CleanedInput& cleaned) {
     return result;
 }
 
-// The same limits, and the lengths of locked edges as well.
-std::vector<double> limit_at_locked(const Surface& surface, std::span<const double> limits,
-                                    std::span<const double> locked, int num_threads) {
-    std::vector<double> result(limits.begin(), limits.end());
-    if (locked.empty()) return result;
-    if (result.empty()) {
+// #V of the base: no target is longer. Empty: there is no limit.
+// \param limits, locked  #V of the cleaned mesh, or empty.
+std::vector<double> most_lengths_on(const FieldBase& on, const Surface& surface,
+                                    std::span<const double> limits, std::span<const double> locked,
+                                    int num_threads) {
+    if (limits.empty() && locked.empty()) return {};
+    std::vector<double> most(limits.begin(), limits.end());
+    if (most.empty()) {
         const MeshBox box = box_of(surface.mesh.view(), num_threads);
-        result.assign(surface.num_vertices(), (box.high - box.low).norm());
+        most.assign(surface.num_vertices(), (box.high - box.low).norm());
     }
     for (std::size_t v = 0; v < locked.size(); ++v) {
-        if (locked[v] > 0) result[v] = std::min(result[v], locked[v]);
+        if (locked[v] > 0) most[v] = std::min(most[v], locked[v]);
     }
-    return result;
+    return carry_values(most, on);
 }
 
 // The lengths of locked edges on the base. Vertices that it added inside faces have none.
-std::vector<double> carry_locked(std::span<const double> locked, std::span<const Index> original,
-                                 const IntrinsicTriangulation& base) {
+std::vector<double> least_lengths_on(const FieldBase& on, std::span<const double> locked) {
     if (locked.empty()) return {};
-    std::vector<double> result = carry_values([&](Index v) { return locked[v]; }, original, base);
-    for (Index v = base.input().num_vertices(); v < result.size(); ++v) {
-        if (!is_on_boundary(base.input(), base.added_point(v))) result[v] = 0;
+    std::vector<double> least = carry_values(locked, on);
+    const Surface& input = on.base->input();
+    for (Index v = input.num_vertices(); v < least.size(); ++v) {
+        if (!is_on_boundary(input, on.base->added_point(v))) least[v] = 0;
     }
-    return result;
-}
-
-// The number of vertices of a mesh that follows the lengths. Vertices of locked edges on the
-// boundary count half in the area, and what is locked needs a least number.
-Index count_for(const SizeField& field, const CleanedInput& cleaned, double spacing) {
-    const double inside = field.area() * 2 / std::numbers::sqrt3;
-    if (cleaned.locked.empty()) return to_count(inside);
-    return std::max(to_count(inside + num_locked_on_boundary(cleaned) / 2.0),
-                    least_samples(cleaned, spacing));
+    return least;
 }
 
 // The mean over the vertices of a mesh that follows these lengths.
@@ -134,6 +186,16 @@ double mean_length(const Surface& surface, std::span<const double> length) {
     return lengths / vertices;
 }
 
+double mean_edge(const MeshView& mesh) {
+    const std::vector<EdgeSide> sides = sorted_edge_sides(mesh.triangles);
+    double sum = 0, num_edges = 0;
+    agvd::for_each_edge(sides, [&](std::span<const EdgeSide> edge) {
+        sum += (mesh.positions[edge[0].high()] - mesh.positions[edge[0].low()]).norm();
+        ++num_edges;
+    });
+    return num_edges == 0 ? 0 : sum / num_edges;
+}
+
 }  // namespace
 
 RunSizes find_sizes(const CleanedInput& cleaned, const FoundCurves& found, double spacing,
@@ -143,78 +205,78 @@ RunSizes find_sizes(const CleanedInput& cleaned, const FoundCurves& found, doubl
     const Sizing& sizing = options.sizing;
     if (sizing.is_even() && thin_places.empty()) return {nullptr, options.num_samples};
     const StageClock clock(Stage::Clean, result);
-    const Progress all = progress_of(Stage::Clean, options);
-    const Progress progress = within(all, cleaned_fraction, cleaned_fraction);
+    const Progress progress = cleaned_progress(options);
     Poller poller(progress);
     Ticker ticker(poller);
-    std::vector<std::uint8_t> is_crease = found.is_crease;
-    is_crease.resize(cleaned.surface.num_edges(), 0);  // Empty: there are none.
-    CutSurface cut =
-        cut_surface(cleaned.surface, edges_to_cut(found.junctions, std::move(is_crease)),
-                    options.num_threads, progress);
     const double num_sites =
         options.sites ? static_cast<double>(options.sites->size()) : options.num_samples;
-    const auto base = std::make_shared<const IntrinsicTriangulation>(
-        std::move(cut.surface),
-        IntrinsicOptions{
-            .max_length = longest_edge * spacing,
-            .min_length =
-                sizing.is_adaptive() || !thin_places.empty() ? shortest_edge * spacing : 0,
-            .most_splits = static_cast<Index>(std::min(
-                most_splits_per_site * (num_sites + 1) + cleaned.surface.num_vertices(), 1e9)),
-            .num_threads = options.num_threads,
-            .progress = progress});
-    std::vector<double> values;
-    if (sizing.is_adaptive()) {
-        values = patch_curvature(
-            *base, static_cast<Index>(std::clamp(cells_per_site * num_sites, 1.0, 1e9)), ticker);
-    } else if (sizing.is_even()) {
-        values.assign(base->surface().num_vertices(), 1);
-    } else if (const auto* lengths = std::get_if<FaceLengths>(&sizing.edges)) {
-        values = least_of_faces([&](Index f) { return face_length(cleaned, *lengths, f); }, *base);
-    } else {
-        const auto* densities = std::get_if<VertexDensities>(&sizing.edges);
-        const std::vector<double>& given =
-            densities != nullptr ? densities->values : std::get<VertexLengths>(sizing.edges).values;
-        const auto value_of = [&](Index v) {
-            return given[cleaned.vertex_origin.empty() ? v : cleaned.vertex_origin[v]];
-        };
-        values = carry_values(value_of, cut.original, *base);
-    }
-    std::vector<std::pair<Index, Index>> joined;
-    for (Index v = cut.num_original; v < cut.original.size(); ++v) {
-        joined.emplace_back(cut.original[v], v);
-    }
-    std::vector<double> most;
+    const bool drops_vertices = sizing.is_adaptive() || !thin_places.empty();
+    const FieldBase on = make_base(cleaned, found, spacing, num_sites, drops_vertices, options);
+    const std::vector<double> values = values_for(sizing, cleaned, on, num_sites, ticker);
     const std::vector<double> locked = locked_lengths(cleaned);
-    const std::vector<double> least = carry_locked(locked, cut.original, *base);
-    const std::vector<double> limits =
-        limit_at_locked(cleaned.surface, most_lengths, locked, options.num_threads);
-    if (!limits.empty()) {
-        most = carry_values([&](Index v) { return limits[v]; }, cut.original, *base);
-    }
-    if (!thin_places.empty()) {
-        most = thin_lengths(*base, thin_places, joined, spacing, num_sites, ticker);
-    }
+    const std::vector<double> least = least_lengths_on(on, locked);
+    const std::vector<double> most =
+        thin_places.empty()
+            ? most_lengths_on(on, cleaned.surface, most_lengths, locked, options.num_threads)
+            : thin_lengths(*on.base, thin_places, on.joined, spacing, num_sites, ticker);
     const bool gives_count =
         !options.sites && (std::holds_alternative<CountOfLengths>(sizing.count) ||
                            std::holds_alternative<MaxError>(sizing.count));
-    const auto* mean_edge = options.sites ? nullptr : std::get_if<MeanEdge>(&sizing.count);
+    const auto* mean = options.sites ? nullptr : std::get_if<MeanEdge>(&sizing.count);
+    const Surface& surface = on.base->surface();
     double area = gives_count ? 0 : num_sites * std::numbers::sqrt3 / 2;
-    std::vector<double> targets =
-        target_lengths(base->surface(), values, most, joined, sizing, area, ticker, least);
-    for (int i = 0; i < edge_length_tries && mean_edge != nullptr; ++i) {
-        const double ratio = mean_length(base->surface(), targets) / mean_edge->length;
+    const auto find_targets = [&] {
+        return target_lengths(surface, values, most, on.joined, sizing, area, ticker, least);
+    };
+    std::vector<double> targets = find_targets();
+    for (int i = 0; i < edge_length_tries && mean != nullptr; ++i) {
+        const double ratio = mean_length(surface, targets) / mean->length;
         area *= ratio * ratio;
-        targets =
-            target_lengths(base->surface(), values, most, joined, sizing, area, ticker, least);
+        targets = find_targets();
     }
-    RunSizes sizes{nullptr, options.num_samples};
-    sizes.field = std::make_unique<const SizeField>(base, std::move(targets));
-    if (gives_count || mean_edge != nullptr) {
-        sizes.num_samples = count_for(*sizes.field, cleaned, spacing);
+    RunSizes sizes{std::make_unique<const SizeField>(on.base, std::move(targets)),
+                   options.num_samples};
+    if (gives_count || mean != nullptr) {
+        sizes.num_samples = count_for_area(sizes.field->area(), cleaned, spacing);
     }
     return sizes;
+}
+
+std::vector<double> thin_lengths(const IntrinsicTriangulation& base,
+                                 std::span<const SurfacePoint> places,
+                                 std::span<const std::pair<Index, Index>> joined, double spacing,
+                                 double num_sites, Ticker& ticker) {
+    const Surface& surface = base.surface();
+    std::vector<double> distance(surface.num_vertices(), infinity);
+    for (const SurfacePoint& place : base.to_intrinsic(places)) {
+        for (const Index v : surface.mesh.triangles[place.face.value()]) {
+            distance[v] = std::numeric_limits<double>::min();
+        }
+    }
+    limit_growth(surface, joined, 1, Paths::Edges, distance, ticker);
+    const std::vector<double> curvature =
+        patch_curvature(base, bounded_count(patches_per_site * num_sites), ticker);
+    std::vector<double> length(surface.num_vertices(), infinity);
+    for (Index v = 0; v < length.size(); ++v) {
+        if (distance[v] > reach_of_place * spacing) continue;
+        // Of a cylinder the root mean square of both curvatures is 1 / (sqrt(2) r).
+        const double radius = 1 / (std::numbers::sqrt2 * curvature[v]);
+        length[v] = 2 * std::numbers::pi * radius / vertices_around;
+        if (length[v] >= spacing) length[v] = infinity;
+        length[v] = std::max(length[v], shortest_of_spacing * spacing);
+    }
+    double num_thin = 0;
+    for (Index f = 0; f < surface.num_faces(); ++f) {
+        for (const Index v : surface.mesh.triangles[f]) {
+            num_thin += face_area(surface, f) / 3 / (length[v] * length[v]);
+        }
+    }
+    num_thin *= 2 / std::numbers::sqrt3;
+    const double excess = num_thin / (most_of_sites * num_sites);
+    if (excess > 1) {
+        for (double& l : length) l *= std::sqrt(excess);
+    }
+    return length;
 }
 
 SizingResult measure_edges(const MeshView& mesh, std::span<const SurfacePoint> sites,

@@ -23,8 +23,20 @@ struct RunSizes {
                                   std::span<const SurfacePoint> thin_places,
                                   const StageContext& context);
 
+//! Longest edges on parts that are thinner than the spacing: some five vertices lie around each.
+//! Lengths are at least an eighth of the spacing, and longer if such parts took more than a quarter
+//! of the sites.
+//! \param places   on base.input(): where cells wrap around such parts.
+//! \param joined   see limit_growth.
+//! \param spacing  mesh units: of the sites in the mean.
+//! \return #V of base.surface(); infinity where nothing is thin.
+//! Cost: O(n log n).
+[[nodiscard]] std::vector<double> thin_lengths(const IntrinsicTriangulation& base,
+                                               std::span<const SurfacePoint> places,
+                                               std::span<const std::pair<Index, Index>> joined,
+                                               double spacing, double num_sites, Ticker& ticker);
+
 //! Compares a mesh with the target lengths.
-//!
 //! \param sites  #V: places of the vertices on the surface.
 //! \param sizes  null: all targets are equal.
 //! Cost: O(n log n).

@@ -1,6 +1,5 @@
 //! \file
-//! What every stage gets in addition to its data, and the clock of the stages. Private to the
-//! pipeline.
+//! What every stage gets in addition to its data: options, result, clock and progress.
 #pragma once
 
 #include <chrono>
@@ -55,6 +54,18 @@ private:
 [[nodiscard]] inline Progress progress_of(Stage stage, const RemeshOptions& options) {
     if (!options.progress) return {};
     return [&options, stage](double fraction) { return options.progress(stage, fraction); };
+}
+
+//! The same, but it always gets this fraction.
+[[nodiscard]] inline Progress progress_at(Stage stage, const RemeshOptions& options,
+                                          double fraction) {
+    if (!options.progress) return {};
+    return [&options, stage, fraction](double) { return options.progress(stage, fraction); };
+}
+
+//! Of what follows cleaning and comes before the surface is prepared.
+[[nodiscard]] inline Progress cleaned_progress(const RemeshOptions& options) {
+    return progress_at(Stage::Clean, options, cleaned_fraction);
 }
 
 }  // namespace remesh::detail

@@ -11,13 +11,8 @@
 #include "agvd/core/random.h"
 #include "agvd/diagram/diagram.h"
 #include "agvd/mesh/surface_points.h"
-#include "agvd/mesh/topology.h"
-#include "agvd/propagation/propagate.h"
-#include "remesh/curves/glue.h"
-#include "remesh/dual/build_dual.h"
 #include "remesh/dual/closed_ball.h"
 #include "remesh/dual/reduce_vertices.h"
-#include "remesh/pipeline/stage_context.h"
 
 namespace remesh::detail {
 namespace {
@@ -25,9 +20,8 @@ namespace {
 // A component is given up after so many rounds in a row without a new minimum of its faults.
 constexpr int max_stalled_rounds = 3;
 // A component is given up at once if more cells than this meet the boundary twice in its first
-// diagram: it has strips far narrower than the spacing. Twelve rounds leave some such cells, at ten
-// times the cost of thinning (lips of .26 and .52 spacings: 154 and 146 cells; of .79: 28, and 5
-// rounds mend all).
+// diagram: it has strips far narrower than the spacing, and many rounds would leave some such
+// cells.
 constexpr std::size_t most_in_strips = 64;
 // Components with faults are given up once there are max_growth times the first sites and
 // always_allowed more, which the topology may need where sites are few.
@@ -36,24 +30,27 @@ constexpr std::size_t always_allowed = 300;
 
 class ValidDualBuilder {
 public:
-    ValidDualBuilder(const DualInput& input, std::vector<SurfacePoint>& sites,
-                     std::vector<bool>& is_thinned, const RemeshOptions& options,
-                     RemeshResult& result)
-        : input_(input),
-          surface_(input.surface),
+    ValidDualBuilder(const Domain& domain, const PlacedSites& placed,
+                     std::optional<SurfaceLayout>& layout, std::vector<SurfacePoint>& sites,
+                     std::vector<bool>& is_thinned, const StageContext& context)
+        : domain_(domain),
+          placed_(placed),
+          layout_(layout),
+          surface_(domain.base()),
+          components_(domain.parts->components),
+          options_(context.options),
+          result_(context.result),
           sites_(sites),
-          options_(options),
-          result_(result),
           given_(sites),
-          most_sites_(max_growth * sites.size() + always_allowed),
-          first_round_(result.repair_rounds),
-          progress_(input.components.size()),
+          faults_(components_.size()),
           has_failed_(is_thinned) {
-        has_failed_.resize(input.components.size(), false);
+        has_failed_.resize(components_.size(), false);
     }
 
     ValidDual run() {
         mend_sites();
+        result_.sites_added += static_cast<Index>(reasons_.size());
+        for (const SiteReason reason : reasons_) ++result_.added_because[reason];
         const StageClock clock(Stage::Dual, result_);
         poll(progress_of(Stage::Dual, options_), 0);
         build_mesh();
@@ -62,9 +59,11 @@ public:
     }
 
 private:
-    // The state of one component.
-    struct Progress {
-        std::size_t faults = 0;
+    using Violations = std::vector<ClosedBallViolation>;
+
+    // What is wrong in one component.
+    struct Faults {
+        std::size_t count = 0;
         std::size_t in_strips = 0;
         std::size_t fewest = std::numeric_limits<std::size_t>::max();
         int stalled_rounds = 0;
@@ -72,18 +71,21 @@ private:
     };
 
     void mend_sites() {
-        while (true) {
+        const std::size_t most_sites = max_growth * given_.size() + always_allowed;
+        const int most_rounds = domain_.plan ? 0 : options_.repair_rounds;
+        for (bool is_first = true;; is_first = false) {
             build_diagram();
             BoundaryFixes fixes;
-            if (options_.boundary == Boundary::Keep) {
+            if (options_.boundary == Boundary::Keep && !domain_.plan) {
                 fixes =
-                    find_boundary_fixes(surface_, dual_.diagram, sites_, input_.boundary_corners);
+                    find_boundary_fixes(surface_, dual_.diagram, sites_, placed_.boundary_corners);
             }
-            std::vector<ClosedBallViolation> violations = find_violations();
+            Violations violations = find_violations();
             move_empty_sites(fixes);
             leave_failed_components(fixes, violations);
-            if (result_.repair_rounds == first_round_) find_thin_places(violations);
+            if (is_first) find_thin_places(violations);
             count_faults(fixes, violations);
+            give_up(result_.repair_rounds >= most_rounds || sites_.size() >= most_sites);
             leave_failed_components(fixes, violations);
             if (violations.empty() && fixes.moved.empty() && fixes.added.empty()) {
                 if (reset_given_up()) build_diagram();
@@ -94,50 +96,44 @@ private:
         }
     }
 
-    void find_thin_places(const std::vector<ClosedBallViolation>& violations) {
-        dual_.thin_places.clear();
+    void find_thin_places(const Violations& violations) {
         for (const ClosedBallViolation& v : violations) {
             if (v.is_at_boundary || !v.site.is_valid()) continue;
             dual_.thin_places.push_back(sites_[v.site.value()]);
         }
     }
 
+    void count_faults(const BoundaryFixes& fixes, const Violations& violations) {
+        for (Faults& faults : faults_) faults.count = faults.in_strips = 0;
+        for (const ClosedBallViolation& v : violations) {
+            Faults& faults = faults_[component_of(v)];
+            ++faults.count;
+            if (v.is_at_boundary) ++faults.in_strips;
+        }
+        for (const auto& [site, place] : fixes.moved) ++faults_[component_of(place)].count;
+        for (const SurfacePoint& place : fixes.added) ++faults_[component_of(place)].count;
+    }
+
     // Marks components as failed whose faults have not decreased for too many rounds, and after the
     // last round all components with faults.
-    void count_faults(const BoundaryFixes& fixes,
-                      const std::vector<ClosedBallViolation>& violations) {
-        for (Progress& p : progress_) p.faults = p.in_strips = 0;
-        for (const ClosedBallViolation& v : violations) {
-            Progress& p = progress_[component_of(v)];
-            ++p.faults;
-            if (v.is_at_boundary) ++p.in_strips;
-        }
-        for (const auto& [site, place] : fixes.moved) ++progress_[component_of(place)].faults;
-        for (const SurfacePoint& place : fixes.added) ++progress_[component_of(place)].faults;
-        const bool is_last =
-            result_.repair_rounds >= options_.repair_rounds || sites_.size() >= most_sites_;
-        for (Index c = 0; c < progress_.size(); ++c) {
-            Progress& p = progress_[c];
-            const bool is_first = p.fewest == std::numeric_limits<std::size_t>::max();
-            const bool has_strips = is_first && p.in_strips > most_in_strips;
-            p.stalled_rounds = p.faults < p.fewest ? 0 : p.stalled_rounds + 1;
-            p.fewest = std::min(p.fewest, p.faults);
-            if (p.faults == 0 ||
-                (!is_last && !has_strips && p.stalled_rounds < max_stalled_rounds)) {
-                continue;
+    void give_up(bool is_last) {
+        for (Index c = 0; c < faults_.size(); ++c) {
+            Faults& faults = faults_[c];
+            const bool is_first = faults.fewest == std::numeric_limits<std::size_t>::max();
+            const bool has_strips = is_first && faults.in_strips > most_in_strips;
+            faults.stalled_rounds = faults.count < faults.fewest ? 0 : faults.stalled_rounds + 1;
+            faults.fewest = std::min(faults.fewest, faults.count);
+            if (faults.count > 0 &&
+                (is_last || has_strips || faults.stalled_rounds >= max_stalled_rounds)) {
+                has_failed_[c] = faults.gave_up = true;
             }
-            has_failed_[c] = true;
-            p.gave_up = true;
         }
     }
 
     // Removes the fixes and violations of failed components: these are thinned.
-    void leave_failed_components(BoundaryFixes& fixes,
-                                 std::vector<ClosedBallViolation>& violations) const {
-        const auto has_failed = [&](const SurfacePoint& place) {
-            return has_failed_[component_of(place)];
-        };
-        std::erase_if(violations, [&](const auto& v) { return has_failed_[component_of(v)]; });
+    void leave_failed_components(BoundaryFixes& fixes, Violations& violations) const {
+        const auto has_failed = [&](const auto& place) { return has_failed_[component_of(place)]; };
+        std::erase_if(violations, has_failed);
         std::erase_if(fixes.moved, [&](const auto& move) { return has_failed(move.second); });
         std::erase_if(fixes.added, has_failed);
     }
@@ -146,9 +142,9 @@ private:
         PropagationOptions options = options_.propagation;
         options.num_threads = options_.num_threads;
         options.progress = progress_of(Stage::Propagate, options_);
-        if (!input_.layout) return agvd::propagate(surface_, sites_, options);
-        SurfaceLayout layout = *std::move(input_.layout);
-        input_.layout.reset();
+        if (!layout_) return agvd::propagate(surface_, sites_, options);
+        SurfaceLayout layout = *std::move(layout_);
+        layout_.reset();
         return agvd::propagate(surface_, std::move(layout), sites_, options);
     }
 
@@ -167,27 +163,19 @@ private:
                                              .progress = progress_of(Stage::Diagram, options_)});
     }
 
-    [[nodiscard]] std::vector<ClosedBallViolation> find_violations() const {
-        std::vector<ClosedBallViolation> found = find_missing_sites();
-        if (found.empty()) {
-            found = find_closed_ball_violations(surface_, dual_.diagram,
-                                                progress_of(Stage::Dual, options_));
-        }
-        return found;
-    }
-
-    // Components that no site reaches.
-    [[nodiscard]] std::vector<ClosedBallViolation> find_missing_sites() const {
-        std::vector<ClosedBallViolation> missing;
+    [[nodiscard]] Violations find_violations() const {
+        Violations missing;  // Components that no site reaches.
         std::vector<bool> is_told = has_failed_;
         for (Index f = 0; f < surface_.num_faces(); ++f) {
-            const Index component = input_.component[f];
+            const Index component = domain_.component[f];
             const Index v = surface_.mesh.triangles[f][0];
             if (dual_.diagram.nearest_site[v].is_valid() || is_told[component]) continue;
             is_told[component] = true;
             missing.push_back({{}, {}, SiteReason::NoSite, {{FaceId(f), {1, 0, 0}}}});
         }
-        return missing;
+        if (!missing.empty()) return missing;
+        return find_closed_ball_violations(surface_, dual_.diagram,
+                                           progress_of(Stage::Dual, options_));
     }
 
     // Moves sampled sites that own nothing, as many as the count needs, to the farthest Voronoi
@@ -209,7 +197,7 @@ private:
 
     // Moves sites, and adds the sites of each violation whose cells no other change of this round
     // concerns.
-    void apply(const BoundaryFixes& fixes, const std::vector<ClosedBallViolation>& violations) {
+    void apply(const BoundaryFixes& fixes, const Violations& violations) {
         std::vector<bool> is_concerned(sites_.size(), false);
         for (const auto& [site, place] : fixes.moved) {
             sites_[site] = place;
@@ -234,15 +222,13 @@ private:
         if (!new_places_.insert(position(surface_.mesh.view(), place)).second) return;
         sites_.push_back(place);
         reasons_.push_back(reason);
-        ++result_.sites_added;
-        ++result_.added_because[reason];
     }
 
     // In components that were given up: moves sites back, drops added sites, and gives the corners
     // of the boundary a site. False if that changes nothing.
     bool reset_given_up() {
         const auto gave_up = [&](const SurfacePoint& site) {
-            return progress_[component_of(site)].gave_up;
+            return faults_[component_of(site)].gave_up;
         };
         bool is_changed = false;
         for (Index s = 0; s < given_.size(); ++s) {
@@ -252,13 +238,8 @@ private:
         }
         std::size_t num_left = given_.size();
         for (std::size_t s = given_.size(); s < sites_.size(); ++s) {
-            SiteReason reason = reasons_[s - given_.size()];
-            if (gave_up(sites_[s])) {
-                --result_.sites_added;
-                const auto count = result_.added_because.find(reason);
-                if (--count->second == 0) result_.added_because.erase(count);
-                continue;
-            }
+            const SiteReason reason = reasons_[s - given_.size()];
+            if (gave_up(sites_[s])) continue;
             sites_[num_left] = sites_[s];
             reasons_[num_left++ - given_.size()] = reason;
         }
@@ -274,18 +255,16 @@ private:
             if (const auto v = vertex_of(surface_, site)) has_site[*v] = true;
         }
         new_places_.clear();
-        for (const Index v : input_.boundary_corners) {
-            const Index h = surface_.outgoing[v];
-            if (has_site[v] || !progress_[input_.component[Surface::face(h)]].gave_up) continue;
-            SurfacePoint corner{FaceId(Surface::face(h)), {0, 0, 0}};
-            corner.barycentric[h % 3] = 1;
+        for (const Index v : placed_.boundary_corners) {
+            const SurfacePoint corner = point_at(surface_, v);
+            if (has_site[v] || !faults_[component_of(corner)].gave_up) continue;
             add(corner, SiteReason::BoundaryCorner);
         }
         return !new_places_.empty();
     }
 
     [[nodiscard]] Index component_of(const SurfacePoint& point) const {
-        return input_.component[point.face.value()];
+        return domain_.component[point.face.value()];
     }
     [[nodiscard]] Index component_of(const ClosedBallViolation& violation) const {
         return component_of(violation.site.is_valid() ? sites_[violation.site.value()]
@@ -294,22 +273,9 @@ private:
 
     // Vertices in the order of their sites, then those of thinned components.
     void build_mesh() {
-        std::vector<std::vector<Triangle>> triangles(input_.components.size());
-        const agvd::Progress progress = progress_of(Stage::Dual, options_);
-        for (const Triangle& t : build_dual(surface_, dual_.diagram, within(progress, 0, 0))) {
-            triangles[component_of(sites_[t[0]])].push_back(t);
-        }
-        const auto part_of = [&](Index site) { return component_of(sites_[site]); };
-        const auto chain =
-            chain_by_part(input_.chain, static_cast<Index>(input_.components.size()), part_of);
+        const std::vector<std::vector<Triangle>> triangles = triangles_of_components();
         std::vector<bool> has_vertex(sites_.size(), false);
         for (Index c = 0; c < triangles.size(); ++c) {
-            if (!chain[c].empty()) close_rim(chain[c], triangles[c]);
-            has_failed_[c] =
-                has_failed_[c] || !has_right_topology(triangles[c], input_.components[c]);
-            if (!input_.chain.empty()) {
-                has_failed_[c] = has_failed_[c] || rim_of(triangles[c]) != chain[c];
-            }
             if (has_failed_[c]) continue;
             for (const Triangle& t : triangles[c]) {
                 for (const Index site : t) has_vertex[site] = true;
@@ -320,24 +286,43 @@ private:
             if (!has_vertex[s]) continue;
             number[s] = static_cast<Index>(dual_.site.size());
             dual_.site.push_back(s);
-            dual_.mesh.points.push_back(sites_[s]);
+            dual_.points.push_back(sites_[s]);
         }
-        result_.components_thinned = 0;
-        const std::vector<ThinPart> thinned = find_thinned();
+        const auto num_failed = std::count(has_failed_.begin(), has_failed_.end(), true);
+        result_.components_thinned = static_cast<Index>(num_failed);
+        // By component that is to be thinned: faces, ascending, and sites, one at each place.
+        std::vector<std::vector<Index>> faces(components_.size()), sites(components_.size());
+        if (num_failed > 0) find_parts(faces, sites);
         for (Index c = 0; c < triangles.size(); ++c) {
             if (has_failed_[c]) {
-                ++result_.components_thinned;
-                append_thinned(thinned[c]);
+                append_thinned(faces[c], sites[c]);
                 continue;
             }
             for (const auto& [i, j, k] : triangles[c]) {
-                dual_.mesh.triangles.push_back({number[i], number[j], number[k]});
+                dual_.triangles.push_back({number[i], number[j], number[k]});
             }
         }
     }
 
-    // The closed-ball property implies this, except for polygons of the dual without a valid
-    // diagonal.
+    // Of sites. Marks components as failed whose triangles have another topology or boundary.
+    std::vector<std::vector<Triangle>> triangles_of_components() {
+        std::vector<std::vector<Triangle>> triangles(components_.size());
+        const auto part_of = [&](Index site) { return component_of(sites_[site]); };
+        for (const Triangle& t :
+             build_dual(surface_, dual_.diagram, progress_at(Stage::Dual, options_, 0))) {
+            triangles[part_of(t[0])].push_back(t);
+        }
+        const auto chain =
+            chain_by_part(placed_.chain, static_cast<Index>(components_.size()), part_of);
+        for (Index c = 0; c < triangles.size(); ++c) {
+            if (!chain[c].empty()) close_rim(chain[c], triangles[c]);
+            has_failed_[c] = has_failed_[c] || !has_right_topology(triangles[c], components_[c]) ||
+                             (!placed_.chain.empty() && rim_of(triangles[c]) != chain[c]);
+        }
+        return triangles;
+    }
+
+    // False for polygons of the dual without a valid diagonal.
     [[nodiscard]] bool has_right_topology(std::span<const Triangle> triangles,
                                           const ComponentTopology& wanted) const {
         std::vector<Index> used;
@@ -359,56 +344,45 @@ private:
                topology.components[0].same_type(wanted);
     }
 
-    // A component that is to be thinned.
-    struct ThinPart {
-        std::vector<Index> faces;  // Of the surface, ascending.
-        std::vector<Index> sites;  // One at each place.
-    };
-
-    // By component; empty for those that are not thinned. One pass over the faces: parts with
-    // creases may have hundreds of such patches.
-    [[nodiscard]] std::vector<ThinPart> find_thinned() const {
-        std::vector<ThinPart> parts(input_.components.size());
-        if (std::find(has_failed_.begin(), has_failed_.end(), true) == has_failed_.end()) {
-            return parts;
-        }
+    void find_parts(std::vector<std::vector<Index>>& faces,
+                    std::vector<std::vector<Index>>& sites) const {
         for (Index f = 0; f < surface_.num_faces(); ++f) {
-            const Index component = input_.component[f];
-            if (has_failed_[component]) parts[component].faces.push_back(f);
+            const Index component = domain_.component[f];
+            if (has_failed_[component]) faces[component].push_back(f);
         }
         for (const Index s : distinct_points(surface_, sites_)) {
             const Index component = component_of(sites_[s]);
-            if (has_failed_[component]) parts[component].sites.push_back(s);
+            if (has_failed_[component]) sites[component].push_back(s);
         }
-        return parts;
     }
 
-    // Appends the component, thinned to its sites and the extra vertices that must stay.
-    void append_thinned(const ThinPart& thinned) {
-        const auto first = static_cast<Index>(dual_.mesh.points.size());
-        std::vector<SurfacePoint> points = points_of(sites_, thinned.sites);
-        dual_.site.insert(dual_.site.end(), thinned.sites.begin(), thinned.sites.end());
-        SimplifiedMesh part = input_.chain.empty() ? simplify(surface_, thinned.faces, points)
-                                                   : thin_patch(surface_, thinned.faces, points);
-        if (input_.has_locked) free_rim(surface_, points, part);
+    // Appends a component, thinned to its sites and the extra vertices that must stay.
+    void append_thinned(std::span<const Index> faces, std::span<const Index> sites) {
+        const auto first = static_cast<Index>(dual_.points.size());
+        std::vector<SurfacePoint> points = points_of(sites_, sites);
+        dual_.site.insert(dual_.site.end(), sites.begin(), sites.end());
+        SimplifiedMesh part = placed_.chain.empty() ? simplify(surface_, faces, points)
+                                                    : thin_patch(surface_, faces, points);
+        if (domain_.has_locked()) free_rim(surface_, points, part);
         points.insert(points.end(), part.extra.begin(), part.extra.end());
-        dual_.mesh.points.insert(dual_.mesh.points.end(), points.begin(), points.end());
-        dual_.site.resize(dual_.mesh.points.size(), no_index);
+        dual_.points.insert(dual_.points.end(), points.begin(), points.end());
+        dual_.site.resize(dual_.points.size(), no_index);
         for (const auto& [i, j, k] : part.triangles) {
-            dual_.mesh.triangles.push_back({i + first, j + first, k + first});
+            dual_.triangles.push_back({i + first, j + first, k + first});
         }
     }
 
-    const DualInput& input_;
-    const Surface& surface_;
-    std::vector<SurfacePoint>& sites_;
+    const Domain& domain_;
+    const PlacedSites& placed_;
+    std::optional<SurfaceLayout>& layout_;
+    const Surface& surface_;  // On which cells lie.
+    const std::vector<ComponentTopology>& components_;
     const RemeshOptions& options_;
     RemeshResult& result_;
-    const std::vector<SurfacePoint> given_;  // The sites before repair.
-    const std::size_t most_sites_;
-    const int first_round_;                              // Of result_.repair_rounds.
+    std::vector<SurfacePoint>& sites_;
+    const std::vector<SurfacePoint> given_;              // The sites before repair.
     std::vector<SiteReason> reasons_;                    // Of the added sites.
-    std::vector<Progress> progress_;                     // By component.
+    std::vector<Faults> faults_;                         // By component.
     std::vector<bool>& has_failed_;                      // By component.
     std::unordered_set<Vec3, PositionHash> new_places_;  // Of sites added in this round.
     ValidDual dual_;
@@ -416,10 +390,10 @@ private:
 
 }  // namespace
 
-ValidDual build_valid_dual(const DualInput& input, std::vector<SurfacePoint>& sites,
-                           std::vector<bool>& is_thinned, const RemeshOptions& options,
-                           RemeshResult& result) {
-    return ValidDualBuilder(input, sites, is_thinned, options, result).run();
+ValidDual build_valid_dual(const Domain& domain, const PlacedSites& placed,
+                           std::optional<SurfaceLayout>& layout, std::vector<SurfacePoint>& sites,
+                           std::vector<bool>& is_thinned, const StageContext& context) {
+    return ValidDualBuilder(domain, placed, layout, sites, is_thinned, context).run();
 }
 
 }  // namespace remesh::detail

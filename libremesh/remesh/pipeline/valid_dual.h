@@ -2,58 +2,36 @@
 //! Moves and adds sites until the dual of their cells has the topology of the surface.
 #pragma once
 
-#include <optional>
-
 #include "agvd/diagram/diagram.h"
-#include "agvd/propagation/propagate.h"
-#include "remesh/curves/curve_sites.h"
-#include "remesh/pipeline/remesh_options.h"
-#include "remesh/pipeline/remesh_result.h"
+#include "remesh/pipeline/place_sites.h"
 
 namespace remesh::detail {
 
-//! The surface that cells lie on, and what the dual must respect.
-struct DualInput {
-    const Surface& surface;  //!< That of the intrinsic triangulation.
-    //! SurfaceLayout(surface) or none. The first propagation consumes it; later ones make their
-    //! own, which takes a tenth of a round. It is larger than the surface.
-    std::optional<SurfaceLayout>& layout;
-    std::span<const ComponentTopology> components;
-    std::span<const Index> component;         //!< #F of surface: index into components.
-    std::span<const Index> boundary_corners;  //!< Boundary vertices that need a site.
-    //! If the surface is cut along a network: the boundary that the mesh must have. Components
-    //! whose cells do not give it are thinned.
-    std::span<const ChainEdge> chain = {};
-    bool has_locked = false;  //!< Edges of the chain are locked: all else gives way to them.
-};
-
-//! A triangle mesh whose vertices are points of the surface.
-struct SurfaceMesh {
+//! A triangle mesh whose vertices are points of the base.
+struct ValidDual {
     std::vector<SurfacePoint> points;  //!< One per vertex.
     std::vector<Triangle> triangles;   //!< Indices into points.
-};
-
-struct ValidDual {
-    SurfaceMesh mesh;         //!< Points of the intrinsic triangulation.
-    std::vector<Index> site;  //!< Per vertex: its site; no_index: it has none.
-    Diagram diagram;          //!< Of `sites`.
+    std::vector<Index> site;           //!< Per vertex: its site; no_index: it has none.
+    Diagram diagram;                   //!< Of the sites.
     //! Where cells of the first round wrapped around a thin part.
     std::vector<SurfacePoint> thin_places;
 };
 
-//! Propagates, checks cells on the boundary (Boundary::Keep) and the closed-ball property, and adds
-//! or moves sites where they fail, until both hold. A component that still fails after the last
-//! round, or would need several times the sites, is thinned to its first sites instead
-//! (thin), without the added ones. For any sites each component of the result is an oriented
-//! manifold with the topology of the component.
-//!
-//! \param sites   on input.surface; moved, and new ones are appended.
-//! \param is_thinned  by component, empty at first: true for those thinned from the start because
-//!                    their cells failed before; those that fail now are added.
-//! \param result  its counts and times are added to.
+//! Checks cells on the boundary (Boundary::Keep) and the closed-ball property, and adds or moves
+//! sites where they fail, until both hold. A component that still fails after the last round, or
+//! would need several times the sites, is thinned to its first sites (simplify). So is each patch
+//! between curves that fails at all: more sites do not help there. For any sites each component of
+//! the result is an oriented manifold with the topology of the component.
+//! \param placed  boundary vertices that need a site, and the boundary that the mesh must have.
+//! \param layout  of the base, or none. The first propagation consumes it.
+//! \param sites   on the base; moved, and new ones are appended.
+//! \param is_thinned  by component, empty at first: those to thin from the start because their
+//!                    cells failed before; those that fail now are added.
 //! Cost: a propagation and a diagram per round.
-[[nodiscard]] ValidDual build_valid_dual(const DualInput& input, std::vector<SurfacePoint>& sites,
+[[nodiscard]] ValidDual build_valid_dual(const Domain& domain, const PlacedSites& placed,
+                                         std::optional<SurfaceLayout>& layout,
+                                         std::vector<SurfacePoint>& sites,
                                          std::vector<bool>& is_thinned,
-                                         const RemeshOptions& options, RemeshResult& result);
+                                         const StageContext& context);
 
 }  // namespace remesh::detail

@@ -10,8 +10,7 @@
 
 namespace remesh::detail {
 
-//! Ends further attempts and rounds when they have cost a few times what a run usually costs. Runs
-//! on damaged meshes would otherwise take up to twenty times as long, most of it for nothing. The
+//! Ends further attempts and rounds when they have cost a few times what a run usually costs. The
 //! cost is counted, not timed, so that a run always ends in the same way.
 class WorkLimit {
 public:
@@ -29,8 +28,7 @@ public:
     void add(Index base_faces) { done_ += base_faces; }
     //! \return what is counted so far, faces.
     [[nodiscard]] std::size_t done() const { return done_; }
-    //! Counts an attempt that gave no mesh once more: the next one, with 30 % fewer creases, gave a
-    //! mesh in 1 of 15 cases on damaged meshes.
+    //! Counts an attempt that gave no mesh once more: the next one seldom gives a mesh either.
     //! \param done  what was counted before the attempt.
     void add_again(std::size_t done) { done_ += done_ - done; }
     //! Whether only what gives a result at all should follow.
@@ -43,7 +41,7 @@ public:
     }
 
 private:
-    // Small meshes may take longer in proportion: some ten seconds.
+    // Small meshes may take longer in proportion.
     static constexpr std::size_t least_most = 800'000;
     static constexpr std::size_t usual_times = 4;
     static constexpr std::size_t faces_per_sample = 8;  // Of the base, if the input is coarse.

@@ -5,7 +5,6 @@
 
 #include "agvd/mesh/closest_point.h"
 #include "agvd/mesh/surface.h"
-#include "agvd/mesh/surface_points.h"
 #include "remesh/sites/network_plan.h"
 
 namespace remesh {
@@ -210,23 +209,27 @@ GivenNetwork plan_given_network(const Surface& surface, std::vector<std::uint8_t
     plan.length = length_of(surface, carrier.is_crease);
     plan.dropped_length = length_at_first - plan.length;
     if (!has_creases(carrier.is_crease)) return result;
-    result.of_group = carrier.at_node;
+    std::vector<Index> of_group = carrier.at_node;
     for (const std::vector<Stop>& of_curve : carrier.stops) {
         std::vector<double>& along = plan.along.emplace_back();
         for (const auto& [position, site] : of_curve) {
             along.push_back(position);
-            result.of_group.push_back(site);
+            of_group.push_back(site);
         }
-    }
-    for (Index s = 0; s < sites.size(); ++s) {
-        if (carrier.is_on_network[s] == 0) result.of_inner.push_back(s);
     }
     plan.network = std::move(carrier.network);
     plan.cut = cut_surface(surface, carrier.is_crease, options.num_threads, options.progress);
     plan.spacing = options.spacing;
     plan.intervals = intervals_between(plan.network, plan.along);
     result.curves = curve_sites_at(plan.network, plan.cut, plan.along);
-    result.inner = points_of(sites, result.of_inner);
+    for (const Index group : groups_of_copies(result.curves)) {
+        result.number.push_back(of_group[group]);
+    }
+    for (Index s = 0; s < sites.size(); ++s) {
+        if (carrier.is_on_network[s] != 0) continue;
+        result.inner.push_back(sites[s]);
+        result.number.push_back(s);
+    }
     return result;
 }
 

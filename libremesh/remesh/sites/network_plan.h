@@ -64,13 +64,17 @@ void drop_shortest(const Surface& surface, const CurveNetwork& network, double s
 //! The total length of the creases, mesh units.
 [[nodiscard]] double length_of(const Surface& surface, std::span<const std::uint8_t> is_crease);
 
-struct GivenNetwork {
-    NetworkPlan plan;   //!< Without curves if none is carried; does not set sites_for_all.
-    CurveSites curves;  //!< The sites on the curves.
+//! Given sites, sorted into those on curves and the others.
+struct GivenSites {
+    CurveSites curves;                //!< The sites on the curves.
     std::vector<SurfacePoint> inner;  //!< The other sites, in their order.
-    std::vector<Index> of_group;      //!< By group of `curves`: the number of its site.
-    std::vector<Index> of_inner;      //!< By inner site: its number among all sites.
-    Index dropped_curves = 0;         //!< Creases that the sites do not carry.
+    //! By copy of `curves`, then by inner site: the number of the site among all.
+    std::vector<Index> number;
+};
+
+struct GivenNetwork : GivenSites {
+    NetworkPlan plan;          //!< Without curves if none is carried; does not set sites_for_all.
+    Index dropped_curves = 0;  //!< Creases that the sites do not carry.
 };
 
 //! In spacings: nearer points are the same up to the decimals of a file or single precision.

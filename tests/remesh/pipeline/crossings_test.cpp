@@ -4,8 +4,6 @@
 #include <utility>
 
 #include "remesh/pipeline/build_mesh.h"
-#include "remesh/pipeline/crossing_places.h"
-#include "remesh/pipeline/place_sites.h"
 #include "remesh/pipeline/remesh.h"
 #include "remesh/quality/evaluate.h"
 #include "support/parts.h"
@@ -58,9 +56,9 @@ TEST(CrossingPlaces, PairsFartherThanTheirLongestEdgeAreElsewhere) {
         mesh.triangles.push_back({6 * i + 3, 6 * i + 4, 6 * i + 5});
         pairs.emplace_back(2 * i, 2 * i + 1);
     }
-    const remesh::detail::CrossingPlaces places(mesh.view(), {pairs[1]}, {});
+    const agvd::ClosestPointTree places(remesh::detail::crossing_places(mesh, {pairs[1]}));
     // The longest edges are 1.12.
-    EXPECT_EQ(places.pairs_elsewhere(mesh.view(), pairs),
+    EXPECT_EQ(remesh::detail::pairs_elsewhere(places, mesh, pairs),
               (remesh::detail::FacePairs{pairs[3], pairs[4], pairs[5]}));
 }
 

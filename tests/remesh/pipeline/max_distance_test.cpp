@@ -5,7 +5,7 @@
 
 #include "agvd/core/error.h"
 #include "agvd/mesh/closest_point.h"
-#include "remesh/pipeline/distance_check.h"
+#include "remesh/pipeline/meet_distance.h"
 #include "remesh/pipeline/remesh.h"
 #include "support/shapes.h"
 
@@ -14,7 +14,6 @@ using agvd::TriangleMesh;
 using agvd::Vec3;
 using remesh::RemeshOptions;
 using remesh::RemeshResult;
-using remesh::detail::DistanceCheck;
 using remesh::detail::MeasuredDistance;
 
 namespace {
@@ -44,7 +43,8 @@ RemeshResult remeshed(const TriangleMesh& mesh, double distance, int threads = 1
 
 MeasuredDistance measure(const TriangleMesh& input, const TriangleMesh& result, double limit,
                          std::vector<double>& most) {
-    return DistanceCheck(input.view(), 1, {}).measure(result.view(), limit, most);
+    const agvd::ClosestPointTree tree(input.view());
+    return remesh::detail::measure_distance(input, tree, result, limit, most);
 }
 
 // A plate of two triangles, 2 x 2, that is 1 deep along its middle if it is a valley.
@@ -95,7 +95,7 @@ TEST(MaxDistance, TooManyVerticesAreRefused) {
     EXPECT_THROW((void)remesh::remesh(shapes::sphere(2).view(), with_lengths), agvd::InvalidOption);
 }
 
-TEST(DistanceCheck, EqualSurfacesAreProvedWhateverTheirTriangles) {
+TEST(MeasureDistance, EqualSurfacesAreProvedWhateverTheirTriangles) {
     std::vector<double> most(shapes::grid(7).positions.size(), 9);
     const auto found = measure(shapes::grid(7), shapes::grid(4), 1e-3, most);
     EXPECT_TRUE(found.is_within);
@@ -103,7 +103,7 @@ TEST(DistanceCheck, EqualSurfacesAreProvedWhateverTheirTriangles) {
     EXPECT_EQ(most, std::vector<double>(most.size(), 9));
 }
 
-TEST(DistanceCheck, WhereItIsTooFarEdgesGetShorter) {
+TEST(MeasureDistance, WhereItIsTooFarEdgesGetShorter) {
     const TriangleMesh input = plate(true), result = plate(false);
     std::vector<double> most(6, 9);
     const auto found = measure(input, result, 0.5, most);
@@ -127,7 +127,7 @@ TEST(DistanceCheck, WhereItIsTooFarEdgesGetShorter) {
 }
 
 // A fin across the valley: its corners lie on the other surface, and no sample meets it.
-TEST(DistanceCheck, WhatLiesBetweenTheSamplesIsFoundToo) {
+TEST(MeasureDistance, WhatLiesBetweenTheSamplesIsFoundToo) {
     const TriangleMesh valley = plate(true);
     TriangleMesh with_fin = valley;
     with_fin.positions.emplace_back(1, 0, 0);

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "remesh/pipeline/remesh.h"
-#include "remesh/pipeline/thin_lengths.h"
+#include "remesh/pipeline/sizes.h"
 #include "support/parts.h"
 #include "support/shapes.h"
 

@@ -1,5 +1,5 @@
 //! \file
-//! The patches between curves as one mesh.
+//! Positions for the vertices of a dual, and the patches between curves as one mesh.
 #pragma once
 
 #include "remesh/curves/glue.h"
@@ -24,8 +24,13 @@ struct PlacedDual {
 //! Whether each curve is the same chain of edges in all patches on its sides. Cost: O(n log n).
 [[nodiscard]] bool has_chain(const ValidDual& dual, std::span<const ChainEdge> chain);
 
-//! Cost: that of glue().
-[[nodiscard]] JoinedPatches join_patches(const ValidDual& dual, const CurveSites& curves);
+//! Joins the patches, fits the vertices to the surface and moves those of bad triangles, as far as
+//! the options ask for it, and flips triangles without area.
+//! \param domain  its pieces are found if they were reset, and reset then.
+//! \param places  #V of the dual: where each vertex lies on the cleaned surface.
+//! Cost: that of glue, fit_vertices and improve_shape.
+[[nodiscard]] PlacedDual place_dual(Domain& domain, const CurveSites& curves, const ValidDual& dual,
+                                    std::vector<SurfacePoint> places, const StageContext& context);
 
 //! The elements of `all` at the places `chosen`.
 template <typename T>
@@ -36,19 +41,14 @@ template <typename T>
     return result;
 }
 
-//! The positions of the vertices.
-//! \param whole  the cleaned surface.
-[[nodiscard]] std::vector<Vec3> positions_of(const Surface& whole, const PlacedMesh& mesh);
-
 //! The result: copies of a vertex are joined, and sheets have equal points where they meet.
 [[nodiscard]] TriangleMesh whole_mesh(const Surface& whole, const PlacedDual& placed);
 
 //! The same to search for self-intersections: sheets share vertices where they meet, and so do
-//! parts that touch at locked places. Some vertices may be in no triangle.
+//! parts at locked places. Some vertices may be in no triangle.
 [[nodiscard]] TriangleMesh welded_mesh(const Domain& domain, const PlacedDual& placed);
 
 //! The triangles with the first vertex at its position in place of each vertex. Cost: O(n).
-[[nodiscard]] std::vector<Triangle> join_positions(std::span<const Vec3> positions,
-                                                   std::span<const Triangle> triangles);
+[[nodiscard]] std::vector<Triangle> join_positions(const MeshView& mesh);
 
 }  // namespace remesh::detail

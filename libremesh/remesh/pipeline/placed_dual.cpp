@@ -1,0 +1,157 @@
+#include "remesh/pipeline/placed_dual.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "agvd/mesh/any_mesh.h"
+
+namespace remesh::detail {
+namespace {
+
+// As a share of the spacing: lengths up to this are rounding.
+constexpr double rounding = 1e-10;
+
+// The numbers of the copies on curves; the other vertices of the dual get numbers from `next` on.
+std::vector<Index> numbers_of(const ValidDual& dual, std::span<const Index> of_copies, Index next) {
+    std::vector<Index> numbers;
+    numbers.reserve(dual.site.size());
+    for (const Index site : dual.site) {
+        numbers.push_back(site < of_copies.size() ? of_copies[site] : next++);
+    }
+    return numbers;
+}
+
+JoinedPatches join_patches(const ValidDual& dual, const CurveSites& curves) {
+    JoinedPatches patches;
+    patches.group = numbers_of(dual, groups_of_copies(curves), curves.num_groups());
+    patches.glued =
+        glue(dual.triangles, patches.group, numbers_of(dual, curves.vertex, curves.num_vertices));
+    return patches;
+}
+
+// #V of the base: the vertex of the dual in whose cell each lies; no_index: none.
+std::vector<Index> nearest_vertices(const ValidDual& dual) {
+    std::vector<Index> vertex(dual.diagram.num_sites, no_index);
+    for (Index v = 0; v < dual.site.size(); ++v) {
+        if (dual.site[v] != no_index) vertex[dual.site[v]] = v;
+    }
+    std::vector<Index> nearest;
+    nearest.reserve(dual.diagram.nearest_site.size());
+    for (const SiteId site : dual.diagram.nearest_site) {
+        nearest.push_back(site.is_valid() ? vertex[site.value()] : no_index);
+    }
+    return nearest;
+}
+
+void fit_on_curves(const Domain& domain, const CurveSites& curves, Boundary boundary,
+                   PlacedDual& placed) {
+    const std::vector<Vec3> offsets =
+        fit_curves(*domain.whole, domain.plan->network.network, curves, boundary);
+    const std::vector<Index>& group = placed.patches->group;
+    for (Index v = 0; v < group.size(); ++v) {
+        if (group[v] < offsets.size()) placed.mesh.offsets[v] = offsets[group[v]];
+    }
+}
+
+// Fits the vertices to the surface and moves those of bad triangles.
+void place_vertices(Domain& domain, const CurveSites& curves, const ValidDual& dual,
+                    PlacedDual& placed, const StageContext& context) {
+    const auto& [options, result] = context;
+    const StageClock clock(Stage::Place, result);
+    poll(progress_of(Stage::Place, options), 0);
+    const std::vector<Index> nearest = nearest_vertices(dual);
+    // Vertices at nodes. Those inside faces of the surface are locked; all others are on its
+    // boundary.
+    std::vector<std::uint8_t> stays;
+    if (domain.plan) {
+        for (const Index site : dual.site) {
+            stays.push_back(site < curves.first_copy[curves.num_nodes()] ? 1 : 0);
+        }
+    }
+    const bool is_fitted = options.fit.value_or(is_relaxed(options));
+    // The pieces are large: they are freed before the fit.
+    std::vector<CellSample> samples;
+    std::vector<CellPlanes> planes;
+    const Progress start = progress_at(Stage::Place, options, 0);
+    if (is_fitted || is_relaxed(options)) {
+        const auto num_vertices = static_cast<Index>(placed.mesh.points.size());
+        PreparedSurface& prepared = domain.prepared;
+        prepared.find_pieces(options.num_threads, start);
+        if (is_relaxed(options)) {
+            planes = planes_of_cells(prepared, nearest, num_vertices, options.num_threads, start);
+        }
+        if (is_fitted) samples = sample_cells(prepared, nearest, num_vertices, start);
+        prepared.pieces.reset();
+    }
+    if (is_fitted) {
+        if (domain.plan) fit_on_curves(domain, curves, options.boundary, placed);
+        fit_vertices(domain.prepared.base, nearest, std::move(samples), placed.mesh,
+                     options.num_threads, start, domain.plan ? rounding * domain.spacing : 0,
+                     stays);
+    }
+    if (is_relaxed(options)) {
+        improve_shape(domain.prepared.input(), planes, placed.mesh,
+                      progress_at(Stage::Place, options, 0.5), domain.sizes, stays);
+    }
+    poll(progress_of(Stage::Place, options), 1);
+}
+
+std::vector<Vec3> positions_of(const Surface& whole, const PlacedMesh& mesh) {
+    std::vector<Vec3> positions;
+    positions.reserve(mesh.points.size());
+    for (Index v = 0; v < mesh.points.size(); ++v) {
+        positions.push_back(mesh.position(whole.mesh.view(), v));
+    }
+    return positions;
+}
+
+}  // namespace
+
+bool has_chain(const ValidDual& dual, std::span<const ChainEdge> chain) {
+    std::vector<DirectedEdge> rim = rim_of(dual.triangles), wanted = ends_of(chain);
+    for (auto& [from, to] : rim) {
+        from = dual.site[from];
+        to = dual.site[to];
+    }
+    std::sort(rim.begin(), rim.end());
+    std::sort(wanted.begin(), wanted.end());
+    return rim == wanted;
+}
+
+PlacedDual place_dual(Domain& domain, const CurveSites& curves, const ValidDual& dual,
+                      std::vector<SurfacePoint> places, const StageContext& context) {
+    std::vector<Vec3> offsets(places.size(), Vec3::Zero());
+    PlacedDual placed{{std::move(places), std::move(offsets), dual.triangles}, {}};
+    if (domain.plan) placed.patches = join_patches(dual, curves);
+    place_vertices(domain, curves, dual, placed, context);
+    auto& triangles = placed.patches ? placed.patches->glued.triangles : placed.mesh.triangles;
+    flip_flat_faces(whole_mesh(*domain.whole, placed).positions, triangles);
+    return placed;
+}
+
+TriangleMesh whole_mesh(const Surface& whole, const PlacedDual& placed) {
+    std::vector<Vec3> positions = positions_of(whole, placed.mesh);
+    if (!placed.patches) return {std::move(positions), placed.mesh.triangles};
+    const GluedMesh& glued = placed.patches->glued;
+    return {take(positions, glued.first_of_group), glued.triangles};
+}
+
+TriangleMesh welded_mesh(const Domain& domain, const PlacedDual& placed) {
+    TriangleMesh mesh;
+    if (domain.has_junctions()) {
+        const GluedMesh& glued = placed.patches->glued;
+        mesh = {positions_of(*domain.whole, placed.mesh),
+                rename_vertices(glued.triangles, glued.first_of_group)};
+    } else {
+        mesh = whole_mesh(*domain.whole, placed);
+    }
+    if (domain.has_locked()) mesh.triangles = join_positions(mesh);
+    return mesh;
+}
+
+std::vector<Triangle> join_positions(const MeshView& mesh) {
+    Ticker none;
+    return rename_vertices(mesh.triangles, first_at_position(mesh.positions, none));
+}
+
+}  // namespace remesh::detail
