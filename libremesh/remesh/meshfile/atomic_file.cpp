@@ -23,8 +23,8 @@ namespace {
 namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const fs::path& path, int reason, const char* remedy) {
-    throw IoError(path.string() + ": cannot be written: " +
-                  std::generic_category().message(reason) + "; " + remedy);
+    throw IoError(joined(path.string(), ": cannot be written: ",
+                         std::generic_category().message(reason), "; ", remedy));
 }
 
 constexpr const char* check_folder =

@@ -40,10 +40,9 @@ public:
     void read(const PlyHeader& header) {
         for (const char* name : {"site", "curve_point", "voronoi_edge", "voronoi_vertex"}) {
             if (!count_.contains(name)) {
-                file_.fail_malformed(
-                    0, std::string("the file has no element ") + name +
-                           ", so that it holds no diagram; write one with `agvd diagram MESH -o "
-                           "FILE.agvd`");
+                file_.fail_malformed(0, "the file has no element ", name,
+                                     ", so that it holds no diagram; write one with `agvd diagram "
+                                     "MESH -o FILE.agvd`");
             }
             if (count_.at(name) >= no_index) fail("there are more than 2^32 - 2 elements");
         }
@@ -161,9 +160,9 @@ private:
         }
         values_.end();
         if (num_found != numbers.size() + lists.size()) {
-            file_.fail_malformed(0, "element " + element.name +
-                                        " lacks properties of a diagram; write one with `agvd "
-                                        "diagram MESH -o FILE.agvd`");
+            file_.fail_malformed(
+                0, "element ", element.name,
+                " lacks properties of a diagram; write one with `agvd diagram MESH -o FILE.agvd`");
         }
     }
 
@@ -188,14 +187,15 @@ private:
         const auto found = count_.find(element);
         if (!(number >= 0 && found != count_.end() && number < static_cast<double>(found->second) &&
               number == std::floor(number))) {
-            fail(std::string("the file names a ") + element + " that does not exist");
+            fail("the file names a ", element, " that does not exist");
         }
         return static_cast<Index>(number);
     }
 
-    [[noreturn]] void fail(const std::string& text) const {
-        file_.fail_unusable(
-            start_, text + "; the file is damaged: write the diagram again with `agvd diagram`");
+    template <typename... Parts>
+    [[noreturn]] void fail(Parts... parts) const {
+        file_.fail_unusable(start_, parts...,
+                            "; the file is damaged: write the diagram again with `agvd diagram`");
     }
 
     const SourceFile& file_;
@@ -428,8 +428,8 @@ const DiagramFormat& require_diagram_format(const std::filesystem::path& path) {
     for (const DiagramFormat& format : diagram_formats) {
         if (extension == format.extension) return format;
     }
-    throw IoError(path.string() + ": unknown extension " + in_quotes(path.extension().string()) +
-                  "; use .vtp, .ply, .obj or .agvd");
+    throw IoError(joined(path.string(), ": unknown extension ",
+                         in_quotes(path.extension().string()), "; use .vtp, .ply, .obj or .agvd"));
 }
 
 }  // namespace

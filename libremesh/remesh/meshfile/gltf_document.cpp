@@ -16,7 +16,6 @@ constexpr std::size_t glb_header_size = 12;
 constexpr std::size_t glb_chunk_header_size = 8;
 constexpr std::uint32_t json_chunk = 0x4E4F534A, bin_chunk = 0x004E4942;
 constexpr int max_depth = 64;
-constexpr const char* export_glb_again = "; export the file again";
 
 struct ComponentType {
     std::int64_t number;
@@ -59,23 +58,6 @@ bool is_harmless(const std::string& extension) {
                        [&](const char* begin) { return extension.starts_with(begin); });
 }
 
-// "a%20b" means "a b".
-std::string without_escapes(std::string_view uri) {
-    std::string text;
-    for (std::size_t i = 0; i < uri.size(); ++i) {
-        unsigned char byte = 0;
-        const char* const digits = uri.data() + i + 1;
-        if (uri[i] == '%' && i + 2 < uri.size() &&
-            std::from_chars(digits, digits + 2, byte, 16).ptr == digits + 2) {
-            text += static_cast<char>(byte);
-            i += 2;
-        } else {
-            text += uri[i];
-        }
-    }
-    return text;
-}
-
 }  // namespace
 
 GltfDocument::GltfDocument(SourceFile& file) : file_(file), file_size_(file.bytes.size()) {
@@ -103,10 +85,9 @@ GltfDocument::GltfDocument(SourceFile& file) : file_(file), file_size_(file.byte
     for (const nlohmann::json& extension : list(json_, "extensionsRequired")) {
         const std::string name = extension.is_string() ? extension.get<std::string>() : "?";
         if (is_harmless(name)) continue;
-        file_.fail_malformed(text_.begin,
-                             "the file needs the extension " + in_quotes(name) +
-                                 ", which is not supported; export it without, such as "
-                                 "without compression");
+        file_.fail_malformed(
+            text_.begin, "the file needs the extension ", in_quotes(name),
+            ", which is not supported; export it without, such as without compression");
     }
     read_buffers();
 }
@@ -115,20 +96,20 @@ void GltfDocument::read_chunks() {
     const std::string& bytes = file_.bytes;
     const auto require_size = [&](std::uint64_t size) {
         if (size <= bytes.size()) return;
-        file_.fail_malformed(bytes.size(), "the file ends before byte " + std::to_string(size) +
-                                               "; it is truncated: export the file again");
+        file_.fail_malformed(bytes.size(), "the file ends before byte ", size,
+                             "; it is truncated: export the file again");
     };
     require_size(glb_header_size + glb_chunk_header_size);
     const auto version = load<std::uint32_t>(&bytes[4]);
     if (version != 2) {
-        file_.fail_malformed(4, "glTF of version " + std::to_string(version) +
-                                    " is not supported; export the file as glTF 2.0");
+        file_.fail_malformed(4, "glTF of version ", version,
+                             " is not supported; export the file as glTF 2.0");
     }
     require_size(load<std::uint32_t>(&bytes[8]));
     const std::uint64_t json_size = load<std::uint32_t>(&bytes[glb_header_size]);
     const std::size_t json_begin = glb_header_size + glb_chunk_header_size;
     if (load<std::uint32_t>(&bytes[glb_header_size + 4]) != json_chunk) {
-        file_.fail_malformed(glb_header_size, "the first chunk is not JSON; export the file again");
+        file_.fail_damaged(glb_header_size, "the first chunk is not JSON");
     }
     require_size(json_begin + json_size);
     const std::size_t next = json_begin + json_size;
@@ -169,13 +150,13 @@ std::string GltfDocument::resource(const std::string& uri) const {
     }
     const std::filesystem::path path = without_escapes(uri);
     if (path.empty() || path.is_absolute() || uri.find("://") != std::string::npos) {
-        fail("data lie at " + in_quotes(uri) + ", but only files beside this one are read");
+        fail("data lie at ", in_quotes(uri), ", but only files beside this one are read");
     }
     try {
         Poller poller;
         return load_file(file_.path.parent_path() / path, poller).bytes;
     } catch (const IoError&) {
-        fail("the file " + in_quotes(path.string()) + ", which it names, cannot be read");
+        fail("the file ", in_quotes(path.string()), ", which it names, cannot be read");
     }
 }
 
@@ -201,19 +182,15 @@ GltfDocument::Range GltfDocument::range_of_view(const nlohmann::json& view,
     const std::uint64_t size = number(view, "byteLength").value_or(0);
     // No sum can overflow: each part is checked before it is added.
     if (begin > all.size || size > all.size - begin) {
-        fail(name + " does not lie within the data of the file");
+        fail(name, " does not lie within the data of the file");
     }
     return {all.begin + begin, size};
-}
-
-void GltfDocument::fail(const std::string& text) const {
-    file_.fail_malformed(text_.begin, text + export_glb_again);
 }
 
 const nlohmann::json& GltfDocument::at(const char* list_name, std::uint64_t index) const {
     const nlohmann::json& all = list(json_, list_name);
     if (index >= all.size() || !all[index].is_object()) {
-        fail(std::string(list_name) + " has no element " + std::to_string(index));
+        fail(list_name, " has no element ", index);
     }
     return all[index];
 }
@@ -222,7 +199,7 @@ const nlohmann::json& GltfDocument::list(const nlohmann::json& object, const cha
     static const nlohmann::json empty = nlohmann::json::array();
     const auto found = object.find(key);
     if (found == object.end()) return empty;
-    if (!found->is_array()) fail(std::string(key) + " is no list");
+    if (!found->is_array()) fail(key, " is no list");
     return *found;
 }
 
@@ -230,7 +207,7 @@ std::optional<std::uint64_t> GltfDocument::number(const nlohmann::json& object,
                                                   const char* key) const {
     const auto found = object.find(key);
     if (found == object.end()) return std::nullopt;
-    if (!found->is_number_unsigned()) fail(std::string(key) + " is no whole number from 0");
+    if (!found->is_number_unsigned()) fail(key, " is no whole number from 0");
     return found->get<std::uint64_t>();
 }
 
@@ -241,11 +218,10 @@ std::optional<std::vector<double>> GltfDocument::numbers(const nlohmann::json& o
     std::vector<double> values;
     for (const nlohmann::json& value : all) {
         values.push_back(value.is_number() ? value.get<double>() : std::nan(""));
-        if (!std::isfinite(values.back()))
-            fail(std::string(key) + " has a value that is no number");
+        if (!std::isfinite(values.back())) fail(key, " has a value that is no number");
     }
     if (values.size() != count) {
-        fail(std::string(key) + " does not have " + std::to_string(count) + " numbers");
+        fail(key, " does not have ", count, " numbers");
     }
     return values;
 }
@@ -254,7 +230,7 @@ GltfArray GltfDocument::array(std::uint64_t index) const {
     const nlohmann::json& accessor = at("accessors", index);
     const std::string name = "accessor " + std::to_string(index);
     if (accessor.contains("sparse") || !accessor.contains("bufferView")) {
-        fail(name + " is sparse or has no data, which is not supported");
+        fail(name, " is sparse or has no data, which is not supported");
     }
     const nlohmann::json& view = at("bufferViews", *number(accessor, "bufferView"));
     const auto type = static_cast<std::int64_t>(
@@ -263,7 +239,7 @@ GltfArray GltfDocument::array(std::uint64_t index) const {
     const auto shape = accessor.find("type");
     const std::size_t num_columns =
         shape != accessor.end() && shape->is_string() ? columns_of(shape->get<std::string>()) : 0;
-    if (component == nullptr || num_columns == 0) fail(name + " has an unknown type");
+    if (component == nullptr || num_columns == 0) fail(name, " has an unknown type");
     const std::size_t row_size = component->size * num_columns;
     const auto normalized = accessor.find("normalized");
     GltfArray array{.num_rows = number(accessor, "count").value_or(0),
@@ -278,7 +254,7 @@ GltfArray GltfDocument::array(std::uint64_t index) const {
     const std::uint64_t room = is_inside ? range.size - begin : 0;
     if (!is_inside || (array.num_rows > 0 && (room < row_size || (room - row_size) / array.stride <
                                                                      array.num_rows - 1))) {
-        fail(name + " does not lie within the data of the file");
+        fail(name, " does not lie within the data of the file");
     }
     array.offset = range.begin + begin;
     return array;

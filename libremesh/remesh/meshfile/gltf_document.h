@@ -55,7 +55,10 @@ public:
     //! \throw IoError  they lie in a file that cannot be read.
     [[nodiscard]] std::string image(const nlohmann::json& properties) const;
 
-    [[noreturn]] void fail(const std::string& text) const;
+    template <typename... Parts>
+    [[noreturn]] void fail(Parts... parts) const {
+        file_.fail_damaged(text_.begin, parts...);
+    }
 
 private:
     struct Range {

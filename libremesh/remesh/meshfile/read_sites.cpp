@@ -58,8 +58,8 @@ public:
         }
         if (result.sites.empty()) {
             scan_.fail_malformed(
-                "the file holds no site; write lines \"v INDEX\", \"f FACE B0 B1 B2\" or "
-                "\"p X Y Z\"");
+                "the file holds no site; write lines \"v INDEX\", \"f FACE B0 B1 B2\" or \"p X Y "
+                "Z\"");
         }
         judge_distances(result);
         judge_repeats(result);
@@ -83,10 +83,9 @@ private:
         const std::string text =
             "the point is " + detail::significant(farthest.distance) + " off the mesh";
         if (farthest.distance > spacing) {
-            file_.fail_unusable(farthest.start,
-                                text + ", more than the sites' spacing, " +
-                                    detail::significant(spacing) +
-                                    "; correct it, or give all points in the units of the mesh");
+            file_.fail_unusable(farthest.start, text, ", more than the sites' spacing, ",
+                                detail::significant(spacing),
+                                "; correct it, or give all points in the units of the mesh");
         }
         const auto is_told = [&](const Shift& s) { return s.distance > told_distance * spacing; };
         const auto count =
@@ -127,17 +126,16 @@ private:
             shifts_.push_back({std::sqrt(nearest.distance_sq), start_});
             return nearest.point;
         }
-        file_.fail_malformed(start_, "a site begins with v, f or p, not with " + in_quotes(kind) +
-                                         "; correct the line or begin it with #");
+        file_.fail_malformed(start_, "a site begins with v, f or p, not with ", in_quotes(kind),
+                             "; correct the line or begin it with #");
     }
 
     Index index(const char* what, const char* plural, std::size_t count) {
         const std::int64_t value = scan_.integer(("a " + std::string(what) + " index").c_str());
         if (value < 0 || static_cast<std::uint64_t>(value) >= count) {
-            file_.fail_unusable(start_, "the site names " + std::string(what) + " " +
-                                            std::to_string(value) + ", but the mesh has only " +
-                                            std::to_string(count) + " " + plural +
-                                            ", counted from 0; correct the line");
+            file_.fail_unusable(start_, "the site names ", what, " ", value,
+                                ", but the mesh has only ", count, " ", plural,
+                                ", counted from 0; correct the line");
         }
         return static_cast<Index>(value);
     }
@@ -152,8 +150,8 @@ private:
         }
         const Index corner = lowest_corner_[vertex];
         if (corner == no_index) {
-            file_.fail_unusable(start_, "vertex " + std::to_string(vertex) +
-                                            " is in no face; use a vertex of a face");
+            file_.fail_unusable(start_, "vertex ", vertex,
+                                " is in no face; use a vertex of a face");
         }
         SurfacePoint site{FaceId(corner / 3), {0, 0, 0}};
         site.barycentric[corner % 3] = 1;
@@ -213,13 +211,11 @@ std::vector<Index> read_vertices(const std::filesystem::path& path, const MeshVi
         const std::size_t start = scan.offset();
         const std::int64_t value = scan.integer("a vertex index");
         if (value < 0 || static_cast<std::uint64_t>(value) >= is_corner.size()) {
-            file.fail_unusable(start, "there is no vertex " + std::to_string(value) +
-                                          ": the mesh has " + std::to_string(is_corner.size()) +
-                                          " vertices, counted from 0; correct the line");
+            file.fail_unusable(start, "there is no vertex ", value, ": the mesh has ",
+                               is_corner.size(), " vertices, counted from 0; correct the line");
         }
         if (!is_corner[static_cast<std::size_t>(value)]) {
-            file.fail_unusable(start, "vertex " + std::to_string(value) +
-                                          " is in no face; use a vertex of a face");
+            file.fail_unusable(start, "vertex ", value, " is in no face; use a vertex of a face");
         }
         vertices.push_back(static_cast<Index>(value));
         if (scan.has_word()) scan.fail_expecting("the end of the line");
@@ -239,8 +235,8 @@ std::vector<std::array<Index, 2>> read_edges(const std::filesystem::path& path,
         const std::size_t start = scan.offset();
         const std::int64_t value = scan.integer("a vertex index");
         if (value < 0 || value >= no_index) {
-            file.fail_malformed(start, "the vertex index " + std::to_string(value) +
-                                           " is out of range; count vertices from 0");
+            file.fail_malformed(start, "the vertex index ", value,
+                                " is out of range; count vertices from 0");
         }
         return static_cast<Index>(value);
     };

@@ -17,8 +17,8 @@ namespace {
 
 void check(const std::filesystem::path& path, const MeshFormat& format, const MeshView& mesh) {
     const auto fail = [&](const char* kind, std::size_t index, const std::string& text) {
-        throw InvalidInput(path.string() + ": cannot be written: " + kind + " " +
-                           std::to_string(index) + " " + text);
+        throw InvalidInput(
+            joined(path.string(), ": cannot be written: ", kind, " ", index, " ", text));
     };
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
         if (!mesh.positions[v].allFinite()) {
@@ -48,15 +48,14 @@ void check(const std::filesystem::path& path, const std::vector<Attribute>& attr
         const std::string begin =
             path.string() + ": cannot be written: attribute " + attribute.name;
         if (attribute.values.size() != count) {
-            throw InvalidInput(begin + " has " + std::to_string(attribute.values.size()) +
-                               " values instead of " + std::to_string(count) +
-                               "; give one for each element");
+            throw InvalidInput(joined(begin, " has ", attribute.values.size(),
+                                      " values instead of ", count, "; give one for each element"));
         }
         const auto num_names = static_cast<double>(attribute.names.size());
         const auto has_name = [&](double value) { return value >= 0 && value < num_names; };
         if (num_names > 0 &&
             !std::all_of(attribute.values.begin(), attribute.values.end(), has_name)) {
-            throw InvalidInput(begin + " has a value without a name; add the name");
+            throw InvalidInput(joined(begin, " has a value without a name; add the name"));
         }
     }
 }
@@ -64,11 +63,9 @@ void check(const std::filesystem::path& path, const std::vector<Attribute>& attr
 void check(const std::filesystem::path& path, const TextureCoordinates& texture,
            std::size_t num_faces) {
     if (texture.empty() || texture.corners.size() == num_faces) return;
-    throw InvalidInput(path.string() +
-                       ": cannot be written: there are texture coordinates "
-                       "for " +
-                       std::to_string(texture.corners.size()) + " faces instead of " +
-                       std::to_string(num_faces) + "; give three for each");
+    throw InvalidInput(
+        joined(path.string(), ": cannot be written: there are texture coordinates for ",
+               texture.corners.size(), " faces instead of ", num_faces, "; give three for each"));
 }
 
 // Names and types.
