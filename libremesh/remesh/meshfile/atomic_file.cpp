@@ -10,11 +10,9 @@
 #include <algorithm>
 #include <cerrno>
 #include <deque>
-#include <string>
 #include <system_error>
 #include <utility>
 
-#include "agvd/core/error.h"
 #include "remesh/meshfile/source_file.h"
 
 namespace remesh {

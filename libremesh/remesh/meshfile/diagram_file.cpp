@@ -6,19 +6,12 @@
 // elements: all that read_diagram() needs to give every bit back.
 #include "remesh/meshfile/diagram_file.h"
 
-#include <algorithm>
-#include <cmath>
-#include <map>
 #include <set>
-#include <string>
 
-#include "agvd/core/error.h"
 #include "remesh/meshfile/atomic_file.h"
 #include "remesh/meshfile/formats.h"
-#include "remesh/meshfile/numbers.h"
 #include "remesh/meshfile/packed.h"
 #include "remesh/meshfile/ply_values.h"
-#include "remesh/meshfile/text.h"
 #include "remesh/meshfile/vtk_output.h"
 
 namespace remesh {

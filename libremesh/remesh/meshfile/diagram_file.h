@@ -4,7 +4,6 @@
 #pragma once
 
 #include <filesystem>
-#include <span>
 
 #include "agvd/diagram/diagram.h"
 #include "remesh/names.h"

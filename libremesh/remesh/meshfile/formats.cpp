@@ -1,15 +1,8 @@
 
 #include "remesh/meshfile/formats.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <utility>
-
-#include "agvd/core/error.h"
 #include "remesh/meshfile/numbers.h"
 #include "remesh/meshfile/packed.h"
-#include "remesh/meshfile/read_mesh.h"
 
 namespace remesh {
 namespace {

@@ -1,11 +1,5 @@
 #include "remesh/meshfile/gltf_document.h"
 
-#include <algorithm>
-#include <array>
-#include <charconv>
-#include <cmath>
-
-#include "agvd/core/error.h"
 #include "remesh/meshfile/byte_source.h"
 #include "remesh/meshfile/numbers.h"
 

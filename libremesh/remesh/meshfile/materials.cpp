@@ -2,9 +2,7 @@
 #include "remesh/meshfile/materials.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <utility>
 
 #include "remesh/meshfile/text.h"
 

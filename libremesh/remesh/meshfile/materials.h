@@ -3,12 +3,9 @@
 //! readers and writers.
 #pragma once
 
-#include <array>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <span>
-#include <string>
 #include <utility>
 
 #include "remesh/meshfile/read_mesh.h"

@@ -4,14 +4,12 @@
 // interactive mesh visualization software", INRIA RT-0253, 2001).
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <set>
 #include <utility>
 
 #include "remesh/meshfile/formats.h"
 #include "remesh/meshfile/polygon_soup.h"
-#include "remesh/meshfile/text.h"
 #include "remesh/meshfile/text_scanner.h"
 
 namespace remesh {

@@ -3,11 +3,7 @@
 // are never split (format: Wavefront, Advanced Visualizer Manual, appendix B1).
 
 #include <algorithm>
-#include <array>
-#include <map>
-#include <utility>
 
-#include "agvd/mesh/mesh.h"
 #include "remesh/meshfile/formats.h"
 #include "remesh/meshfile/materials.h"
 #include "remesh/meshfile/polygon_soup.h"

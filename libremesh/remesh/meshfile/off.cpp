@@ -8,18 +8,10 @@
 // Writes OFF; with colours of vertices COFF, with normals NOFF, with texture coordinates STOFF.
 // Colours of uchar are whole numbers, others lie between 0 and 1.
 
-#include <algorithm>
-#include <array>
-#include <utility>
-
-#include "agvd/mesh/mesh.h"
 #include "remesh/meshfile/formats.h"
 #include "remesh/meshfile/materials.h"
-#include "remesh/meshfile/numbers.h"
 #include "remesh/meshfile/ply_values.h"
 #include "remesh/meshfile/polygon_soup.h"
-#include "remesh/meshfile/text.h"
-#include "remesh/meshfile/text_scanner.h"
 
 namespace remesh {
 namespace {

@@ -3,8 +3,6 @@
 #include <zlib.h>
 #include <algorithm>
 #include <new>
-#include <utility>
-#include <vector>
 
 namespace remesh {
 namespace {

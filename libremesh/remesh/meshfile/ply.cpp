@@ -5,10 +5,8 @@
 // PLY Polygon File Format", 1994). Written are coordinates in double, and texture coordinates as
 // lists of faces.
 
-#include <algorithm>
 #include <utility>
 
-#include "agvd/mesh/mesh.h"
 #include "remesh/meshfile/formats.h"
 #include "remesh/meshfile/ply_values.h"
 #include "remesh/meshfile/polygon_soup.h"

@@ -4,13 +4,7 @@
 //! it), so that the readers of elements are templates.
 #pragma once
 
-#include <bit>
-#include <optional>
-#include <vector>
-
 #include "remesh/meshfile/numbers.h"
-#include "remesh/meshfile/read_mesh.h"
-#include "remesh/meshfile/source_file.h"
 #include "remesh/meshfile/text_scanner.h"
 
 namespace remesh {

@@ -6,9 +6,6 @@
 #include <utility>
 
 #include "agvd/core/bucket_sort.h"
-#include "agvd/core/error.h"
-#include "remesh/meshfile/read_mesh.h"
-#include "remesh/meshfile/text.h"
 
 namespace remesh {
 namespace {

@@ -5,10 +5,6 @@
 //! The surface of tetrahedra, hexahedra and the like. Private to the readers.
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <span>
-
 #include "remesh/meshfile/read_mesh.h"
 #include "remesh/meshfile/source_file.h"
 

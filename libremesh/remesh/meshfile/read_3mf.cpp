@@ -4,7 +4,6 @@
 // Properties Extension" 1.2, "Production Extension" 1.1).
 
 #include <algorithm>
-#include <charconv>
 #include <memory>
 
 #include "remesh/meshfile/formats.h"

@@ -3,13 +3,8 @@
 // materials are kept with their images (format: Khronos Group, glTF 2.0 Specification).
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
-#include <set>
-#include <utility>
 
-#include "agvd/core/error.h"
 #include "remesh/meshfile/formats.h"
 #include "remesh/meshfile/gltf_document.h"
 #include "remesh/meshfile/materials.h"

@@ -6,17 +6,13 @@
 //! Cuts polygons into triangles.
 #pragma once
 
-#include <array>
-#include <cstdint>
+#include <concepts>
 #include <filesystem>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "agvd/core/progress.h"
-#include "agvd/core/types.h"
 #include "agvd/mesh/mesh.h"
 #include "remesh/names.h"
 
@@ -168,6 +164,10 @@ struct MeshPath {
     //! "ply", "obj", ...; empty: the extension names it, in any case. Either may end in ".gz":
     //! compressed. On reading the file itself tells whether it is.
     std::string format = {};
+
+    //! Of a path, or what can become one.
+    template <std::convertible_to<std::filesystem::path> Path>
+    MeshPath(const Path& file, std::string name = {}) : path(file), format(std::move(name)) {}
 };
 
 //! What was read from a file.

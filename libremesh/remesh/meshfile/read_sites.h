@@ -4,13 +4,10 @@
 //! Reads edges that the user named.
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <string>
-#include <vector>
 
 #include "agvd/core/progress.h"
-#include "agvd/core/types.h"
 #include "agvd/mesh/mesh.h"
 #include "remesh/names.h"
 

@@ -6,10 +6,7 @@
 #include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
-#include <algorithm>
 #include <cerrno>
-#include <limits>
-#include <optional>
 #include <system_error>
 
 #include "remesh/meshfile/numbers.h"

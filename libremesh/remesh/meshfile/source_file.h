@@ -3,10 +3,7 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
-#include <string_view>
 
-#include "agvd/core/error.h"
 #include "agvd/core/progress.h"
 #include "remesh/meshfile/text.h"
 

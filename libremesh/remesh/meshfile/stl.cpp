@@ -2,7 +2,6 @@
 // become one. Normals and attributes are skipped (format: 3D Systems, StereoLithography Interface
 // Specification, 1989).
 
-#include "agvd/core/error.h"
 #include "remesh/meshfile/formats.h"
 #include "remesh/meshfile/numbers.h"
 #include "remesh/meshfile/point_welder.h"

@@ -1,7 +1,5 @@
 #include <limits>
 
-#include "agvd/core/error.h"
-#include "agvd/core/types.h"
 #include "agvd/mesh/any_mesh.h"
 #include "remesh/meshfile/read_mesh.h"
 #include "remesh/meshfile/text.h"

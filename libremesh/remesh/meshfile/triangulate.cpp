@@ -6,9 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <vector>
 
-#include "agvd/core/types.h"
 #include "remesh/meshfile/read_mesh.h"
 
 namespace remesh {

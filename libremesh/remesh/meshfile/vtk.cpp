@@ -4,17 +4,10 @@
 // Writes legacy VTK of version 3.0, which all programs read: binary POLYDATA with coordinates in
 // double. Texture coordinates belong to points.
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <utility>
 
-#include "agvd/core/error.h"
-#include "agvd/mesh/mesh.h"
 #include "remesh/meshfile/formats.h"
-#include "remesh/meshfile/numbers.h"
 #include "remesh/meshfile/text_scanner.h"
-#include "remesh/meshfile/vtk_data.h"
 #include "remesh/meshfile/vtk_output.h"
 
 namespace remesh {

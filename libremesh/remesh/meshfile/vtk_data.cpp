@@ -1,8 +1,5 @@
 #include "remesh/meshfile/vtk_data.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <utility>
 
 #include "remesh/meshfile/formats.h"

@@ -4,9 +4,6 @@
 #pragma once
 
 #include <bit>
-#include <optional>
-#include <string>
-#include <vector>
 
 #include "remesh/meshfile/read_mesh.h"
 #include "remesh/meshfile/source_file.h"

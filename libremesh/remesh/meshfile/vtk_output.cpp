@@ -2,15 +2,8 @@
 // in double.
 #include "remesh/meshfile/vtk_output.h"
 
-#include <algorithm>
-#include <array>
-#include <utility>
-
-#include "agvd/mesh/mesh.h"
 #include "remesh/meshfile/formats.h"
 #include "remesh/meshfile/materials.h"
-#include "remesh/meshfile/numbers.h"
-#include "remesh/meshfile/vtk_data.h"
 
 namespace remesh {
 namespace {

@@ -4,15 +4,7 @@
 //! them. Private to the writers of meshes and diagrams.
 #pragma once
 
-#include <array>
-#include <bit>
-#include <cstdint>
-#include <string>
-#include <vector>
-
-#include "agvd/core/progress.h"
 #include "remesh/meshfile/numbers.h"
-#include "remesh/meshfile/read_mesh.h"
 #include "remesh/meshfile/vtk_data.h"
 
 namespace remesh {

@@ -2,11 +2,6 @@
 // mesh, piece after piece (format: The VTK User's Guide, "VTK File Formats", "XML File Formats").
 // Appended data may hold any bytes: XML is read up to the '_' that begins them.
 
-#include <algorithm>
-#include <charconv>
-#include <map>
-#include <utility>
-
 #include "remesh/meshfile/byte_source.h"
 #include "remesh/meshfile/formats.h"
 #include "remesh/meshfile/numbers.h"

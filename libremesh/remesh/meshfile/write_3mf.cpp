@@ -3,14 +3,11 @@
 // that read back as the same number.
 
 #include <algorithm>
-#include <map>
 #include <numeric>
-#include <utility>
 
 #include "remesh/meshfile/formats.h"
 #include "remesh/meshfile/materials.h"
 #include "remesh/meshfile/packed.h"
-#include "remesh/meshfile/text.h"
 
 namespace remesh {
 namespace {

@@ -2,17 +2,10 @@
 // single precision and colours in bytes; a primitive for each material, and the materials with
 // their images. Vertices are split where their corners' coordinates differ.
 
-#include <algorithm>
-#include <array>
-#include <limits>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <numeric>
-#include <span>
 #include <tuple>
 
-#include "agvd/core/error.h"
-#include "agvd/mesh/mesh.h"
 #include "remesh/meshfile/formats.h"
 #include "remesh/meshfile/materials.h"
 #include "remesh/meshfile/numbers.h"

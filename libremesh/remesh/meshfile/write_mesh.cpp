@@ -4,9 +4,7 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <limits>
 
-#include "agvd/core/error.h"
 #include "remesh/meshfile/atomic_file.h"
 #include "remesh/meshfile/formats.h"
 #include "remesh/meshfile/packed.h"
@@ -127,12 +125,7 @@ std::string short_number(double value) {
 
 std::string format_mesh(const std::filesystem::path& path, const MeshView& mesh,
                         const Progress& progress) {
-    return format_mesh(MeshPath{path}, mesh, {}, progress);
-}
-
-std::string format_mesh(const std::filesystem::path& path, const MeshView& mesh,
-                        const MeshAttributes& attributes, const Progress& progress) {
-    return format_mesh(MeshPath{path}, mesh, attributes, progress);
+    return format_mesh(MeshPath(path), mesh, {}, progress);
 }
 
 std::string format_mesh(const MeshPath& path, const MeshView& mesh,
@@ -145,11 +138,6 @@ std::string format_mesh(const MeshPath& path, const MeshView& mesh,
     check(path.path, attributes.texture, mesh.triangles.size());
     std::string bytes = format.format(mesh, attributes, Ticker(poller));
     return is_compressed(path) ? pack_gzip(bytes, Ticker(poller)) : bytes;
-}
-
-std::vector<std::string> remove_unwritable(const std::filesystem::path& path,
-                                           MeshAttributes& attributes) {
-    return remove_unwritable(MeshPath{path}, attributes);
 }
 
 std::vector<std::string> remove_unwritable(const MeshPath& path, MeshAttributes& attributes) {
@@ -201,10 +189,6 @@ std::string describe_unit(const MeshPath& path, const std::string& unit) {
 
 void write_mesh(const std::filesystem::path& path, const MeshView& mesh, const Progress& progress) {
     write_file_atomically(path, format_mesh(path, mesh, progress), progress);
-}
-
-bool is_known_mesh_extension(const std::filesystem::path& path) {
-    return is_known_mesh_format({path});
 }
 
 bool is_known_mesh_format(const MeshPath& path) { return find_format(path) != nullptr; }

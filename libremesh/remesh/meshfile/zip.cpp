@@ -2,8 +2,6 @@
 // (format: PKWARE, "APPNOTE.TXT - .ZIP File Format Specification", version 6.3). Sizes are those of
 // the directory; none of them is believed.
 
-#include <algorithm>
-
 #include "remesh/meshfile/numbers.h"
 #include "remesh/meshfile/packed.h"
 
