@@ -1,6 +1,3 @@
-// Writes each file to a temporary one in the target's folder, and renames the temporary files once
-// all are complete. A temporary is removed on every failure. Devices and pipes are written to
-// directly.
 #include "remesh/meshfile/atomic_file.h"
 
 #include <fcntl.h>

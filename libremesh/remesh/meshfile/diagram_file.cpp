@@ -1,9 +1,5 @@
-// Reads the elements of write_diagram's .agvd one after the other; each is checked against the
-// counts of the elements that it refers to. An index out of range, or a count that does not fit, is
-// an error that names the place in the file.
-// Formats a diagram (docs/io.md, "Diagrams"): VTK PolyData of surface, edges and sites, OBJ lines,
-// or a mesh whose vertices have labels and distances. The format .agvd is such a PLY with further
-// elements: all that read_diagram() needs to give every bit back.
+// Formats of a diagram (docs/io.md, "Diagrams"). The format .agvd is a PLY with further elements:
+// all that read_diagram() needs to give every bit back.
 #include "remesh/meshfile/diagram_file.h"
 
 #include <set>
@@ -336,8 +332,8 @@ std::string format_ply_mesh(const DrawnDiagram& drawn, Ticker ticker) {
 }
 
 void append_point(std::string& bytes, const SurfacePoint& point) {
-    append(bytes, point.face.value());
-    for (const double b : point.barycentric) append(bytes, b);
+    const auto& [a, b, c] = point.barycentric;
+    append_all(bytes, point.face.value(), a, b, c);
 }
 
 template <typename Items, typename NumberOf>
@@ -377,8 +373,7 @@ std::string format_whole_diagram(const DrawnDiagram& drawn, Ticker ticker) {
     bytes.insert(bytes.find("end_header\n"), diagram_header(diagram));
     for (Index s = 0; s < diagram.num_sites; ++s) {
         append_point(bytes, drawn.sites[s]);
-        append(bytes, diagram.cell_area[s]);
-        append(bytes, std::int32_t{diagram.cell_euler[s]});
+        append_all(bytes, diagram.cell_area[s], std::int32_t{diagram.cell_euler[s]});
     }
     for (std::size_t p = 0; p < diagram.points.size(); ++p) {
         ticker.tick();
@@ -388,11 +383,9 @@ std::string format_whole_diagram(const DrawnDiagram& drawn, Ticker ticker) {
     for (Index e = 0; e < num_edges(diagram); ++e) {
         ticker.tick();
         const auto& [left, right, tail, head] = diagram.edges[e];
-        append(bytes, site_number(left));
-        append(bytes, site_number(right));
-        append(bytes, tail);  // no_index has the bits of -1.
-        append(bytes, head);
-        append(bytes, diagram.edge_points[e + 1] - diagram.edge_points[e]);
+        // no_index has the bits of -1.
+        append_all(bytes, site_number(left), site_number(right), tail, head,
+                   diagram.edge_points[e + 1] - diagram.edge_points[e]);
     }
     for (std::size_t v = 0; v < diagram.vertices.size(); ++v) {
         ticker.tick();

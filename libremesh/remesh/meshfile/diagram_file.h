@@ -1,6 +1,5 @@
 //! \file
-//! Reads a geodesic Voronoi diagram that write_diagram wrote as .agvd.
-//! Writes a geodesic Voronoi diagram for viewers.
+//! Reads and writes geodesic Voronoi diagrams.
 #pragma once
 
 #include <filesystem>

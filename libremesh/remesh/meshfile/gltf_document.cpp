@@ -11,32 +11,18 @@ constexpr std::size_t glb_chunk_header_size = 8;
 constexpr std::uint32_t json_chunk = 0x4E4F534A, bin_chunk = 0x004E4942;
 constexpr int max_depth = 64;
 
-struct ComponentType {
-    std::int64_t number;
-    std::size_t size;
-    double largest;  // That of the type, for numbers that are normalized.
-    double (*load)(const char* bytes);
-};
-
 template <typename T>
 double load_component(const char* bytes) {
     return static_cast<double>(load<T>(bytes));
 }
 
 constexpr std::array component_types = {
-    ComponentType{5120, 1, 127, load_component<std::int8_t>},
-    ComponentType{5121, 1, 255, load_component<std::uint8_t>},
-    ComponentType{5122, 2, 32767, load_component<std::int16_t>},
-    ComponentType{5123, 2, 65535, load_component<std::uint16_t>},
-    ComponentType{5125, 4, 0, load_component<std::uint32_t>},
-    ComponentType{5126, 4, 0, load_component<float>}};
-
-const ComponentType* find_component_type(std::int64_t number) {
-    const auto found =
-        std::find_if(component_types.begin(), component_types.end(),
-                     [&](const ComponentType& type) { return type.number == number; });
-    return found == component_types.end() ? nullptr : &*found;
-}
+    GltfComponent{5120, 1, 127, load_component<std::int8_t>},
+    GltfComponent{5121, 1, 255, load_component<std::uint8_t>},
+    GltfComponent{5122, 2, 32767, load_component<std::int16_t>},
+    GltfComponent{5123, 2, 65535, load_component<std::uint16_t>},
+    GltfComponent{5125, 4, 0, load_component<std::uint32_t>},
+    GltfComponent{5126, 4, 0, load_component<float>}};
 
 std::size_t columns_of(const std::string& type) {
     constexpr std::array names = {"SCALAR", "VEC2", "VEC3", "VEC4"};
@@ -227,20 +213,21 @@ GltfArray GltfDocument::array(std::uint64_t index) const {
         fail(name, " is sparse or has no data, which is not supported");
     }
     const nlohmann::json& view = at("bufferViews", *number(accessor, "bufferView"));
-    const auto type = static_cast<std::int64_t>(
-        std::min<std::uint64_t>(number(accessor, "componentType").value_or(0), 1 << 16));
-    const ComponentType* const component = find_component_type(type);
+    const std::uint64_t type = number(accessor, "componentType").value_or(0);
+    const auto component =
+        std::find_if(component_types.begin(), component_types.end(),
+                     [&](const GltfComponent& known) { return known.number == type; });
     const auto shape = accessor.find("type");
     const std::size_t num_columns =
         shape != accessor.end() && shape->is_string() ? columns_of(shape->get<std::string>()) : 0;
-    if (component == nullptr || num_columns == 0) fail(name, " has an unknown type");
+    if (component == component_types.end() || num_columns == 0) fail(name, " has an unknown type");
     const std::size_t row_size = component->size * num_columns;
     const auto normalized = accessor.find("normalized");
     GltfArray array{.num_rows = number(accessor, "count").value_or(0),
                     .num_columns = num_columns,
                     .is_normalized = normalized != accessor.end() && *normalized == true &&
                                      component->largest > 0,
-                    .component_type = type};
+                    .component = &*component};
     array.stride = number(view, "byteStride").value_or(row_size);
     const Range range = range_of_view(view, name);
     const std::uint64_t begin = number(accessor, "byteOffset").value_or(0);
@@ -255,7 +242,7 @@ GltfArray GltfDocument::array(std::uint64_t index) const {
 }
 
 double GltfDocument::value(const GltfArray& array, std::uint64_t row, std::size_t column) const {
-    const ComponentType& type = *find_component_type(array.component_type);
+    const GltfComponent& type = *array.component;
     const double number =
         type.load(file_.bytes.data() + array.offset + row * array.stride + column * type.size);
     return array.is_normalized ? std::max(number / type.largest, -1.0) : number;

@@ -29,6 +29,12 @@ void append(std::string& bytes, T value, std::endian order = std::endian::little
     bytes.append(raw.data(), raw.size());
 }
 
+//! Appends some values, little endian.
+template <typename... Numbers>
+void append_all(std::string& bytes, Numbers... numbers) {
+    (append(bytes, numbers), ...);
+}
+
 //! Calls `call` with a zero of the type. \return what it returns.
 template <typename Call>
 [[gnu::always_inline]] inline auto with_type(NumberType type, const Call& call) {

@@ -107,21 +107,18 @@ private:
     std::vector<std::string> material_files_;
 };
 
-struct ObjCorner {
-    std::int64_t vertex;         // From 0.
-    std::string_view rest = {};  // What follows it: vt, /vn or vt/vn.
-};
-
 // The file counts from 1, or with negative numbers back from the last vertex so far. What follows
 // (/vt, //vn, /vt/vn) must look like that.
-ObjCorner read_corner(TextScanner& scan, const SourceFile& file, std::size_t num_vertices) {
-    ObjCorner corner{};
+// \return the vertex from 0, and what follows it: vt, /vn or vt/vn.
+std::pair<std::int64_t, std::string_view> read_corner(TextScanner& scan, const SourceFile& file,
+                                                      std::size_t num_vertices) {
+    std::string_view rest;
     const std::size_t start = scan.offset();
     const std::int64_t number = scan.integer("a corner (v, v/vt, v//vn or v/vt/vn)", '/');
     const std::size_t slash = scan.offset();
     if (scan.take("/")) {
-        corner.rest = scan.rest_of_word();
-        if (corner.rest.find_first_not_of("0123456789-/") != std::string_view::npos) {
+        rest = scan.rest_of_word();
+        if (rest.find_first_not_of("0123456789-/") != std::string_view::npos) {
             file.fail_malformed(slash,
                                 "expected texture and normal numbers after a corner's '/'; correct "
                                 "the line, or export the file again");
@@ -135,8 +132,7 @@ ObjCorner read_corner(TextScanner& scan, const SourceFile& file, std::size_t num
                          : ", but only " + std::to_string(count) + " vertices come before it"),
             "; correct the face, or export the file again");
     }
-    corner.vertex = number > 0 ? number - 1 : count + number;
-    return corner;
+    return {number > 0 ? number - 1 : count + number, rest};
 }
 
 // Flat drawings have two coordinates: 2 or 3, as the vertex that comes next has.
@@ -189,49 +185,41 @@ void append_labels(std::string& bytes, const std::vector<Attribute>& of_faces, s
     }
 }
 
-// Numbers of texture coordinates, from 1.
-class ObjTexture {
-public:
-    // Appends the lines vt.
-    ObjTexture(const TextureCoordinates& texture, Ticker& ticker, std::string& bytes) {
-        const bool is_single = texture.type == NumberType::Float32;
-        for (const CornerCoordinates& corners : texture.corners) {
-            ticker.tick(4);
-            for (const Vec2& p : corners) {
-                if (!is_whole(corners)) {
-                    number_.push_back(0);
-                    continue;
-                }
-                const auto [known, is_new] = known_.try_emplace({p.x(), p.y()}, known_.size() + 1);
-                number_.push_back(known->second);
-                if (!is_new) continue;
-                if (is_single) {
-                    append_line(bytes, "vt ", p.cast<float>().eval());
-                } else {
-                    append_line(bytes, "vt ", p);
-                }
+// Appends the lines vt. \return for each corner the number of its coordinates, from 1; 0: it has
+// none.
+std::vector<std::size_t> append_texture(std::string& bytes, const TextureCoordinates& texture,
+                                        Ticker& ticker) {
+    std::map<std::pair<double, double>, std::size_t> known;
+    std::vector<std::size_t> numbers;
+    for (const CornerCoordinates& corners : texture.corners) {
+        ticker.tick(4);
+        for (const Vec2& p : corners) {
+            if (!is_whole(corners)) {
+                numbers.push_back(0);
+                continue;
+            }
+            const auto [entry, is_new] = known.try_emplace({p.x(), p.y()}, known.size() + 1);
+            numbers.push_back(entry->second);
+            if (is_new && texture.type == NumberType::Float32) {
+                append_line(bytes, "vt ", p.cast<float>().eval());
+            } else if (is_new) {
+                append_line(bytes, "vt ", p);
             }
         }
     }
+    return numbers;
+}
 
-    // 0: there is none.
-    [[nodiscard]] std::size_t operator()(std::size_t face, std::size_t corner) const {
-        return number_.empty() ? 0 : number_[3 * face + corner];
-    }
-
-private:
-    std::map<std::pair<double, double>, std::size_t> known_;
-    std::vector<std::size_t> number_;
-};
-
+// \param texture  see append_texture; empty: there is none.
 void append_face(std::string& bytes, const Triangle& triangle, std::size_t face, bool has_normals,
-                 const ObjTexture& texture) {
+                 const std::vector<std::size_t>& texture) {
     bytes += 'f';
     for (std::size_t k = 0; k < 3; ++k) {
         const std::string number = std::to_string(triangle[k] + 1ull);
+        const std::size_t coordinates = texture.empty() ? 0 : texture[3 * face + k];
         bytes.append(" ").append(number);
-        if (texture(face, k) > 0) bytes.append("/").append(std::to_string(texture(face, k)));
-        if (has_normals) bytes.append(texture(face, k) > 0 ? "/" : "//").append(number);
+        if (coordinates > 0) bytes.append("/").append(std::to_string(coordinates));
+        if (has_normals) bytes.append(coordinates > 0 ? "/" : "//").append(number);
     }
     bytes += '\n';
 }
@@ -259,9 +247,9 @@ MeshFile read_obj(SourceFile file) {
         } else if (statement == "f") {
             while (scan.has_word()) {
                 const std::size_t start = scan.offset();
-                const ObjCorner corner = read_corner(scan, file, soup.positions.size());
-                soup.add_corner(corner.vertex, start);
-                if (attributes.is_wanted()) take_coordinates(corner.rest, soup);
+                const auto [vertex, rest] = read_corner(scan, file, soup.positions.size());
+                soup.add_corner(vertex, start);
+                if (attributes.is_wanted()) take_coordinates(rest, soup);
             }
             soup.end_polygon();
         } else {
@@ -303,7 +291,7 @@ std::string format_obj(const MeshView& mesh, const MeshAttributes& attributes, T
             append_line(bytes, "vn ", normal.cast<float>().eval());
         }
     }
-    const ObjTexture texture(attributes.texture, ticker, bytes);
+    const auto texture = append_texture(bytes, attributes.texture, ticker);
     for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
         ticker.tick();
         append_labels(bytes, attributes.of_faces, f);

@@ -1,12 +1,9 @@
-// OFF, and COFF, NOFF, STOFF, as text and binary: coordinates, corners, and colours of both;
-// normals are skipped (format: Geomview manual, "OFF Files").
-//
-// Of a text reads one element from each line, as most writers do it; the rest of a line after a
-// vertex's coordinates or a face's corners is optional. The corners of a face may go on over the
-// next lines, which hold nothing else: otherwise a line that lacks a corner would take one from the
-// next face. A file with another layout runs out of lines, which is an error.
-// Writes OFF; with colours of vertices COFF, with normals NOFF, with texture coordinates STOFF.
-// Colours of uchar are whole numbers, others lie between 0 and 1.
+// OFF, and COFF, NOFF, STOFF, as text and binary: coordinates, corners, colours and texture
+// coordinates; normals are skipped (format: Geomview manual, "OFF Files").
+// Of a text each line holds one element, as most writers do it. The corners of a face may go on
+// over the next lines, which hold nothing else: otherwise a line that lacks a corner would take one
+// from the next face. A file with another layout runs out of lines, which is an error. Colours of
+// uchar are written as whole numbers, others lie between 0 and 1.
 
 #include "remesh/meshfile/formats.h"
 #include "remesh/meshfile/materials.h"

@@ -1,6 +1,3 @@
-// Reads the header line by line: the format, then elements with their properties in order. The data
-// begin behind the line of end_header.
-
 #include "remesh/meshfile/ply_values.h"
 
 namespace remesh {

@@ -12,6 +12,14 @@ namespace {
 
 constexpr const char* export_again = "; correct the face, or export the file again";
 
+void require_index(std::int64_t vertex, const char* kind, std::size_t number, std::size_t offset,
+                   const SourceFile& file) {
+    if (vertex >= 0 && vertex < no_index) return;
+    file.fail_unusable(offset, kind, " ", number, " names vertex ", vertex, ", which is ",
+                       vertex < 0 ? "negative" : "too large", "; correct the ", kind,
+                       ", or export the file again");
+}
+
 // The places in a polygon of its triangles' corners. Where a vertex comes twice, its first place.
 void append_corners(std::span<const Index> polygon, std::size_t begin,
                     std::span<const Triangle> triangles, std::vector<std::size_t>& corner) {
@@ -110,10 +118,7 @@ void PolygonSoup::reserve(std::uint64_t vertices, std::uint64_t polygons) {
 }
 
 void PolygonSoup::add_corner(std::int64_t vertex, std::size_t offset) {
-    if (vertex < 0 || vertex >= no_index) {
-        file_.fail_unusable(offset, "face ", num_polygons(), " names vertex ", vertex,
-                            ", which is ", (vertex < 0 ? "negative" : "too large"), export_again);
-    }
+    require_index(vertex, "face", num_polygons(), offset, file_);
     const auto index = static_cast<Index>(vertex);
     if (index > highest_) {
         highest_ = index;
@@ -214,11 +219,7 @@ TextureCoordinates PolygonSoup::texture_of(const TriangleMesh& mesh,
 }
 
 void VolumeSurface::add_corner(std::int64_t vertex, std::size_t offset) {
-    if (vertex < 0 || vertex >= no_index) {
-        file_.fail_unusable(offset, "cell ", num_cells(), " names vertex ", vertex, ", which is ",
-                            (vertex < 0 ? "negative" : "too large"),
-                            "; correct the cell, or export the file again");
-    }
+    require_index(vertex, "cell", num_cells(), offset, file_);
     corners_.push_back(static_cast<Index>(vertex));
     if (corners_.back() < highest_) return;
     highest_ = corners_.back();

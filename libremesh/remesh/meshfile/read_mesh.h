@@ -1,9 +1,5 @@
 //! \file
-//! Texture coordinates at the corners of faces, and the edges along which they disagree.
-//! What a mesh file holds besides coordinates and corners.
-//! What a mesh file holds, and how strictly it is read.
-//! Reads PLY, OBJ, OFF, STL, VTK, Medit, 3MF and glTF.
-//! Cuts polygons into triangles.
+//! Reads PLY, OBJ, OFF, STL, VTK, Medit, 3MF and glTF: the mesh and what the file holds besides.
 #pragma once
 
 #include <concepts>

@@ -1,7 +1,5 @@
 //! \file
-//! Reads sites that the user placed.
-//! Reads vertices that the user named.
-//! Reads edges that the user named.
+//! Reads sites, vertices and edges that the user named.
 #pragma once
 
 #include <filesystem>

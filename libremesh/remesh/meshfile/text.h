@@ -25,20 +25,23 @@ namespace detail {
     return std::to_string(count) + ' ' + (count == 1 ? noun : plural);
 }
 
-//! printf's %.*f, without a locale's comma.
-[[nodiscard]] inline std::string fixed(double value, int digits) {
+//! The number as a stream with this manipulator writes it, without a locale's comma.
+[[nodiscard]] inline std::string written(double value, int digits,
+                                         std::ios_base& (*form)(std::ios_base&)) {
     std::ostringstream out;
     out.imbue(std::locale::classic());
-    out << std::fixed << std::setprecision(digits) << value;
+    out << form << std::setprecision(digits) << value;
     return out.str();
 }
 
-//! printf's %.4g, without a locale's comma.
+//! printf's %.*f.
+[[nodiscard]] inline std::string fixed(double value, int digits) {
+    return written(value, digits, std::fixed);
+}
+
+//! printf's %.4g.
 [[nodiscard]] inline std::string significant(double value) {
-    std::ostringstream out;
-    out.imbue(std::locale::classic());
-    out << std::setprecision(4) << value;
-    return out.str();
+    return written(value, 4, std::defaultfloat);
 }
 
 }  // namespace detail

@@ -1,8 +1,7 @@
-// Legacy VTK, ascii and binary (big endian): POLYDATA and UNSTRUCTURED_GRID. Points,
-// cells, and arrays of points and cells as attributes (format: The VTK User's Guide, "VTK File
-// Formats"; since version 5 cells are two arrays, OFFSETS and CONNECTIVITY).
-// Writes legacy VTK of version 3.0, which all programs read: binary POLYDATA with coordinates in
-// double. Texture coordinates belong to points.
+// Legacy VTK, ascii and binary (big endian): POLYDATA and UNSTRUCTURED_GRID with points, cells, and
+// arrays of both as attributes (format: The VTK User's Guide, "VTK File Formats"; since version 5
+// cells are two arrays, OFFSETS and CONNECTIVITY). Written is version 3.0, which all programs read:
+// binary POLYDATA with coordinates in double.
 
 #include <utility>
 

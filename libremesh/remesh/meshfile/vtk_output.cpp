@@ -1,5 +1,3 @@
-// Writes VTK's XML PolyData (.vtp) and UnstructuredGrid (.vtu): a piece of triangles, coordinates
-// in double.
 #include "remesh/meshfile/vtk_output.h"
 
 #include "remesh/meshfile/formats.h"

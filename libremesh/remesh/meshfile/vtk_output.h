@@ -1,7 +1,5 @@
 //! \file
-//! Attributes as VTK's files hold them, in both formats. Private to the writers of VTK.
-//! Writes VTK's XML PolyData and UnstructuredGrid: arrays of numbers behind XML that describes
-//! them. Private to the writers of meshes and diagrams.
+//! What both formats of VTK share, and VTK's XML. Private to the writers of meshes and diagrams.
 #pragma once
 
 #include "remesh/meshfile/numbers.h"

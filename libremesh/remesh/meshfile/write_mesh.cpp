@@ -77,8 +77,8 @@ std::vector<Attribute> without_values(const std::vector<Attribute>& attributes) 
 constexpr double share_of_edge = 0.05;
 constexpr double share_of_diagonal = 1e-6;
 
-// Number by number: g++ 12 drops both conversions from p.cast<float>().cast<double>() at -O3.
-Vec3 rounded(const Vec3& p) {
+// Number by number and not in line: otherwise g++ 12 drops both conversions at -O3.
+[[gnu::noinline]] Vec3 rounded(const Vec3& p) {
     Vec3 q;
     for (int k = 0; k < 3; ++k) q[k] = static_cast<float>(p[k]);
     return q;

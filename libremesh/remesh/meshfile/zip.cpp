@@ -20,11 +20,6 @@ constexpr std::uint16_t zip_version = 20;  // That of deflated parts.
 constexpr std::uint16_t zip_deflated = 8;
 constexpr std::uint16_t first_of_1980 = 0x21;  // Times would make different bytes in each run.
 
-template <typename... Numbers>
-void append_all(std::string& bytes, Numbers... numbers) {
-    (append(bytes, numbers), ...);
-}
-
 }  // namespace
 
 ZipArchive::ZipArchive(SourceFile& file) : file_(file) {
