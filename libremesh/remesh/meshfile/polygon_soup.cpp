@@ -12,9 +12,8 @@ namespace {
 
 constexpr const char* export_again = "; correct the face, or export the file again";
 
-void require_index(std::int64_t vertex, const char* kind, std::size_t number, std::size_t offset,
-                   const SourceFile& file) {
-    if (vertex >= 0 && vertex < no_index) return;
+[[noreturn]] void fail_index(std::int64_t vertex, const char* kind, std::size_t number,
+                             std::size_t offset, const SourceFile& file) {
     file.fail_unusable(offset, kind, " ", number, " names vertex ", vertex, ", which is ",
                        vertex < 0 ? "negative" : "too large", "; correct the ", kind,
                        ", or export the file again");
@@ -118,7 +117,9 @@ void PolygonSoup::reserve(std::uint64_t vertices, std::uint64_t polygons) {
 }
 
 void PolygonSoup::add_corner(std::int64_t vertex, std::size_t offset) {
-    require_index(vertex, "face", num_polygons(), offset, file_);
+    if (vertex < 0 || vertex >= no_index) {
+        fail_index(vertex, "face", num_polygons(), offset, file_);
+    }
     const auto index = static_cast<Index>(vertex);
     if (index > highest_) {
         highest_ = index;
@@ -219,7 +220,9 @@ TextureCoordinates PolygonSoup::texture_of(const TriangleMesh& mesh,
 }
 
 void VolumeSurface::add_corner(std::int64_t vertex, std::size_t offset) {
-    require_index(vertex, "cell", num_cells(), offset, file_);
+    if (vertex < 0 || vertex >= no_index) {
+        fail_index(vertex, "cell", num_cells(), offset, file_);
+    }
     corners_.push_back(static_cast<Index>(vertex));
     if (corners_.back() < highest_) return;
     highest_ = corners_.back();
