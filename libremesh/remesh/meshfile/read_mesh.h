@@ -2,7 +2,6 @@
 //! Reads PLY, OBJ, OFF, STL, VTK, Medit, 3MF and glTF: the mesh and what the file holds besides.
 #pragma once
 
-#include <concepts>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -160,10 +159,6 @@ struct MeshPath {
     //! "ply", "obj", ...; empty: the extension names it, in any case. Either may end in ".gz":
     //! compressed. On reading the file itself tells whether it is.
     std::string format = {};
-
-    //! Of a path, or what can become one.
-    template <std::convertible_to<std::filesystem::path> Path>
-    MeshPath(const Path& file, std::string name = {}) : path(file), format(std::move(name)) {}
 };
 
 //! What was read from a file.

@@ -125,7 +125,7 @@ std::string short_number(double value) {
 
 std::string format_mesh(const std::filesystem::path& path, const MeshView& mesh,
                         const Progress& progress) {
-    return format_mesh(MeshPath(path), mesh, {}, progress);
+    return format_mesh(MeshPath{path}, mesh, {}, progress);
 }
 
 std::string format_mesh(const MeshPath& path, const MeshView& mesh,

@@ -36,11 +36,21 @@ void write_mesh(const std::filesystem::path& path, const MeshView& mesh,
                                       const MeshAttributes& attributes,
                                       const Progress& progress = {});
 
+[[nodiscard]] inline std::string format_mesh(const std::filesystem::path& path,
+                                             const MeshView& mesh, const MeshAttributes& attributes,
+                                             const Progress& progress = {}) {
+    return format_mesh(MeshPath{path}, mesh, attributes, progress);
+}
+
 //! Removes the attributes that the format cannot hold. VTK and OFF hold texture coordinates without
 //! seams.
 //! \return what they were: "vertex quality", "face label", "corner texcoord", "material colours", ...
 //! \throw IoError  the format is unknown.
 std::vector<std::string> remove_unwritable(const MeshPath& path, MeshAttributes& attributes);
+inline std::vector<std::string> remove_unwritable(const std::filesystem::path& path,
+                                                  MeshAttributes& attributes) {
+    return remove_unwritable(MeshPath{path}, attributes);
+}
 
 //! What happens to the unit of length: empty where the format stores it, or counts in it, or has
 //! none and the unit is the metre or the millimetre. Numbers are never converted.
@@ -72,7 +82,7 @@ struct RoundingLoss {
 [[nodiscard]] bool is_known_mesh_format(const MeshPath& path);
 //! The same: true for "out.ply", "out.OBJ", ...
 [[nodiscard]] inline bool is_known_mesh_extension(const std::filesystem::path& path) {
-    return is_known_mesh_format(path);
+    return is_known_mesh_format({path});
 }
 
 //! The name of the format: "ply", "obj", ...
