@@ -7,13 +7,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     std::string bytes(reinterpret_cast<const char*>(data), size);
     if (!bytes.starts_with("PK")) {
         agvd::Ticker ticker;
-        remesh::ZipWriter zip;
-        zip.add("_rels/.rels",
-                "<R><Relationship Target='/a.model' "
-                "Type='http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel'/></R>",
-                ticker);
-        zip.add("a.model", bytes, ticker);
-        bytes = std::move(zip).finish();
+        bytes = remesh::pack_zip(
+            {{"_rels/.rels",
+              "<R><Relationship Target='/a.model' "
+              "Type='http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel'/></R>"},
+             {"a.model", bytes}},
+            ticker);
     }
     return fuzz::check_reader(".3mf", reinterpret_cast<const std::uint8_t*>(bytes.data()),
                               bytes.size());

@@ -1,6 +1,3 @@
-// Writes each file to a temporary one in the target's folder, and renames the temporary files once
-// all are complete. A temporary is removed on every failure. Devices and pipes are written to
-// directly.
 #include "remesh/meshfile/atomic_file.h"
 
 #include <fcntl.h>
@@ -10,11 +7,9 @@
 #include <algorithm>
 #include <cerrno>
 #include <deque>
-#include <string>
 #include <system_error>
 #include <utility>
 
-#include "agvd/core/error.h"
 #include "remesh/meshfile/source_file.h"
 
 namespace remesh {
@@ -23,8 +18,8 @@ namespace {
 namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const fs::path& path, int reason, const char* remedy) {
-    throw IoError(path.string() + ": cannot be written: " +
-                  std::generic_category().message(reason) + "; " + remedy);
+    throw IoError(joined(path.string(), ": cannot be written: ",
+                         std::generic_category().message(reason), "; ", remedy));
 }
 
 constexpr const char* check_folder =

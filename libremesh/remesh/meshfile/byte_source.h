@@ -1,5 +1,6 @@
 //! \file
-//! Bytes that a file holds as they are or as base64. Private to the readers.
+//! Bytes that a file holds as they are or as base64. Private to the readers
+//! and writers.
 #pragma once
 
 #include <cstdint>
@@ -37,5 +38,9 @@ private:
     bool is_base64_;
     std::string group_;  // Decoded, and not taken yet: below three bytes.
 };
+
+//! The bytes as base64.
+//! \throw Cancelled
+[[nodiscard]] std::string in_base64(std::string_view bytes, Ticker& ticker);
 
 }  // namespace remesh

@@ -1,24 +1,13 @@
-// Reads the elements of write_diagram's .agvd one after the other; each is checked against the
-// counts of the elements that it refers to. An index out of range, or a count that does not fit, is
-// an error that names the place in the file.
-// Formats a diagram (docs/io.md, "Diagrams"): VTK PolyData of surface, edges and sites, OBJ lines,
-// or a mesh whose vertices have labels and distances. The format .agvd is such a PLY with further
-// elements: all that read_diagram() needs to give every bit back.
+// Formats of a diagram (docs/io.md, "Diagrams"). The format .agvd is a PLY with further elements:
+// all that read_diagram() needs to give every bit back.
 #include "remesh/meshfile/diagram_file.h"
 
-#include <algorithm>
-#include <cmath>
-#include <map>
 #include <set>
-#include <string>
 
-#include "agvd/core/error.h"
 #include "remesh/meshfile/atomic_file.h"
 #include "remesh/meshfile/formats.h"
-#include "remesh/meshfile/numbers.h"
 #include "remesh/meshfile/packed.h"
 #include "remesh/meshfile/ply_values.h"
-#include "remesh/meshfile/text.h"
 #include "remesh/meshfile/vtk_output.h"
 
 namespace remesh {
@@ -40,10 +29,9 @@ public:
     void read(const PlyHeader& header) {
         for (const char* name : {"site", "curve_point", "voronoi_edge", "voronoi_vertex"}) {
             if (!count_.contains(name)) {
-                file_.fail_malformed(
-                    0, std::string("the file has no element ") + name +
-                           ", so that it holds no diagram; write one with `agvd diagram MESH -o "
-                           "FILE.agvd`");
+                file_.fail_malformed(0, "the file has no element ", name,
+                                     ", so that it holds no diagram; write one with `agvd diagram "
+                                     "MESH -o FILE.agvd`");
             }
             if (count_.at(name) >= no_index) fail("there are more than 2^32 - 2 elements");
         }
@@ -161,9 +149,9 @@ private:
         }
         values_.end();
         if (num_found != numbers.size() + lists.size()) {
-            file_.fail_malformed(0, "element " + element.name +
-                                        " lacks properties of a diagram; write one with `agvd "
-                                        "diagram MESH -o FILE.agvd`");
+            file_.fail_malformed(
+                0, "element ", element.name,
+                " lacks properties of a diagram; write one with `agvd diagram MESH -o FILE.agvd`");
         }
     }
 
@@ -188,14 +176,15 @@ private:
         const auto found = count_.find(element);
         if (!(number >= 0 && found != count_.end() && number < static_cast<double>(found->second) &&
               number == std::floor(number))) {
-            fail(std::string("the file names a ") + element + " that does not exist");
+            fail("the file names a ", element, " that does not exist");
         }
         return static_cast<Index>(number);
     }
 
-    [[noreturn]] void fail(const std::string& text) const {
-        file_.fail_unusable(
-            start_, text + "; the file is damaged: write the diagram again with `agvd diagram`");
+    template <typename... Parts>
+    [[noreturn]] void fail(Parts... parts) const {
+        file_.fail_unusable(start_, parts...,
+                            "; the file is damaged: write the diagram again with `agvd diagram`");
     }
 
     const SourceFile& file_;
@@ -343,8 +332,8 @@ std::string format_ply_mesh(const DrawnDiagram& drawn, Ticker ticker) {
 }
 
 void append_point(std::string& bytes, const SurfacePoint& point) {
-    append(bytes, point.face.value());
-    for (const double b : point.barycentric) append(bytes, b);
+    const auto& [a, b, c] = point.barycentric;
+    append_all(bytes, point.face.value(), a, b, c);
 }
 
 template <typename Items, typename NumberOf>
@@ -384,8 +373,7 @@ std::string format_whole_diagram(const DrawnDiagram& drawn, Ticker ticker) {
     bytes.insert(bytes.find("end_header\n"), diagram_header(diagram));
     for (Index s = 0; s < diagram.num_sites; ++s) {
         append_point(bytes, drawn.sites[s]);
-        append(bytes, diagram.cell_area[s]);
-        append(bytes, std::int32_t{diagram.cell_euler[s]});
+        append_all(bytes, diagram.cell_area[s], std::int32_t{diagram.cell_euler[s]});
     }
     for (std::size_t p = 0; p < diagram.points.size(); ++p) {
         ticker.tick();
@@ -395,11 +383,9 @@ std::string format_whole_diagram(const DrawnDiagram& drawn, Ticker ticker) {
     for (Index e = 0; e < num_edges(diagram); ++e) {
         ticker.tick();
         const auto& [left, right, tail, head] = diagram.edges[e];
-        append(bytes, site_number(left));
-        append(bytes, site_number(right));
-        append(bytes, tail);  // no_index has the bits of -1.
-        append(bytes, head);
-        append(bytes, diagram.edge_points[e + 1] - diagram.edge_points[e]);
+        // no_index has the bits of -1.
+        append_all(bytes, site_number(left), site_number(right), tail, head,
+                   diagram.edge_points[e + 1] - diagram.edge_points[e]);
     }
     for (std::size_t v = 0; v < diagram.vertices.size(); ++v) {
         ticker.tick();
@@ -428,8 +414,8 @@ const DiagramFormat& require_diagram_format(const std::filesystem::path& path) {
     for (const DiagramFormat& format : diagram_formats) {
         if (extension == format.extension) return format;
     }
-    throw IoError(path.string() + ": unknown extension " + in_quotes(path.extension().string()) +
-                  "; use .vtp, .ply, .obj or .agvd");
+    throw IoError(joined(path.string(), ": unknown extension ",
+                         in_quotes(path.extension().string()), "; use .vtp, .ply, .obj or .agvd"));
 }
 
 }  // namespace

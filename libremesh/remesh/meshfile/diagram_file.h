@@ -1,10 +1,8 @@
 //! \file
-//! Reads a geodesic Voronoi diagram that write_diagram wrote as .agvd.
-//! Writes a geodesic Voronoi diagram for viewers.
+//! Reads and writes geodesic Voronoi diagrams.
 #pragma once
 
 #include <filesystem>
-#include <span>
 
 #include "agvd/diagram/diagram.h"
 #include "remesh/names.h"

@@ -6,9 +6,7 @@
 #include <type_traits>
 #include <unordered_map>
 #include <utility>
-#include <vector>
 
-#include "agvd/mesh/mesh.h"
 #include "remesh/meshfile/read_mesh.h"
 
 namespace remesh {

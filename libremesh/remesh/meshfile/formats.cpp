@@ -1,14 +1,8 @@
 
 #include "remesh/meshfile/formats.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <utility>
-
-#include "agvd/core/error.h"
+#include "remesh/meshfile/numbers.h"
 #include "remesh/meshfile/packed.h"
-#include "remesh/meshfile/read_mesh.h"
 
 namespace remesh {
 namespace {
@@ -37,12 +31,6 @@ constexpr MeshFormat formats[] = {
      MaterialPlace::All, "meter"},
     {"gltf", read_gltf, format_gltf, gltf_holds, true, TexturePlace::Corners, any_float,
      MaterialPlace::All, "meter"}};
-
-template <typename T>
-bool is_whole_in(double value) {
-    return value >= std::numeric_limits<T>::min() && value <= std::numeric_limits<T>::max() &&
-           value == std::floor(value);
-}
 
 }  // namespace
 
@@ -113,15 +101,17 @@ const MeshFormat& require_format(const MeshPath& path) {
     if (const MeshFormat* const format = find_format(path)) return *format;
     std::error_code none;
     if (std::filesystem::is_directory(path.path, none)) {
-        throw IoError(path.path.string() + ": is a folder; name a file");
+        throw IoError(joined(path.path.string(), ": is a folder; name a file"));
     }
     const std::string begin = path.path.string() + ": unknown ";
     if (!path.format.empty()) {
-        throw IoError(begin + "format " + in_quotes(path.format) + "; use " + names_of_formats(""));
+        throw IoError(
+            joined(begin, "format ", in_quotes(path.format), "; use ", names_of_formats("")));
     }
-    throw IoError(begin + "extension " + in_quotes(path.path.extension().string()) + "; use " +
-                  names_of_formats(".") +
-                  ", or name the format (remesh: --from for an input, --to for the output)");
+    throw IoError(
+        joined(begin, "extension ", in_quotes(path.path.extension().string()), "; use ",
+               names_of_formats("."),
+               ", or name the format (remesh: --from for an input, --to for the output)"));
 }
 
 MeshFile read_mesh(const std::filesystem::path& path, const ReadOptions& options) {
@@ -162,24 +152,11 @@ bool is_label(const Attribute& attribute) {
 }
 
 bool is_value_of(NumberType type, double value) {
-    switch (type) {
-        case NumberType::Int8:
-            return is_whole_in<std::int8_t>(value);
-        case NumberType::UInt8:
-            return is_whole_in<std::uint8_t>(value);
-        case NumberType::Int16:
-            return is_whole_in<std::int16_t>(value);
-        case NumberType::UInt16:
-            return is_whole_in<std::uint16_t>(value);
-        case NumberType::Int32:
-            return is_whole_in<std::int32_t>(value);
-        case NumberType::UInt32:
-            return is_whole_in<std::uint32_t>(value);
-        case NumberType::Float32:
-        case NumberType::Float64:
-            break;
-    }
-    return true;
+    return with_type(type, [&]<typename T>(T) {
+        return !std::is_integral_v<T> ||
+               (value >= std::numeric_limits<T>::min() && value <= std::numeric_limits<T>::max() &&
+                value == std::floor(value));
+    });
 }
 
 void spread_to_triangles(const std::vector<Index>& face_polygon, std::vector<Attribute>& of_faces) {

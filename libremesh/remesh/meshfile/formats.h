@@ -2,75 +2,44 @@
 //! The table of formats: names, extensions, readers and writers. Private.
 #pragma once
 
-#include <filesystem>
 #include <limits>
-#include <string>
 
-#include "agvd/core/progress.h"
 #include "remesh/meshfile/read_mesh.h"
 #include "remesh/meshfile/source_file.h"
 
 namespace remesh {
 
-[[nodiscard]] MeshFile read_ply(SourceFile file);
-[[nodiscard]] MeshFile read_obj(SourceFile file);
-[[nodiscard]] MeshFile read_off(SourceFile file);
-[[nodiscard]] MeshFile read_stl(SourceFile file);
-[[nodiscard]] MeshFile read_vtk(SourceFile file);
-[[nodiscard]] MeshFile read_vtp(SourceFile file);
-[[nodiscard]] MeshFile read_medit(SourceFile file);
-[[nodiscard]] MeshFile read_gltf(SourceFile file);  //!< Both kinds: the bytes tell.
-[[nodiscard]] MeshFile read_3mf(SourceFile file);
+//! \throw IoError, InvalidInput, Cancelled  as read_mesh.
+using MeshReader = MeshFile(SourceFile file);
+MeshReader read_ply, read_obj, read_off, read_stl, read_vtk, read_medit, read_3mf;
+MeshReader read_vtp;   //!< And .vtu.
+MeshReader read_gltf;  //!< Both kinds: the bytes tell.
 
-//! Unless it is empty.
-inline void add_warning(const std::string& text, MeshFile& file) {
-    if (!text.empty()) file.warnings.push_back(text);
+//! \return the whole file's bytes. Attributes that the format cannot hold are left out.
+using MeshWriter = std::string(const MeshView& mesh, const MeshAttributes& attributes,
+                               Ticker ticker);
+MeshWriter format_ply, format_obj, format_off, format_stl, format_vtk, format_vtp, format_vtu,
+    format_medit, format_glb, format_gltf, format_3mf;
+
+//! Whether a format can hold an attribute, one of `all`.
+using AttributeTest = bool(const Attribute& attribute, ElementKind kind, const MeshAttributes& all);
+AttributeTest obj_holds, off_holds, medit_holds, gltf_holds, holds_3mf;
+
+//! Unless the text of the parts is empty.
+template <typename... Parts>
+void add_warning(MeshFile& file, Parts... parts) {
+    if (std::string text = joined(parts...); !text.empty())
+        file.warnings.push_back(std::move(text));
 }
 
 //! Gives a file the attributes that were read with it, besides its texture coordinates; those of
 //! faces belong to polygons yet.
 void attach(MeshAttributes attributes, MeshFile& file);
 
-//! The whole file's bytes. Attributes that the format cannot hold are left out.
-[[nodiscard]] std::string format_ply(const MeshView& mesh, const MeshAttributes& attributes,
-                                     Ticker ticker);
-[[nodiscard]] std::string format_obj(const MeshView& mesh, const MeshAttributes& attributes,
-                                     Ticker ticker);
-[[nodiscard]] std::string format_off(const MeshView& mesh, const MeshAttributes& attributes,
-                                     Ticker ticker);
-[[nodiscard]] std::string format_stl(const MeshView& mesh, const MeshAttributes& attributes,
-                                     Ticker ticker);
-[[nodiscard]] std::string format_vtk(const MeshView& mesh, const MeshAttributes& attributes,
-                                     Ticker ticker);
-[[nodiscard]] std::string format_vtp(const MeshView& mesh, const MeshAttributes& attributes,
-                                     Ticker ticker);
-[[nodiscard]] std::string format_vtu(const MeshView& mesh, const MeshAttributes& attributes,
-                                     Ticker ticker);
-[[nodiscard]] std::string format_medit(const MeshView& mesh, const MeshAttributes& attributes,
-                                       Ticker ticker);
-[[nodiscard]] std::string format_glb(const MeshView& mesh, const MeshAttributes& attributes,
-                                     Ticker ticker);
-[[nodiscard]] std::string format_gltf(const MeshView& mesh, const MeshAttributes& attributes,
-                                      Ticker ticker);
-[[nodiscard]] std::string format_3mf(const MeshView& mesh, const MeshAttributes& attributes,
-                                     Ticker ticker);
-
 //! #V: the coordinates of each vertex, those of its first corner (none: NaN). Empty if it has
 //! several, or if there are none.
 [[nodiscard]] std::vector<Vec2> coordinates_of_vertices(const MeshView& mesh,
                                                         const TextureCoordinates& texture);
-
-//! See MeshFormat::holds.
-[[nodiscard]] bool obj_holds(const Attribute& attribute, ElementKind kind,
-                             const MeshAttributes& all);
-[[nodiscard]] bool off_holds(const Attribute& attribute, ElementKind kind,
-                             const MeshAttributes& all);
-[[nodiscard]] bool medit_holds(const Attribute& attribute, ElementKind kind,
-                               const MeshAttributes& all);
-[[nodiscard]] bool gltf_holds(const Attribute& attribute, ElementKind kind,
-                              const MeshAttributes& all);
-[[nodiscard]] bool holds_3mf(const Attribute& attribute, ElementKind kind,
-                             const MeshAttributes& all);
 
 //! What is kept of MeshAttributes::materials.
 enum class MaterialPlace { Nothing, Colors, All };
@@ -80,10 +49,9 @@ enum class TexturePlace { Nothing, Vertices, Corners };
 
 struct MeshFormat {
     const char* name;  //!< Lower case; the extension without its dot.
-    MeshFile (*read)(SourceFile);
-    std::string (*format)(const MeshView&, const MeshAttributes&, Ticker);
-    //! Whether it can hold an attribute, one of `all`.
-    bool (*holds)(const Attribute&, ElementKind, const MeshAttributes& all);
+    MeshReader* read;
+    MeshWriter* format;
+    AttributeTest* holds;
     bool has_normals;  //!< At vertices.
     TexturePlace texture;
     double largest;  //!< Coordinate that it can hold.

@@ -1,11 +1,5 @@
 #include "remesh/meshfile/gltf_document.h"
 
-#include <algorithm>
-#include <array>
-#include <charconv>
-#include <cmath>
-
-#include "agvd/core/error.h"
 #include "remesh/meshfile/byte_source.h"
 #include "remesh/meshfile/numbers.h"
 
@@ -16,14 +10,6 @@ constexpr std::size_t glb_header_size = 12;
 constexpr std::size_t glb_chunk_header_size = 8;
 constexpr std::uint32_t json_chunk = 0x4E4F534A, bin_chunk = 0x004E4942;
 constexpr int max_depth = 64;
-constexpr const char* export_glb_again = "; export the file again";
-
-struct ComponentType {
-    std::int64_t number;
-    std::size_t size;
-    double largest;  // That of the type, for numbers that are normalized.
-    double (*load)(const char* bytes);
-};
 
 template <typename T>
 double load_component(const char* bytes) {
@@ -31,19 +17,12 @@ double load_component(const char* bytes) {
 }
 
 constexpr std::array component_types = {
-    ComponentType{5120, 1, 127, load_component<std::int8_t>},
-    ComponentType{5121, 1, 255, load_component<std::uint8_t>},
-    ComponentType{5122, 2, 32767, load_component<std::int16_t>},
-    ComponentType{5123, 2, 65535, load_component<std::uint16_t>},
-    ComponentType{5125, 4, 0, load_component<std::uint32_t>},
-    ComponentType{5126, 4, 0, load_component<float>}};
-
-const ComponentType* find_component_type(std::int64_t number) {
-    const auto found =
-        std::find_if(component_types.begin(), component_types.end(),
-                     [&](const ComponentType& type) { return type.number == number; });
-    return found == component_types.end() ? nullptr : &*found;
-}
+    GltfComponent{5120, 1, 127, load_component<std::int8_t>},
+    GltfComponent{5121, 1, 255, load_component<std::uint8_t>},
+    GltfComponent{5122, 2, 32767, load_component<std::int16_t>},
+    GltfComponent{5123, 2, 65535, load_component<std::uint16_t>},
+    GltfComponent{5125, 4, 0, load_component<std::uint32_t>},
+    GltfComponent{5126, 4, 0, load_component<float>}};
 
 std::size_t columns_of(const std::string& type) {
     constexpr std::array names = {"SCALAR", "VEC2", "VEC3", "VEC4"};
@@ -57,23 +36,6 @@ bool is_harmless(const std::string& extension) {
                                    "KHR_mesh_quantization"};
     return std::any_of(begins.begin(), begins.end(),
                        [&](const char* begin) { return extension.starts_with(begin); });
-}
-
-// "a%20b" means "a b".
-std::string without_escapes(std::string_view uri) {
-    std::string text;
-    for (std::size_t i = 0; i < uri.size(); ++i) {
-        unsigned char byte = 0;
-        const char* const digits = uri.data() + i + 1;
-        if (uri[i] == '%' && i + 2 < uri.size() &&
-            std::from_chars(digits, digits + 2, byte, 16).ptr == digits + 2) {
-            text += static_cast<char>(byte);
-            i += 2;
-        } else {
-            text += uri[i];
-        }
-    }
-    return text;
 }
 
 }  // namespace
@@ -103,10 +65,9 @@ GltfDocument::GltfDocument(SourceFile& file) : file_(file), file_size_(file.byte
     for (const nlohmann::json& extension : list(json_, "extensionsRequired")) {
         const std::string name = extension.is_string() ? extension.get<std::string>() : "?";
         if (is_harmless(name)) continue;
-        file_.fail_malformed(text_.begin,
-                             "the file needs the extension " + in_quotes(name) +
-                                 ", which is not supported; export it without, such as "
-                                 "without compression");
+        file_.fail_malformed(
+            text_.begin, "the file needs the extension ", in_quotes(name),
+            ", which is not supported; export it without, such as without compression");
     }
     read_buffers();
 }
@@ -115,20 +76,20 @@ void GltfDocument::read_chunks() {
     const std::string& bytes = file_.bytes;
     const auto require_size = [&](std::uint64_t size) {
         if (size <= bytes.size()) return;
-        file_.fail_malformed(bytes.size(), "the file ends before byte " + std::to_string(size) +
-                                               "; it is truncated: export the file again");
+        file_.fail_malformed(bytes.size(), "the file ends before byte ", size,
+                             "; it is truncated: export the file again");
     };
     require_size(glb_header_size + glb_chunk_header_size);
     const auto version = load<std::uint32_t>(&bytes[4]);
     if (version != 2) {
-        file_.fail_malformed(4, "glTF of version " + std::to_string(version) +
-                                    " is not supported; export the file as glTF 2.0");
+        file_.fail_malformed(4, "glTF of version ", version,
+                             " is not supported; export the file as glTF 2.0");
     }
     require_size(load<std::uint32_t>(&bytes[8]));
     const std::uint64_t json_size = load<std::uint32_t>(&bytes[glb_header_size]);
     const std::size_t json_begin = glb_header_size + glb_chunk_header_size;
     if (load<std::uint32_t>(&bytes[glb_header_size + 4]) != json_chunk) {
-        file_.fail_malformed(glb_header_size, "the first chunk is not JSON; export the file again");
+        file_.fail_damaged(glb_header_size, "the first chunk is not JSON");
     }
     require_size(json_begin + json_size);
     const std::size_t next = json_begin + json_size;
@@ -169,13 +130,13 @@ std::string GltfDocument::resource(const std::string& uri) const {
     }
     const std::filesystem::path path = without_escapes(uri);
     if (path.empty() || path.is_absolute() || uri.find("://") != std::string::npos) {
-        fail("data lie at " + in_quotes(uri) + ", but only files beside this one are read");
+        fail("data lie at ", in_quotes(uri), ", but only files beside this one are read");
     }
     try {
         Poller poller;
         return load_file(file_.path.parent_path() / path, poller).bytes;
     } catch (const IoError&) {
-        fail("the file " + in_quotes(path.string()) + ", which it names, cannot be read");
+        fail("the file ", in_quotes(path.string()), ", which it names, cannot be read");
     }
 }
 
@@ -201,19 +162,15 @@ GltfDocument::Range GltfDocument::range_of_view(const nlohmann::json& view,
     const std::uint64_t size = number(view, "byteLength").value_or(0);
     // No sum can overflow: each part is checked before it is added.
     if (begin > all.size || size > all.size - begin) {
-        fail(name + " does not lie within the data of the file");
+        fail(name, " does not lie within the data of the file");
     }
     return {all.begin + begin, size};
-}
-
-void GltfDocument::fail(const std::string& text) const {
-    file_.fail_malformed(text_.begin, text + export_glb_again);
 }
 
 const nlohmann::json& GltfDocument::at(const char* list_name, std::uint64_t index) const {
     const nlohmann::json& all = list(json_, list_name);
     if (index >= all.size() || !all[index].is_object()) {
-        fail(std::string(list_name) + " has no element " + std::to_string(index));
+        fail(list_name, " has no element ", index);
     }
     return all[index];
 }
@@ -222,7 +179,7 @@ const nlohmann::json& GltfDocument::list(const nlohmann::json& object, const cha
     static const nlohmann::json empty = nlohmann::json::array();
     const auto found = object.find(key);
     if (found == object.end()) return empty;
-    if (!found->is_array()) fail(std::string(key) + " is no list");
+    if (!found->is_array()) fail(key, " is no list");
     return *found;
 }
 
@@ -230,7 +187,7 @@ std::optional<std::uint64_t> GltfDocument::number(const nlohmann::json& object,
                                                   const char* key) const {
     const auto found = object.find(key);
     if (found == object.end()) return std::nullopt;
-    if (!found->is_number_unsigned()) fail(std::string(key) + " is no whole number from 0");
+    if (!found->is_number_unsigned()) fail(key, " is no whole number from 0");
     return found->get<std::uint64_t>();
 }
 
@@ -241,11 +198,10 @@ std::optional<std::vector<double>> GltfDocument::numbers(const nlohmann::json& o
     std::vector<double> values;
     for (const nlohmann::json& value : all) {
         values.push_back(value.is_number() ? value.get<double>() : std::nan(""));
-        if (!std::isfinite(values.back()))
-            fail(std::string(key) + " has a value that is no number");
+        if (!std::isfinite(values.back())) fail(key, " has a value that is no number");
     }
     if (values.size() != count) {
-        fail(std::string(key) + " does not have " + std::to_string(count) + " numbers");
+        fail(key, " does not have ", count, " numbers");
     }
     return values;
 }
@@ -254,23 +210,24 @@ GltfArray GltfDocument::array(std::uint64_t index) const {
     const nlohmann::json& accessor = at("accessors", index);
     const std::string name = "accessor " + std::to_string(index);
     if (accessor.contains("sparse") || !accessor.contains("bufferView")) {
-        fail(name + " is sparse or has no data, which is not supported");
+        fail(name, " is sparse or has no data, which is not supported");
     }
     const nlohmann::json& view = at("bufferViews", *number(accessor, "bufferView"));
-    const auto type = static_cast<std::int64_t>(
-        std::min<std::uint64_t>(number(accessor, "componentType").value_or(0), 1 << 16));
-    const ComponentType* const component = find_component_type(type);
+    const std::uint64_t type = number(accessor, "componentType").value_or(0);
+    const auto component =
+        std::find_if(component_types.begin(), component_types.end(),
+                     [&](const GltfComponent& known) { return known.number == type; });
     const auto shape = accessor.find("type");
     const std::size_t num_columns =
         shape != accessor.end() && shape->is_string() ? columns_of(shape->get<std::string>()) : 0;
-    if (component == nullptr || num_columns == 0) fail(name + " has an unknown type");
+    if (component == component_types.end() || num_columns == 0) fail(name, " has an unknown type");
     const std::size_t row_size = component->size * num_columns;
     const auto normalized = accessor.find("normalized");
     GltfArray array{.num_rows = number(accessor, "count").value_or(0),
                     .num_columns = num_columns,
                     .is_normalized = normalized != accessor.end() && *normalized == true &&
                                      component->largest > 0,
-                    .component_type = type};
+                    .component = &*component};
     array.stride = number(view, "byteStride").value_or(row_size);
     const Range range = range_of_view(view, name);
     const std::uint64_t begin = number(accessor, "byteOffset").value_or(0);
@@ -278,14 +235,14 @@ GltfArray GltfDocument::array(std::uint64_t index) const {
     const std::uint64_t room = is_inside ? range.size - begin : 0;
     if (!is_inside || (array.num_rows > 0 && (room < row_size || (room - row_size) / array.stride <
                                                                      array.num_rows - 1))) {
-        fail(name + " does not lie within the data of the file");
+        fail(name, " does not lie within the data of the file");
     }
     array.offset = range.begin + begin;
     return array;
 }
 
 double GltfDocument::value(const GltfArray& array, std::uint64_t row, std::size_t column) const {
-    const ComponentType& type = *find_component_type(array.component_type);
+    const GltfComponent& type = *array.component;
     const double number =
         type.load(file_.bytes.data() + array.offset + row * array.stride + column * type.size);
     return array.is_normalized ? std::max(number / type.largest, -1.0) : number;

@@ -10,12 +10,20 @@
 
 namespace remesh {
 
+//! A type of numbers.
+struct GltfComponent {
+    std::uint64_t number;  //!< That of glTF.
+    std::size_t size;
+    double largest;  //!< That of the type, for numbers that are normalized.
+    double (*load)(const char* bytes);
+};
+
 //! Rows of an array of glTF, which lie in the document's bytes.
 struct GltfArray {
     std::uint64_t num_rows = 0;
     std::size_t num_columns = 0;
     bool is_normalized = false;  //!< Integers stand for numbers up to 1.
-    std::int64_t component_type = 0;
+    const GltfComponent* component = nullptr;
     std::size_t offset = 0;  //!< Of the first row, in the document's bytes.
     std::size_t stride = 0;  //!< From row to row, in bytes.
 };
@@ -55,7 +63,10 @@ public:
     //! \throw IoError  they lie in a file that cannot be read.
     [[nodiscard]] std::string image(const nlohmann::json& properties) const;
 
-    [[noreturn]] void fail(const std::string& text) const;
+    template <typename... Parts>
+    [[noreturn]] void fail(Parts... parts) const {
+        file_.fail_damaged(text_.begin, parts...);
+    }
 
 private:
     struct Range {

@@ -2,10 +2,9 @@
 #include "remesh/meshfile/materials.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <limits>
-#include <utility>
+
+#include "remesh/meshfile/text.h"
 
 namespace remesh {
 namespace {
@@ -87,9 +86,21 @@ std::vector<const Attribute*> colors_of(const std::vector<Attribute>& attributes
 
 double intensity(const Attribute& part, std::size_t element) {
     const double value = part.values[element];
-    if (part.type == NumberType::UInt8) return value / std::numeric_limits<std::uint8_t>::max();
-    if (part.type == NumberType::UInt16) return value / std::numeric_limits<std::uint16_t>::max();
-    return value;
+    return part.type == NumberType::UInt8    ? value / UINT8_MAX
+           : part.type == NumberType::UInt16 ? value / UINT16_MAX
+                                             : value;
+}
+
+std::string one_line(std::string name) {
+    std::erase_if(name, [](char c) { return (c >= 0 && c < ' ') || c == '\\'; });
+    return name;
+}
+
+std::string unique_name(const std::string& name, std::set<std::string>& taken) {
+    const std::string begin = one_line(name);
+    std::string result = begin;
+    for (std::size_t i = 2; !taken.insert(result).second; ++i) result = joined(begin, "_", i);
+    return result;
 }
 
 std::string as_utf8(const std::string& name) {

@@ -1,17 +1,11 @@
 //! \file
-//! Colours in text formats: three or four numbers behind a vertex or face. Private to the readers
-//! and writers of OBJ and OFF.
-//! Labels of faces by their names, such as materials. Private to the readers.
-//! Materials in the terms of glTF, and their colours in those of 3MF. Private to the readers and
-//! writers.
+//! Colours, labels of faces by their names, and materials in the terms of glTF. Private to the
+//! readers and writers.
 #pragma once
 
-#include <array>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <span>
-#include <string>
 #include <utility>
 
 #include "remesh/meshfile/read_mesh.h"
@@ -44,34 +38,28 @@ private:
 
 //! The name without what text formats cannot hold: they have it on one line, and a backslash would
 //! join that with the next one.
-inline std::string one_line(std::string name) {
-    std::erase_if(name, [](char c) { return (c >= 0 && c < ' ') || c == '\\'; });
-    return name;
-}
+[[nodiscard]] std::string one_line(std::string name);
 
 //! The name on one line, or with a number behind it if it is taken; takes it.
-inline std::string unique_name(const std::string& name, std::set<std::string>& taken) {
-    const std::string begin = one_line(name);
-    std::string result = begin;
-    for (std::size_t i = 2; !taken.insert(result).second; ++i) {
-        result = begin + '_' + std::to_string(i);
-    }
-    return result;
-}
+[[nodiscard]] std::string unique_name(const std::string& name, std::set<std::string>& taken);
 
-//! Numbers names in the order of their first use.
+//! Labels of faces, such as materials; they are numbered in the order of their first use.
 class FaceLabels {
 public:
-    //! \param name  see one_line.
-    std::size_t number_of(std::string name) {
-        name = one_line(std::move(name));
+    std::size_t number_of(const std::string& name) {
         const auto [entry, is_new] = numbers_.try_emplace(name, names_.size());
-        if (is_new) names_.push_back(std::move(name));
+        if (is_new) names_.push_back(name);
         return entry->second;
+    }
+    //! A label without a name, that no name has.
+    void begin_unnamed() { names_.emplace_back(); }
+    //! Gives the label to further faces, until so many have one.
+    void extend(std::size_t label, std::size_t num_faces) {
+        values_.resize(num_faces, static_cast<double>(label));
     }
     //! Gives the label to the next faces.
     void add(std::size_t label, std::size_t num_faces) {
-        values_.resize(values_.size() + num_faces, static_cast<double>(label));
+        extend(label, values_.size() + num_faces);
     }
     [[nodiscard]] std::size_t num_labels() const { return names_.size(); }
     //! Whether a label has a name that is not empty.

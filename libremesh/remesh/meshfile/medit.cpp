@@ -1,18 +1,15 @@
 // Medit's .mesh, ascii: vertices, triangles and quadrilaterals, or the surface of tetrahedra and
 // the like; their references are the labels `ref`. Edges, of which ridges are some, are feature
-// edges; corners, required vertices and required edges are locked. Other lists (normals, ...) are
-// passed over (format: Frey, "MEDIT: an interactive mesh visualization software", INRIA RT-0253,
-// 2001).
+// edges; corners, required vertices and required edges are locked (format: Frey, "MEDIT: an
+// interactive mesh visualization software", INRIA RT-0253, 2001).
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <set>
 #include <utility>
 
 #include "remesh/meshfile/formats.h"
 #include "remesh/meshfile/polygon_soup.h"
-#include "remesh/meshfile/text.h"
 #include "remesh/meshfile/text_scanner.h"
 
 namespace remesh {
@@ -20,30 +17,32 @@ namespace {
 
 constexpr const char* ref_name = "ref";
 
-// A list that is passed over, and how many numbers each of its elements has.
-struct PassedOver {
+// A list of the file. Those that are passed over have some numbers for each element.
+struct MeditList {
+    enum class Kind { Vertices, Faces, Volumes, PassedOver };
     std::string_view keyword;
-    std::size_t num_numbers;
+    Kind kind;
+    std::size_t size;  // Corners or numbers of an element.
+    VolumeCell cell = {};
 };
-constexpr std::array passed_over = {PassedOver{"RequiredTriangles", 1},
-                                    PassedOver{"RequiredQuadrilaterals", 1},
-                                    PassedOver{"RequiredTetrahedra", 1},
-                                    PassedOver{"Normals", 3},
-                                    PassedOver{"NormalAtVertices", 2},
-                                    PassedOver{"NormalAtTriangleVertices", 3},
-                                    PassedOver{"NormalAtQuadrilateralVertices", 3},
-                                    PassedOver{"Tangents", 3},
-                                    PassedOver{"TangentAtVertices", 2},
-                                    PassedOver{"TangentAtEdges", 3}};
-
-struct VolumeList {
-    std::string_view keyword;
-    VolumeCell kind;
-};
-constexpr std::array volume_lists = {VolumeList{"Tetrahedra", VolumeCell::Tetrahedron},
-                                     VolumeList{"Hexahedra", VolumeCell::Hexahedron},
-                                     VolumeList{"Prisms", VolumeCell::Wedge},
-                                     VolumeList{"Pyramids", VolumeCell::Pyramid}};
+constexpr MeditList medit_lists[] = {
+    {"Vertices", MeditList::Kind::Vertices, 1},
+    {"Triangles", MeditList::Kind::Faces, 3},
+    {"Quadrilaterals", MeditList::Kind::Faces, 4},
+    {"Tetrahedra", MeditList::Kind::Volumes, 4, VolumeCell::Tetrahedron},
+    {"Hexahedra", MeditList::Kind::Volumes, 8, VolumeCell::Hexahedron},
+    {"Prisms", MeditList::Kind::Volumes, 6, VolumeCell::Wedge},
+    {"Pyramids", MeditList::Kind::Volumes, 5, VolumeCell::Pyramid},
+    {"RequiredTriangles", MeditList::Kind::PassedOver, 1},
+    {"RequiredQuadrilaterals", MeditList::Kind::PassedOver, 1},
+    {"RequiredTetrahedra", MeditList::Kind::PassedOver, 1},
+    {"Normals", MeditList::Kind::PassedOver, 3},
+    {"NormalAtVertices", MeditList::Kind::PassedOver, 2},
+    {"NormalAtTriangleVertices", MeditList::Kind::PassedOver, 3},
+    {"NormalAtQuadrilateralVertices", MeditList::Kind::PassedOver, 3},
+    {"Tangents", MeditList::Kind::PassedOver, 3},
+    {"TangentAtVertices", MeditList::Kind::PassedOver, 2},
+    {"TangentAtEdges", MeditList::Kind::PassedOver, 3}};
 
 // What is to be kept, with the file's numbers from 1.
 struct MeditKept {
@@ -59,9 +58,7 @@ Edge in_order(Index a, Index b) { return {std::min(a, b), std::max(a, b)}; }
 std::vector<Edge> edges_of(const TriangleMesh& mesh) {
     std::vector<Edge> edges;
     for (const auto& [a, b, c] : mesh.triangles) {
-        for (const Edge& edge : {in_order(a, b), in_order(b, c), in_order(c, a)}) {
-            edges.push_back(edge);
-        }
+        edges.insert(edges.end(), {in_order(a, b), in_order(b, c), in_order(c, a)});
     }
     std::sort(edges.begin(), edges.end());
     edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
@@ -77,12 +74,14 @@ public:
         expect("MeshVersionFormatted");
         next();
         if (const std::int64_t version = scan_.integer("a version"); version < 1 || version > 4) {
-            fail("unknown version " + std::to_string(version) + "; export the file again");
+            fail("unknown version ", version);
         }
         expect("Dimension");
         next();
         if (scan_.integer("the dimension") != 3) {
-            fail("the mesh does not have three dimensions; export it with three coordinates");
+            file_.fail_malformed(
+                start_,
+                "the mesh does not have three dimensions; export it with three coordinates");
         }
         while (scan_.find_word()) {
             start_ = scan_.offset();
@@ -95,14 +94,16 @@ public:
                 "the file ends without 'End' and without a face; it is truncated: export it again");
         }
         MeshFile result = finish();
-        add_warning(file_.place(scan_.offset()) +
-                        "the file ends without 'End'; its lists are complete, and are read",
-                    result);
+        add_warning(result, file_.place(scan_.offset()),
+                    "the file ends without 'End'; its lists are complete, and are read");
         return result;
     }
 
 private:
-    [[noreturn]] void fail(const std::string& text) const { file_.fail_malformed(start_, text); }
+    template <typename... Parts>
+    [[noreturn]] void fail(Parts... parts) const {
+        file_.fail_damaged(start_, parts...);
+    }
 
     // Goes to the next word, on whatever line.
     void next() {
@@ -116,8 +117,8 @@ private:
         next();
         const std::string_view word = scan_.word();
         if (word == keyword) return;
-        fail("expected '" + std::string(keyword) + "', found " + in_quotes(word) +
-             "; check that the file is a Medit mesh (.mesh, not .meshb)");
+        file_.fail_malformed(start_, "expected '", keyword, "', found ", in_quotes(word),
+                             "; check that the file is a Medit mesh (.mesh, not .meshb)");
     }
 
     std::int64_t integer(const char* what) {
@@ -127,41 +128,44 @@ private:
 
     void read_list(std::string_view keyword) {
         if (read_kept(keyword)) return;
-        const auto* const other =
-            std::find_if(passed_over.begin(), passed_over.end(),
-                         [&](const PassedOver& known) { return keyword == known.keyword; });
-        const auto* const volumes =
-            std::find_if(volume_lists.begin(), volume_lists.end(),
-                         [&](const VolumeList& known) { return keyword == known.keyword; });
-        const bool is_vertices = keyword == "Vertices";
-        const bool is_triangles = keyword == "Triangles", is_quads = keyword == "Quadrilaterals";
-        const bool is_volumes = volumes != volume_lists.end();
-        if (!is_vertices && !is_triangles && !is_quads && !is_volumes &&
-            other == passed_over.end()) {
-            fail("unknown keyword " + in_quotes(keyword) +
-                 "; save the file with vertices, triangles and quadrilaterals only");
+        const auto* const list =
+            std::find_if(std::begin(medit_lists), std::end(medit_lists),
+                         [&](const MeditList& known) { return keyword == known.keyword; });
+        if (list == std::end(medit_lists)) {
+            file_.fail_malformed(
+                start_, "unknown keyword ", in_quotes(keyword),
+                "; save the file with vertices, triangles and quadrilaterals only");
         }
-        const std::int64_t count = read_count();
+        const std::uint64_t count = read_count();
         if (keyword.starts_with("Required") && count > 0) {
             warnings_.push_back(std::string(keyword) + " are passed over");
         }
-        for (std::int64_t i = 0; i < count; ++i) {
-            if (is_vertices) {
-                read_vertex();
-            } else if (is_volumes) {
-                read_volume(volumes->kind);
-            } else if (other == passed_over.end()) {
-                read_face(is_triangles ? 3 : 4);
-            } else {
-                skip(other->num_numbers);
+        for (std::uint64_t i = 0; i < count; ++i) {
+            switch (list->kind) {
+                case MeditList::Kind::Vertices:
+                    read_vertex();
+                    break;
+                case MeditList::Kind::Faces:
+                    for (std::size_t k = 0; k < list->size; ++k) soup_.add_corner(corner(), start_);
+                    soup_.end_polygon();
+                    read_ref(face_refs_);
+                    break;
+                case MeditList::Kind::Volumes:
+                    soup_.ticker.tick(4);
+                    for (std::size_t k = 0; k < list->size; ++k)
+                        volumes_.add_corner(corner(), start_);
+                    volumes_.end_cell(list->cell);
+                    read_ref(volume_refs_);
+                    break;
+                case MeditList::Kind::PassedOver:
+                    skip(list->size);
             }
         }
     }
 
-    std::int64_t read_count() {
-        const std::int64_t count = integer("the number of elements");
-        if (count < 0) fail("the number of elements is negative; export the file again");
-        return count;
+    std::uint64_t read_count() {
+        next();
+        return scan_.count("the number of elements");
     }
 
     // \return false: the list is another one.
@@ -171,7 +175,7 @@ private:
         if (keyword != "Edges" && keyword != "RequiredEdges" && !is_vertices && !is_ridges) {
             return false;
         }
-        for (std::int64_t left = read_count(); left > 0; --left) {
+        for (std::uint64_t left = read_count(); left > 0; --left) {
             soup_.ticker.tick();
             const std::int64_t number = integer("a number from 1");
             if (keyword == "Edges") {
@@ -199,19 +203,6 @@ private:
         read_ref(vertex_refs_);
     }
 
-    void read_face(int num_corners) {
-        for (int k = 0; k < num_corners; ++k) soup_.add_corner(corner(), start_);
-        soup_.end_polygon();
-        read_ref(face_refs_);
-    }
-
-    void read_volume(VolumeCell kind) {
-        soup_.ticker.tick(4);
-        for (std::size_t k = num_corners(kind); k > 0; --k) volumes_.add_corner(corner(), start_);
-        volumes_.end_cell(kind);
-        read_ref(volume_refs_);
-    }
-
     // From 0.
     std::int64_t corner() {
         const std::int64_t vertex = integer("a corner");
@@ -224,7 +215,8 @@ private:
     void read_ref(std::vector<double>& refs) {
         const std::int64_t ref = integer("a reference");
         if (ref < INT32_MIN || ref > INT32_MAX) {
-            fail("a reference has more than 32 bits; renumber the references");
+            file_.fail_malformed(start_,
+                                 "a reference has more than 32 bits; renumber the references");
         }
         if (file_.with_attributes) refs.push_back(static_cast<double>(ref));
     }
@@ -250,29 +242,26 @@ private:
         std::size_t num_missing = 0;
         const std::vector<Edge> all =
             kept_.edges.empty() ? std::vector<Edge>() : edges_of(result.mesh);
-        const auto found = [&](std::int64_t number) -> const Edge* {
-            if (number < 1 || number > static_cast<std::int64_t>(kept_.edges.size()))
-                return nullptr;
-            const auto [a, b] = kept_.edges[static_cast<std::size_t>(number - 1)];
-            if (std::min(a, b) < 1 || std::max(a, b) >= no_index) return nullptr;
-            const Edge edge = in_order(static_cast<Index>(a - 1), static_cast<Index>(b - 1));
-            const auto place = std::lower_bound(all.begin(), all.end(), edge);
-            return place != all.end() && *place == edge ? &*place : nullptr;
-        };
         const auto add = [&](std::int64_t number, std::vector<Edge>& edges) {
-            const Edge* const edge = found(number);
-            if (edge == nullptr) {
-                ++num_missing;
+            Edge edge{no_index, no_index};
+            if (number >= 1 && number <= static_cast<std::int64_t>(kept_.edges.size())) {
+                const auto [a, b] = kept_.edges[static_cast<std::size_t>(number - 1)];
+                if (std::min(a, b) >= 1 && std::max(a, b) < no_index) {
+                    edge = in_order(static_cast<Index>(a - 1), static_cast<Index>(b - 1));
+                }
+            }
+            if (std::binary_search(all.begin(), all.end(), edge)) {
+                edges.push_back(edge);
             } else {
-                edges.push_back(*edge);
+                ++num_missing;
             }
         };
         for (std::size_t i = 1; i <= kept_.edges.size(); ++i) {
             add(static_cast<std::int64_t>(i), result.feature_edges);
         }
         for (const std::int64_t number : kept_.required_edges) add(number, result.locked_edges);
-        std::set<std::int64_t> wanted(kept_.required_vertices.begin(),
-                                      kept_.required_vertices.end());
+        const std::set<std::int64_t> wanted(kept_.required_vertices.begin(),
+                                            kept_.required_vertices.end());
         std::set<Index> locked;
         for (const Triangle& t : result.mesh.triangles) {
             for (const Index v : t) {
@@ -302,10 +291,10 @@ private:
         add(std::move(vertex_refs_), attributes.of_vertices);
         add(std::move(face_refs_), attributes.of_faces);
         attach(std::move(attributes), result);
-        add_warning(volumes_.warning(cell_of_face.size()), result);
+        add_warning(result, volumes_.warning(cell_of_face.size()));
         finish_kept(result);
         for (const std::string& warning : warnings_) {
-            add_warning(file_.path.string() + ": " + warning, result);
+            add_warning(result, file_.path.string(), ": ", warning);
         }
         return result;
     }

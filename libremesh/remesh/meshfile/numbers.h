@@ -1,15 +1,12 @@
 //! \file
-//! Reads and writes numbers in binary files. Private to the readers and writers.
-//! Writes numbers of types that are known at run time to binary files. Private to the writers.
+//! Numbers in binary files. Private to the readers and writers.
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <string>
 
 #include "remesh/meshfile/read_mesh.h"
 
@@ -32,33 +29,48 @@ void append(std::string& bytes, T value, std::endian order = std::endian::little
     bytes.append(raw.data(), raw.size());
 }
 
+//! Appends some values, little endian.
+template <typename... Numbers>
+void append_all(std::string& bytes, Numbers... numbers) {
+    (append(bytes, numbers), ...);
+}
+
+//! Calls `call` with a zero of the type. \return what it returns.
+template <typename Call>
+[[gnu::always_inline]] inline auto with_type(NumberType type, const Call& call) {
+    switch (type) {
+        case NumberType::Int8:
+            return call(std::int8_t{});
+        case NumberType::UInt8:
+            return call(std::uint8_t{});
+        case NumberType::Int16:
+            return call(std::int16_t{});
+        case NumberType::UInt16:
+            return call(std::uint16_t{});
+        case NumberType::Int32:
+            return call(std::int32_t{});
+        case NumberType::UInt32:
+            return call(std::uint32_t{});
+        case NumberType::Float32:
+            return call(float{});
+        case NumberType::Float64:
+            break;
+    }
+    return call(double{});
+}
+
 //! Appends a value in a type; integers are rounded and kept in the range of the type, NaN becomes
 //! 0.
 inline void append_number(std::string& bytes, NumberType type, double value,
                           std::endian order = std::endian::little) {
-    const auto append_whole = [&]<typename T>(T) {
-        constexpr double low = std::numeric_limits<T>::min(), high = std::numeric_limits<T>::max();
-        const double whole = std::isnan(value) ? 0 : std::clamp(std::round(value), low, high);
-        append(bytes, static_cast<T>(whole), order);
-    };
-    switch (type) {
-        case NumberType::Int8:
-            return append_whole(std::int8_t{});
-        case NumberType::UInt8:
-            return append_whole(std::uint8_t{});
-        case NumberType::Int16:
-            return append_whole(std::int16_t{});
-        case NumberType::UInt16:
-            return append_whole(std::uint16_t{});
-        case NumberType::Int32:
-            return append_whole(std::int32_t{});
-        case NumberType::UInt32:
-            return append_whole(std::uint32_t{});
-        case NumberType::Float32:
-            return append(bytes, static_cast<float>(value), order);
-        case NumberType::Float64:
-            return append(bytes, value, order);
-    }
+    with_type(type, [&]<typename T>(T) {
+        if constexpr (std::is_integral_v<T>) {
+            constexpr double low = std::numeric_limits<T>::min(),
+                             high = std::numeric_limits<T>::max();
+            value = std::isnan(value) ? 0 : std::clamp(std::round(value), low, high);
+        }
+        append(bytes, static_cast<T>(value), order);
+    });
 }
 
 }  // namespace remesh

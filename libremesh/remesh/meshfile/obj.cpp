@@ -1,66 +1,25 @@
-//! Colours and labels of an OBJ file. Private to the reader.
-// Wavefront OBJ: vertices (v, also with colours) and faces (f), materials, groups and objects;
-// texture coordinates of corners (vt); every other statement is skipped, and so are normals of a
-// corner: vertices are never split along their seams (format: Wavefront, Advanced Visualizer
-// Manual, appendix B1).
-// Writes OBJ: vertices with colours and normals, texture coordinates, each once, and faces with
-// materials, groups and objects.
+// Wavefront OBJ: vertices (v, also with colours), texture coordinates of corners (vt), faces (f),
+// materials, groups and objects; other statements and the normals of corners are skipped. Vertices
+// are never split (format: Wavefront, Advanced Visualizer Manual, appendix B1).
 
 #include <algorithm>
-#include <array>
-#include <map>
-#include <utility>
 
-#include "agvd/mesh/mesh.h"
 #include "remesh/meshfile/formats.h"
 #include "remesh/meshfile/materials.h"
 #include "remesh/meshfile/polygon_soup.h"
-#include "remesh/meshfile/text.h"
 #include "remesh/meshfile/text_scanner.h"
 
 namespace remesh {
 namespace {
 
-class ObjAttributes {
-public:
-    //! \param is_wanted  false: everything is passed over.
-    explicit ObjAttributes(bool is_wanted) : is_wanted_(is_wanted) {}
-
-    //! The words behind a vertex's coordinates: three are a colour, one is a weight.
-    void take_color(std::size_t vertex, TextScanner& scan);
-
-    //! The coordinates behind vt: a second one may be missing, a third one does not count.
-    void take_texture(TextScanner& scan, SoupTexture& texture) const;
-
-    //! Any other statement than v, vt and f.
-    //! \param num_polygons  before it.
-    void take(std::string_view statement, std::size_t num_polygons, TextScanner& scan);
-
-    [[nodiscard]] bool is_wanted() const { return is_wanted_; }
-
-    //! All attributes; those of faces have a value for each polygon.
-    [[nodiscard]] MeshAttributes finish(std::size_t num_vertices, std::size_t num_polygons) &&;
-
-private:
-    // What usemtl, g or o say: a label for each polygon from the statement on.
-    struct Labels {
-        const char* statement;
-        const char* name;  // Of the attribute.
-        std::vector<double> values = {};
-        std::vector<std::string> names = {};
-        std::map<std::string, std::size_t, std::less<>> number = {};
-        std::size_t current = 0;
-
-        void begin(const std::string& label, std::size_t num_polygons);
-    };
-
-    bool is_wanted_;
-    bool has_normals_ = false;
-    TextColors colors_;
-    std::array<Labels, 3> labels_ = {Labels{"usemtl", "material"}, Labels{"g", "group"},
-                                     Labels{"o", "object"}};
-    std::vector<std::string> material_files_;
+// Statements that give labels to the faces behind them, and the attributes that these become.
+struct LabelStatement {
+    std::string_view keyword;
+    const char* attribute;
 };
+constexpr std::array label_statements = {LabelStatement{"usemtl", "material"},
+                                         LabelStatement{"g", "group"},
+                                         LabelStatement{"o", "object"}};
 
 // A name may have several words. A backslash at its end would join the line with the next one when
 // it is written.
@@ -70,99 +29,110 @@ std::string name_on(TextScanner& scan) {
     return name;
 }
 
-void ObjAttributes::take_color(std::size_t vertex, TextScanner& scan) {
-    std::array<double, 4> numbers{};
-    std::size_t count = 0;
-    while (scan.has_word()) {  // Over joined lines too.
-        if (!is_wanted_ || count == numbers.size()) {
-            scan.word();
-            continue;
+// Colours, labels and texture coordinates.
+class ObjAttributes {
+public:
+    // \param is_wanted  false: everything is passed over.
+    explicit ObjAttributes(bool is_wanted) : is_wanted_(is_wanted) {}
+
+    // The words behind a vertex's coordinates: three are a colour, one is a weight.
+    void take_color(std::size_t vertex, TextScanner& scan) {
+        std::array<double, 4> numbers{};
+        std::size_t count = 0;
+        while (scan.has_word()) {  // Over joined lines too.
+            if (!is_wanted_ || count == numbers.size()) {
+                scan.word();
+                continue;
+            }
+            const std::optional<double> number = scan.number_or_other("a number");
+            if (!number) colors_.spoil();
+            numbers[count++] = number.value_or(0);
         }
-        const std::optional<double> number = scan.number_or_other("a number");
-        if (!number) colors_.spoil();
-        numbers[count++] = number.value_or(0);
+        if (count > 1) colors_.take(vertex, std::span(numbers).first(count));
     }
-    if (count > 1) colors_.take(vertex, std::span(numbers).first(count));
-}
 
-void ObjAttributes::take_texture(TextScanner& scan, SoupTexture& texture) const {
-    std::array<double, 2> numbers{};
-    bool is_broken = false;
-    for (double& number : numbers) {
-        if (!scan.has_word()) break;  // Joined lines are passed over, wanted or not.
-        const std::optional<double> read = scan.number_or_other("a number");
-        is_broken = is_broken || !read;
-        number = read.value_or(0);
+    // The coordinates behind vt: a second one may be missing, a third one does not count.
+    void take_texture(TextScanner& scan, SoupTexture& texture) const {
+        std::array<double, 2> numbers{};
+        bool is_broken = false;
+        for (double& number : numbers) {
+            if (!scan.has_word()) break;  // Joined lines are passed over, wanted or not.
+            const std::optional<double> read = scan.number_or_other("a number");
+            is_broken = is_broken || !read;
+            number = read.value_or(0);
+        }
+        if (!is_wanted_) return;
+        texture.name = "vt";
+        texture.is_broken = texture.is_broken || is_broken;
+        texture.add(numbers[0], numbers[1]);
     }
-    if (!is_wanted_) return;
-    texture.name = "vt";
-    texture.is_broken = texture.is_broken || is_broken;
-    texture.add(numbers[0], numbers[1]);
-}
 
-void ObjAttributes::take(std::string_view statement, std::size_t num_polygons, TextScanner& scan) {
-    if (!is_wanted_) return;
-    has_normals_ = has_normals_ || statement == "vn";
-    if (statement == "mtllib") material_files_.push_back(name_on(scan));
-    for (Labels& labels : labels_) {
-        if (statement == labels.statement) labels.begin(name_on(scan), num_polygons);
+    // Any other statement than v, vt and f.
+    // \param num_polygons  before it.
+    void take(std::string_view statement, std::size_t num_polygons, TextScanner& scan) {
+        if (!is_wanted_) return;
+        has_normals_ = has_normals_ || statement == "vn";
+        if (statement == "mtllib") material_files_.push_back(name_on(scan));
+        for (std::size_t i = 0; i < label_statements.size(); ++i) {
+            if (statement != label_statements[i].keyword) continue;
+            if (labels_[i].num_labels() == 0 && num_polygons > 0) labels_[i].begin_unnamed();
+            labels_[i].extend(current_[i], num_polygons);
+            current_[i] = labels_[i].number_of(name_on(scan));
+        }
     }
-}
 
-void ObjAttributes::Labels::begin(const std::string& label, std::size_t num_polygons) {
-    if (names.empty() && num_polygons > 0) names.emplace_back();  // Of the polygons before.
-    values.resize(num_polygons, static_cast<double>(current));
-    const auto [found, is_new] = number.try_emplace(label, names.size());
-    if (is_new) names.push_back(label);
-    current = found->second;
-}
+    [[nodiscard]] bool is_wanted() const { return is_wanted_; }
 
-MeshAttributes ObjAttributes::finish(std::size_t num_vertices, std::size_t num_polygons) && {
-    MeshAttributes attributes;
-    attributes.material_files = std::move(material_files_);
-    if (has_normals_) attributes.normals = NumberType::Float32;
-    std::move(colors_).finish(num_vertices, ElementKind::Vertex, attributes);
-    for (Labels& labels : labels_) {
-        if (labels.names.empty()) continue;
-        labels.values.resize(num_polygons, static_cast<double>(labels.current));
-        attributes.of_faces.push_back({.name = labels.name,
-                                       .type = NumberType::Int32,
-                                       .values = std::move(labels.values),
-                                       .names = std::move(labels.names)});
+    // All attributes; those of faces have a value for each polygon.
+    MeshAttributes finish(std::size_t num_vertices, std::size_t num_polygons) && {
+        MeshAttributes attributes;
+        attributes.material_files = std::move(material_files_);
+        if (has_normals_) attributes.normals = NumberType::Float32;
+        std::move(colors_).finish(num_vertices, ElementKind::Vertex, attributes);
+        for (std::size_t i = 0; i < label_statements.size(); ++i) {
+            if (labels_[i].num_labels() == 0) continue;
+            labels_[i].extend(current_[i], num_polygons);
+            attributes.of_faces.push_back(
+                std::move(labels_[i]).finish(label_statements[i].attribute));
+        }
+        return attributes;
     }
-    return attributes;
-}
 
-struct ObjCorner {
-    std::int64_t vertex;         // From 0.
-    std::string_view rest = {};  // What follows it: vt, /vn or vt/vn.
+private:
+    bool is_wanted_;
+    bool has_normals_ = false;
+    TextColors colors_;
+    std::array<FaceLabels, label_statements.size()> labels_;
+    std::array<std::size_t, label_statements.size()> current_{};
+    std::vector<std::string> material_files_;
 };
 
 // The file counts from 1, or with negative numbers back from the last vertex so far. What follows
 // (/vt, //vn, /vt/vn) must look like that.
-ObjCorner read_corner(TextScanner& scan, const SourceFile& file, std::size_t num_vertices) {
-    ObjCorner corner{};
+// \return the vertex from 0, and what follows it: vt, /vn or vt/vn.
+std::pair<std::int64_t, std::string_view> read_corner(TextScanner& scan, const SourceFile& file,
+                                                      std::size_t num_vertices) {
+    std::string_view rest;
     const std::size_t start = scan.offset();
     const std::int64_t number = scan.integer("a corner (v, v/vt, v//vn or v/vt/vn)", '/');
     const std::size_t slash = scan.offset();
     if (scan.take("/")) {
-        corner.rest = scan.rest_of_word();
-        if (corner.rest.find_first_not_of("0123456789-/") != std::string_view::npos) {
+        rest = scan.rest_of_word();
+        if (rest.find_first_not_of("0123456789-/") != std::string_view::npos) {
             file.fail_malformed(slash,
-                                "expected texture and normal numbers after a corner's '/'; "
-                                "correct the line, or export the file again");
+                                "expected texture and normal numbers after a corner's '/'; correct "
+                                "the line, or export the file again");
         }
     }
     const auto count = static_cast<std::int64_t>(num_vertices);
     if (number == 0 || number < -count) {
-        file.fail_unusable(start, "a face names vertex " + std::to_string(number) +
-                                      (number == 0 ? ", but OBJ counts vertices from 1"
-                                                   : ", but only " + std::to_string(count) +
-                                                         " vertices come before it") +
-                                      "; correct the face, or export the file again");
+        file.fail_unusable(
+            start, "a face names vertex ", number,
+            (number == 0 ? ", but OBJ counts vertices from 1"
+                         : ", but only " + std::to_string(count) + " vertices come before it"),
+            "; correct the face, or export the file again");
     }
-    corner.vertex = number > 0 ? number - 1 : count + number;
-    return corner;
+    return {number > 0 ? number - 1 : count + number, rest};
 }
 
 // Flat drawings have two coordinates: 2 or 3, as the vertex that comes next has.
@@ -190,9 +160,6 @@ void take_coordinates(std::string_view rest, PolygonSoup& soup) {
     texture.set_corner(soup.num_corners(), static_cast<Index>(number - 1));
 }
 
-constexpr std::array label_statements = {std::pair{"o ", "object"}, std::pair{"g ", "group"},
-                                         std::pair{"usemtl ", "material"}};
-
 void append_vertex(std::string& bytes, const Vec3& p, std::size_t vertex,
                    const std::vector<const Attribute*>& colors) {
     append_line(bytes, "v ", p);
@@ -205,61 +172,54 @@ void append_vertex(std::string& bytes, const Vec3& p, std::size_t vertex,
     append_line(bytes, " ", color);
 }
 
-// Statements for the labels that differ from those of the face before.
+// Statements for the labels that differ from those of the face before: object, group, material.
 void append_labels(std::string& bytes, const std::vector<Attribute>& of_faces, std::size_t face) {
-    for (const auto& [statement, name] : label_statements) {
+    for (std::size_t i = label_statements.size(); i-- > 0;) {
+        const auto& [keyword, name] = label_statements[i];
         const Attribute* const labels = find_attribute(of_faces, name);
         if (labels == nullptr || labels->names.empty()) continue;
         const auto at = [&](std::size_t f) { return static_cast<std::size_t>(labels->values[f]); };
         const std::string& label = labels->names[at(face)];
         if (face == 0 ? label.empty() : at(face) == at(face - 1)) continue;
-        bytes += statement + (label.empty() ? "none" : label) + '\n';
+        bytes.append(keyword).append(" ").append(label.empty() ? "none" : label) += '\n';
     }
 }
 
-// Numbers of texture coordinates, from 1.
-class ObjTexture {
-public:
-    // Appends the lines vt.
-    ObjTexture(const TextureCoordinates& texture, Ticker& ticker, std::string& bytes) {
-        const bool is_single = texture.type == NumberType::Float32;
-        for (const CornerCoordinates& corners : texture.corners) {
-            ticker.tick(4);
-            for (const Vec2& p : corners) {
-                if (!is_whole(corners)) {
-                    number_.push_back(0);
-                    continue;
-                }
-                const auto [known, is_new] = known_.try_emplace({p.x(), p.y()}, known_.size() + 1);
-                number_.push_back(known->second);
-                if (!is_new) continue;
-                if (is_single) {
-                    append_line(bytes, "vt ", p.cast<float>().eval());
-                } else {
-                    append_line(bytes, "vt ", p);
-                }
+// Appends the lines vt. \return for each corner the number of its coordinates, from 1; 0: it has
+// none.
+std::vector<std::size_t> append_texture(std::string& bytes, const TextureCoordinates& texture,
+                                        Ticker& ticker) {
+    std::map<std::pair<double, double>, std::size_t> known;
+    std::vector<std::size_t> numbers;
+    for (const CornerCoordinates& corners : texture.corners) {
+        ticker.tick(4);
+        for (const Vec2& p : corners) {
+            if (!is_whole(corners)) {
+                numbers.push_back(0);
+                continue;
+            }
+            const auto [entry, is_new] = known.try_emplace({p.x(), p.y()}, known.size() + 1);
+            numbers.push_back(entry->second);
+            if (is_new && texture.type == NumberType::Float32) {
+                append_line(bytes, "vt ", p.cast<float>().eval());
+            } else if (is_new) {
+                append_line(bytes, "vt ", p);
             }
         }
     }
+    return numbers;
+}
 
-    // 0: there is none.
-    [[nodiscard]] std::size_t operator()(std::size_t face, std::size_t corner) const {
-        return number_.empty() ? 0 : number_[3 * face + corner];
-    }
-
-private:
-    std::map<std::pair<double, double>, std::size_t> known_;
-    std::vector<std::size_t> number_;
-};
-
+// \param texture  see append_texture; empty: there is none.
 void append_face(std::string& bytes, const Triangle& triangle, std::size_t face, bool has_normals,
-                 const ObjTexture& texture) {
+                 const std::vector<std::size_t>& texture) {
     bytes += 'f';
     for (std::size_t k = 0; k < 3; ++k) {
         const std::string number = std::to_string(triangle[k] + 1ull);
+        const std::size_t coordinates = texture.empty() ? 0 : texture[3 * face + k];
         bytes.append(" ").append(number);
-        if (texture(face, k) > 0) bytes.append("/").append(std::to_string(texture(face, k)));
-        if (has_normals) bytes.append(texture(face, k) > 0 ? "/" : "//").append(number);
+        if (coordinates > 0) bytes.append("/").append(std::to_string(coordinates));
+        if (has_normals) bytes.append(coordinates > 0 ? "/" : "//").append(number);
     }
     bytes += '\n';
 }
@@ -287,9 +247,9 @@ MeshFile read_obj(SourceFile file) {
         } else if (statement == "f") {
             while (scan.has_word()) {
                 const std::size_t start = scan.offset();
-                const ObjCorner corner = read_corner(scan, file, soup.positions.size());
-                soup.add_corner(corner.vertex, start);
-                if (attributes.is_wanted()) take_coordinates(corner.rest, soup);
+                const auto [vertex, rest] = read_corner(scan, file, soup.positions.size());
+                soup.add_corner(vertex, start);
+                if (attributes.is_wanted()) take_coordinates(rest, soup);
             }
             soup.end_polygon();
         } else {
@@ -301,8 +261,8 @@ MeshFile read_obj(SourceFile file) {
     MeshFile result = std::move(soup).finish();
     attach(std::move(attributes).finish(num_vertices, num_polygons), result);
     if (num_coordinates == 2) {
-        add_warning(file.path.string() + ": the vertices have two coordinates; z = 0 is taken",
-                    result);
+        add_warning(result, file.path.string(),
+                    ": the vertices have two coordinates; z = 0 is taken");
     }
     return result;
 }
@@ -314,7 +274,7 @@ bool obj_holds(const Attribute& attribute, ElementKind kind, const MeshAttribute
     }
     return !attribute.names.empty() &&
            std::any_of(label_statements.begin(), label_statements.end(),
-                       [&](const auto& known) { return attribute.name == known.second; });
+                       [&](const auto& known) { return attribute.name == known.attribute; });
 }
 
 std::string format_obj(const MeshView& mesh, const MeshAttributes& attributes, Ticker ticker) {
@@ -331,7 +291,7 @@ std::string format_obj(const MeshView& mesh, const MeshAttributes& attributes, T
             append_line(bytes, "vn ", normal.cast<float>().eval());
         }
     }
-    const ObjTexture texture(attributes.texture, ticker, bytes);
+    const auto texture = append_texture(bytes, attributes.texture, ticker);
     for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
         ticker.tick();
         append_labels(bytes, attributes.of_faces, f);

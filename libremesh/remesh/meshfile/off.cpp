@@ -1,25 +1,14 @@
-// OFF, and COFF, NOFF, STOFF, as text and binary: coordinates, corners, and colours of both;
-// normals are skipped (format: Geomview manual, "OFF Files").
-//
-// Of a text reads one element from each line, as most writers do it; the rest of a line after a
-// vertex's coordinates or a face's corners is optional. The corners of a face may go on over the
-// next lines, which hold nothing else: otherwise a line that lacks a corner would take one from the
-// next face. A file with another layout runs out of lines, which is an error.
-// Writes OFF; with colours of vertices COFF, with normals NOFF, with texture coordinates STOFF.
-// Colours of uchar are whole numbers, others lie between 0 and 1.
+// OFF, and COFF, NOFF, STOFF, as text and binary: coordinates, corners, colours and texture
+// coordinates; normals are skipped (format: Geomview manual, "OFF Files").
+// Of a text each line holds one element, as most writers do it. The corners of a face may go on
+// over the next lines, which hold nothing else: otherwise a line that lacks a corner would take one
+// from the next face. A file with another layout runs out of lines, which is an error. Colours of
+// uchar are written as whole numbers, others lie between 0 and 1.
 
-#include <algorithm>
-#include <array>
-#include <utility>
-
-#include "agvd/mesh/mesh.h"
 #include "remesh/meshfile/formats.h"
 #include "remesh/meshfile/materials.h"
-#include "remesh/meshfile/numbers.h"
 #include "remesh/meshfile/ply_values.h"
 #include "remesh/meshfile/polygon_soup.h"
-#include "remesh/meshfile/text.h"
-#include "remesh/meshfile/text_scanner.h"
 
 namespace remesh {
 namespace {
@@ -111,17 +100,10 @@ void take_color(TextScanner& scan, std::size_t index, const Extras& extras, Text
     if (!texture->is_broken) texture->add(numbers[count - 2], numbers[count - 1]);
 }
 
-std::uint64_t read_count(TextScanner& scan, const char* what) {
-    const std::int64_t count = scan.integer(what);
-    if (count < 0) scan.fail_malformed(std::string(what) + " is negative; export the file again");
-    return static_cast<std::uint64_t>(count);
-}
-
 void find_element(TextScanner& scan, const char* kind, std::uint64_t index, std::uint64_t count) {
     if (scan.find_word()) return;
     scan.fail_malformed(
-        "the file ends before " + std::string(kind) + " " + std::to_string(index) + " of " +
-        std::to_string(count) +
+        "the file ends before ", kind, " ", index, " of ", count,
         "; it is truncated, or has several elements on a line: export the file again");
 }
 
@@ -157,8 +139,8 @@ MeshFile read_off(SourceFile file) {
     const Extras extras = read_keyword(scan);
     if (extras.is_binary) return read_binary_off(file, scan.offset(), extras);
     if (!scan.find_word()) scan.fail_expecting("the number of vertices");
-    const std::uint64_t num_vertices = read_count(scan, "the number of vertices");
-    const std::uint64_t num_faces = read_count(scan, "the number of faces");
+    const std::uint64_t num_vertices = scan.count("the number of vertices");
+    const std::uint64_t num_faces = scan.count("the number of faces");
     scan.skip_line();
 
     PolygonSoup soup(file, 0);
@@ -181,19 +163,15 @@ MeshFile read_off(SourceFile file) {
         find_element(scan, "face", f, num_faces);
         const std::size_t start = scan.offset();
         const std::int64_t corners = scan.integer("the number of corners");
-        if (corners < 0)
-            file.fail_malformed(start,
-                                "face " + std::to_string(f) +
-                                    " has a negative number of corners; export the file again");
+        if (corners < 0) file.fail_damaged(start, "face ", f, " has a negative number of corners");
         bool goes_on = false;
         for (std::int64_t k = 0; k < corners; ++k) {
             if (!scan.has_word()) goes_on = scan.find_word();
             soup.add_corner(scan.integer("a corner"), start);
         }
         if (goes_on && scan.has_word()) {
-            file.fail_malformed(start, "face " + std::to_string(f) + " has fewer than " +
-                                           std::to_string(corners) +
-                                           " corners; correct the line, or export the file again");
+            file.fail_malformed(start, "face ", f, " has fewer than ", corners,
+                                " corners; correct the line, or export the file again");
         }
         soup.end_polygon();
         if (file.with_attributes && scan.has_word())
@@ -210,7 +188,7 @@ MeshFile read_off(SourceFile file) {
         std::move(face_colors).finish(num_faces, ElementKind::Face, attributes);
         attach(std::move(attributes), result);
     }
-    add_warning(rest, result);
+    add_warning(result, rest);
     return result;
 }
 

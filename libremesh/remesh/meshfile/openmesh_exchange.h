@@ -5,14 +5,9 @@
 
 #include <OpenMesh/Core/Mesh/DefaultTriMesh.hh>
 #include <algorithm>
-#include <array>
-#include <string>
 #include <type_traits>
 #include <utility>
-#include <vector>
 
-#include "agvd/core/error.h"
-#include "agvd/mesh/mesh.h"
 #include "remesh/meshfile/read_mesh.h"
 
 namespace remesh {

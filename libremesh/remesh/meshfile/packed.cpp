@@ -1,55 +1,53 @@
-//! Streams of zlib over input that lies in memory. Private; only sources that are compiled with
-//! zlib include it.
 #include "remesh/meshfile/packed.h"
 
 #include <zlib.h>
 #include <algorithm>
 #include <new>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
 
 namespace remesh {
 namespace {
 
-//! Memory is taken and the ticker polls in steps of this size.
+// Memory is taken and the ticker polls in steps of this size.
 constexpr std::size_t zlib_chunk_size = 1 << 22;
 
-//! What surrounds the deflated data; see zlib.h, inflateInit2 and deflateInit2.
+// What surrounds the deflated data; see zlib.h, inflateInit2 and deflateInit2.
 enum class ZlibWrapping : int { None = -MAX_WBITS, Zlib = MAX_WBITS, Gzip = MAX_WBITS + 16 };
 
+// A stream of zlib over input that lies in memory.
 class ZStream {
 public:
-    //! Fills the bytes from `begin` to their end, as far as the input goes, and cuts off the rest.
-    //! \param step  inflate or deflate, with its flush mode. \return what it returned last.
-    template <typename Step>
-    int fill(std::string& bytes, std::size_t begin, const Step& step) {
+    ZStream(std::string_view input, ZlibWrapping wrapping, bool packs)
+        : left_(input), packs_(packs) {
+        const int bits = static_cast<int>(wrapping);
+        const int status = packs ? ::deflateInit2(&stream_, Z_DEFAULT_COMPRESSION, Z_DEFLATED, bits,
+                                                  8, Z_DEFAULT_STRATEGY)
+                                 : ::inflateInit2(&stream_, bits);
+        if (status != Z_OK) throw std::bad_alloc();  // The other errors are wrong arguments.
+    }
+    ZStream(const ZStream&) = delete;
+    ZStream& operator=(const ZStream&) = delete;
+    ~ZStream() { packs_ ? ::deflateEnd(&stream_) : ::inflateEnd(&stream_); }
+
+    // Fills the bytes from `begin` to their end, as far as the input goes, and cuts off the rest.
+    // \return what zlib returned last.
+    int fill(std::string& bytes, std::size_t begin, Ticker& ticker) {
         stream_.next_out = reinterpret_cast<Bytef*>(bytes.data() + begin);
         stream_.avail_out = static_cast<uInt>(bytes.size() - begin);
         int status = Z_OK;
         while (status == Z_OK && stream_.avail_out > 0) {
+            ticker.poll();
             if (stream_.avail_in == 0) take_input();
-            status = step(stream_, left_.empty());
+            status = packs_ ? ::deflate(&stream_, left_.empty() ? Z_FINISH : Z_NO_FLUSH)
+                            : ::inflate(&stream_, Z_NO_FLUSH);
             if (status == Z_BUF_ERROR && stream_.avail_in == 0 && !left_.empty()) status = Z_OK;
         }
         bytes.resize(bytes.size() - stream_.avail_out);
+        if (status == Z_MEM_ERROR) throw std::bad_alloc();
         return status;
     }
 
-    //! Bytes of the input that were not used.
+    // Bytes of the input that were not used.
     [[nodiscard]] std::size_t num_left() const { return left_.size() + stream_.avail_in; }
-
-protected:
-    explicit ZStream(std::string_view input) : left_(input) {}
-    ZStream(const ZStream&) = delete;
-    ZStream& operator=(const ZStream&) = delete;
-    ~ZStream() = default;
-
-    static void require(int status) {
-        if (status != Z_OK) throw std::bad_alloc();  // The other errors are wrong arguments.
-    }
-    z_stream stream_{};
 
 private:
     void take_input() {
@@ -60,31 +58,20 @@ private:
         left_.remove_prefix(size);
     }
 
+    z_stream stream_{};
     std::string_view left_;
+    bool packs_;
 };
 
-class Inflater : public ZStream {
-public:
-    Inflater(std::string_view input, ZlibWrapping wrapping) : ZStream(input) {
-        require(::inflateInit2(&stream_, static_cast<int>(wrapping)));
+// Appends all that comes out of a stream. \return what zlib returned last.
+int append_chunks(ZStream& stream, Ticker& ticker, std::vector<std::string>& chunks) {
+    int status = Z_OK;
+    while (status == Z_OK) {
+        chunks.emplace_back(zlib_chunk_size, '\0');
+        status = stream.fill(chunks.back(), 0, ticker);
     }
-    ~Inflater() { ::inflateEnd(&stream_); }
-
-    //! As fill.
-    int unpack(std::string& bytes, std::size_t begin) {
-        return fill(bytes, begin,
-                    [](z_stream& stream, bool) { return ::inflate(&stream, Z_NO_FLUSH); });
-    }
-};
-
-class Deflater : public ZStream {
-public:
-    Deflater(std::string_view input, ZlibWrapping wrapping) : ZStream(input) {
-        require(::deflateInit2(&stream_, Z_DEFAULT_COMPRESSION, Z_DEFLATED,
-                               static_cast<int>(wrapping), 8, Z_DEFAULT_STRATEGY));
-    }
-    ~Deflater() { ::deflateEnd(&stream_); }
-};
+    return status;
+}
 
 // Each chunk is freed as soon as it is appended, so that nothing is in memory twice.
 std::string joined_chunks(std::vector<std::string> chunks) {
@@ -99,37 +86,21 @@ std::string joined_chunks(std::vector<std::string> chunks) {
 // Unpacks one member, which begins at the offset, and goes behind it.
 void unpack_member(const SourceFile& file, std::size_t& offset, Ticker& ticker,
                    std::vector<std::string>& chunks) {
-    Inflater inflater(std::string_view(file.bytes).substr(offset), ZlibWrapping::Gzip);
-    int status = Z_OK;
-    while (status == Z_OK) {
-        ticker.poll();
-        chunks.emplace_back(zlib_chunk_size, '\0');
-        status = inflater.unpack(chunks.back(), 0);
-    }
-    const std::size_t at = file.bytes.size() - inflater.num_left();
-    if (status == Z_MEM_ERROR) throw std::bad_alloc();
+    ZStream stream(std::string_view(file.bytes).substr(offset), ZlibWrapping::Gzip, false);
+    const int status = append_chunks(stream, ticker, chunks);
+    const std::size_t at = file.bytes.size() - stream.num_left();
     if (status == Z_BUF_ERROR) {
-        file.fail_malformed(at,
-                            "the compressed data end too early; the file is truncated: export "
-                            "it again");
+        file.fail_malformed(
+            at, "the compressed data end too early; the file is truncated: export it again");
     }
-    if (status != Z_STREAM_END) {
-        file.fail_malformed(at, "the compressed data are damaged; export the file again");
-    }
+    if (status != Z_STREAM_END) file.fail_damaged(at, "the compressed data are damaged");
     offset = at;
 }
 
 std::string packed(const std::string& bytes, ZlibWrapping wrapping, Ticker& ticker) {
-    Deflater deflater(bytes, wrapping);
+    ZStream stream(bytes, wrapping, true);
     std::vector<std::string> chunks;
-    int status = Z_OK;
-    while (status == Z_OK) {
-        chunks.emplace_back(zlib_chunk_size, '\0');
-        status = deflater.fill(chunks.back(), 0, [&](z_stream& stream, bool is_last) {
-            ticker.poll();
-            return ::deflate(&stream, is_last ? Z_FINISH : Z_NO_FLUSH);
-        });
-    }
+    append_chunks(stream, ticker, chunks);
     return joined_chunks(std::move(chunks));
 }
 
@@ -146,18 +117,15 @@ void unpack_gzip(SourceFile& file) {
         unpack_member(file, offset, ticker, chunks);
     }
     // Tapes and some writers fill the last block with zeros.
-    const std::size_t rest =
-        std::min(file.bytes.find_first_not_of('\0', offset), file.bytes.size());
-    if (rest < file.bytes.size()) {
-        file.fail_malformed(rest,
-                            "bytes that are not compressed follow those that are; export the "
-                            "file again");
+    const std::size_t rest = file.bytes.find_first_not_of('\0', offset);
+    if (rest != std::string::npos) {
+        file.fail_damaged(rest, "bytes that are not compressed follow those that are");
     }
     file.bytes = {};
     file.bytes = joined_chunks(std::move(chunks));
     file.is_binary = false;
     if (file.bytes.empty()) {
-        file.fail_malformed(0, "the compressed file is empty; export the file again");
+        file.fail_damaged(0, "the compressed file is empty");
     }
 }
 
@@ -167,21 +135,19 @@ std::string pack_gzip(const std::string& bytes, Ticker ticker) {
 
 bool append_unpacked(std::string_view packed_bytes, DeflatedIn kind, std::uint64_t size,
                      Ticker& ticker, std::string& bytes) {
-    Inflater inflater(packed_bytes,
-                      kind == DeflatedIn::Zip ? ZlibWrapping::None : ZlibWrapping::Zlib);
+    ZStream stream(packed_bytes, kind == DeflatedIn::Zip ? ZlibWrapping::None : ZlibWrapping::Zlib,
+                   false);
     int status = Z_OK;
     // Also when all has come out: the end of the data must be there. One byte more would show.
     while (status == Z_OK) {
-        ticker.poll();
         const std::size_t begin = bytes.size();
         bytes.resize(begin + static_cast<std::size_t>(
                                  std::min<std::uint64_t>(size, zlib_chunk_size - 1) + 1));
-        status = inflater.unpack(bytes, begin);
+        status = stream.fill(bytes, begin, ticker);
         if (bytes.size() - begin > size) return false;
         size -= bytes.size() - begin;
     }
-    if (status == Z_MEM_ERROR) throw std::bad_alloc();
-    return status == Z_STREAM_END && size == 0 && inflater.num_left() == 0;
+    return status == Z_STREAM_END && size == 0 && stream.num_left() == 0;
 }
 
 std::string pack_for_zip(const std::string& bytes, Ticker& ticker) {

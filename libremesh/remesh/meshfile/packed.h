@@ -1,17 +1,13 @@
 //! \file
-//! Files compressed with gzip. Private to the readers and writers. Without zlib
-//! (AGVD_WITH_ZLIB=OFF) they are refused.
-//! Deflated data inside of files of other formats. Private to the readers and writers. Ask
-//! knows_gzip() before: without zlib (AGVD_WITH_ZLIB=OFF) nothing can be unpacked or packed.
-//! The parts of a ZIP file. Private to the reader and the writer of 3MF.
+//! Files compressed with gzip, deflated data in files of other formats, and ZIP files. Private to
+//! the readers and writers. Ask knows_gzip() before: without zlib (AGVD_WITH_ZLIB=OFF) nothing can
+//! be unpacked or packed.
 #pragma once
 
-#include <cstdint>
 #include <map>
-#include <string>
-#include <string_view>
+#include <utility>
+#include <vector>
 
-#include "agvd/core/progress.h"
 #include "remesh/meshfile/source_file.h"
 
 namespace remesh {
@@ -50,14 +46,13 @@ enum class DeflatedIn { Zip, Zlib };
 //! The checksum CRC-32 of ZIP files.
 [[nodiscard]] std::uint32_t crc32_of(std::string_view bytes);
 
+//! The parts of a ZIP file.
 class ZipArchive {
 public:
     //! Reads the directory at the end of the file.
     //! \param file  outlives this.
     //! \throw IoError  it is no ZIP file, truncated or damaged.
     explicit ZipArchive(SourceFile& file);
-
-    [[nodiscard]] bool has(const std::string& name) const;
 
     //! The unpacked part of a name; its path is that of the file and the name. Memory follows what
     //! has been unpacked, see append_unpacked.
@@ -81,18 +76,9 @@ private:
     std::map<std::string, Entry> entries_;  // By name in lower case.
 };
 
-//! Builds a ZIP file; the same bytes for the same parts.
-class ZipWriter {
-public:
-    //! \throw InvalidInput  the file gets larger than 4 GB.
-    void add(const std::string& name, const std::string& content, Ticker& ticker);
-    [[nodiscard]] std::string finish() &&;
-
-private:
-    void require_size(std::size_t size) const;
-
-    std::string bytes_, directory_;
-    std::size_t num_parts_ = 0;
-};
+//! A ZIP file of parts (name and content); the same bytes for the same parts.
+//! \throw InvalidInput  the file gets larger than 4 GB.  \throw Cancelled
+[[nodiscard]] std::string pack_zip(const std::vector<std::pair<std::string, std::string>>& parts,
+                                   Ticker& ticker);
 
 }  // namespace remesh

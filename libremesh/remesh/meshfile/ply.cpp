@@ -1,44 +1,69 @@
-//! Properties of a PLY file that are neither coordinates nor corners. Private to the reader.
-// Which properties of PLY are carried over is decided by their names, as programs use them:
-// normals are computed anew, texture coordinates belong to corners, other lists have no single
-// value.
-//! Triangle strips of PLY, as scans of Stanford's repository have them. Private to the reader.
-//! The element tristrips holds lists of vertices, and -1 ends a strip.
-//! Texture coordinates of a PLY file: a pair of numbers of each vertex, or a list of each face with
-//! a pair for each corner, as MeshLab writes it. Private to the reader.
 // PLY, ascii and both binaries: the coordinates of element "vertex", the corners of element "face",
-// and their other properties as attributes, texture coordinates as such; triangle strips. Every
-// other element is skipped (format: Greg Turk, "The PLY Polygon File Format", 1994).
-// Writes PLY: coordinates in double, attributes under their names and types, texture coordinates as
-// a list of each face.
+// texture coordinates (a pair of numbers of each vertex, or a list of each face with a pair for
+// each corner, as MeshLab writes it), and the other properties as attributes; triangle strips
+// (lists of vertices, where -1 ends a strip). Other elements are skipped (format: Greg Turk, "The
+// PLY Polygon File Format", 1994). Written are coordinates in double, and texture coordinates as
+// lists of faces.
 
-#include <algorithm>
-#include <array>
-#include <limits>
 #include <utility>
 
-#include "agvd/mesh/mesh.h"
 #include "remesh/meshfile/formats.h"
-#include "remesh/meshfile/numbers.h"
 #include "remesh/meshfile/ply_values.h"
 #include "remesh/meshfile/polygon_soup.h"
 
 namespace remesh {
 namespace {
 
-//! Takes the values of an element's other properties, one element after the other.
+bool is_normal(const std::string& name) { return name == "nx" || name == "ny" || name == "nz"; }
+
+// Why a property is not carried over; empty: it is. Normals are computed anew, and other lists have
+// no single value.
+std::string reason_against(const PlyProperty& property, const PlyElement& element,
+                           ElementKind kind) {
+    if (property.size_type) return "lists are not carried over";
+    if (kind == ElementKind::Face && is_normal(property.name)) {
+        return "normals of faces are not carried over";
+    }
+    return element.find(property.name) == &property ? "" : "another property has the same name";
+}
+
+// Takes the values of an element's other properties, one element after the other.
 class PlyAttributes {
 public:
-    //! Decides which properties are carried over. Those that are not are listed in `attributes`,
-    //! with the reason, and so is the type of normals.
-    //! \param used  properties that the reader needs itself.
-    //! \param file  without with_attributes nothing is carried over.
+    // Decides which properties are carried over. Those that are not are listed in `attributes`,
+    // with the reason, and so is the type of normals.
+    // \param used  properties that the reader needs itself.
+    // \param file  without with_attributes nothing is carried over.
     PlyAttributes(const PlyElement& element, ElementKind kind,
                   const std::vector<const PlyProperty*>& used, const SourceFile& file,
-                  MeshAttributes& attributes);
+                  MeshAttributes& attributes)
+        : element_(element),
+          kind_(kind),
+          file_(file),
+          column_(element.properties.size(), no_column) {
+        if (!file.with_attributes) return;
+        for (std::size_t i = 0; i < element.properties.size(); ++i) {
+            const PlyProperty& property = element.properties[i];
+            if (std::find(used.begin(), used.end(), &property) != used.end()) continue;
+            const std::string reason = reason_against(property, element, kind);
+            if (!reason.empty()) {
+                attributes.declined.push_back({element.name + " " + property.name, reason});
+            } else if (kind == ElementKind::Vertex && is_normal(property.name)) {
+                attributes.normals = property.type;
+            } else {
+                column_[i] = columns_.size();
+                columns_.push_back({{.name = property.name, .type = property.type}});
+            }
+        }
+        // No value takes less than a byte, so that memory follows the bytes that are there.
+        const std::uint64_t most = file.bytes.size() / std::max<std::size_t>(1, column_.size());
+        for (Column& column : columns_) {
+            column.attribute.values.reserve(std::min(element.count, most));
+        }
+    }
 
-    //! Reads or skips a value.
-    //! \param property  index in the element; none of those that are used.
+    // Reads or skips a value.
+    // \param property  index in the element; none of those that are used.
     template <typename Values>
     void take(Values& values, std::size_t property) {
         const PlyProperty& type = element_.properties[property];
@@ -52,8 +77,18 @@ public:
         column.attribute.values.push_back(value.value_or(0));
     }
 
-    //! Moves the attributes to `attributes`; those that hold other words than numbers are declined.
-    void finish(MeshAttributes& attributes) &&;
+    // Moves the attributes to `attributes`; those that hold other words than numbers are declined.
+    void finish(MeshAttributes& attributes) && {
+        auto& target = kind_ == ElementKind::Vertex ? attributes.of_vertices : attributes.of_faces;
+        for (Column& column : columns_) {
+            if (column.is_broken) {
+                attributes.declined.push_back({element_.name + " " + column.attribute.name,
+                                               "some of its values are not of its type"});
+            } else {
+                target.push_back(std::move(column.attribute));
+            }
+        }
+    }
 
 private:
     static constexpr std::size_t no_column = ~std::size_t{0};
@@ -69,62 +104,6 @@ private:
     std::vector<Column> columns_;
 };
 
-constexpr std::array normal_names = {"nx", "ny", "nz"};
-
-bool is_normal(const std::string& name) {
-    return std::find(normal_names.begin(), normal_names.end(), name) != normal_names.end();
-}
-
-// Why a property is not carried over; empty: it is.
-std::string reason_against(const PlyProperty& property, const PlyElement& element,
-                           ElementKind kind) {
-    if (property.size_type) return "lists are not carried over";
-    if (kind == ElementKind::Face && is_normal(property.name)) {
-        return "normals of faces are not carried over";
-    }
-    return element.find(property.name) == &property ? "" : "another property has the same name";
-}
-
-PlyAttributes::PlyAttributes(const PlyElement& element, ElementKind kind,
-                             const std::vector<const PlyProperty*>& used, const SourceFile& file,
-                             MeshAttributes& attributes)
-    : element_(element), kind_(kind), file_(file), column_(element.properties.size(), no_column) {
-    if (!file.with_attributes) return;
-    for (std::size_t i = 0; i < element.properties.size(); ++i) {
-        const PlyProperty& property = element.properties[i];
-        if (std::find(used.begin(), used.end(), &property) != used.end()) continue;
-        const std::string reason = reason_against(property, element, kind);
-        if (!reason.empty()) {
-            attributes.declined.push_back({element.name + " " + property.name, reason});
-        } else if (kind == ElementKind::Vertex && is_normal(property.name)) {
-            attributes.normals = property.type;
-        } else {
-            column_[i] = columns_.size();
-            columns_.push_back({{.name = property.name, .type = property.type}});
-        }
-    }
-    // No value takes less than a byte, so that memory follows the bytes that are there.
-    const std::uint64_t most = file.bytes.size() / std::max<std::size_t>(1, column_.size());
-    for (Column& column : columns_) {
-        column.attribute.values.reserve(std::min(element.count, most));
-    }
-}
-
-void PlyAttributes::finish(MeshAttributes& attributes) && {
-    auto& target = kind_ == ElementKind::Vertex ? attributes.of_vertices : attributes.of_faces;
-    for (Column& column : columns_) {
-        if (column.is_broken) {
-            attributes.declined.push_back({element_.name + " " + column.attribute.name,
-                                           "some of its values are not of its type"});
-        } else {
-            target.push_back(std::move(column.attribute));
-        }
-    }
-}
-
-//! Reads the element tristrips.
-//! \throw IoError  it has no list of whole numbers, or is truncated.
-//! \throw InvalidInput  a vertex is negative and not -1, or beyond any index.
 template <typename Values>
 void read_strips(Values& values, const PlyElement& element, const SourceFile& file,
                  PolygonSoup& soup) {
@@ -153,9 +132,9 @@ void read_strips(Values& values, const PlyElement& element, const SourceFile& fi
     }
 }
 
-//! The two numbers of an element that are texture coordinates; null: it has none. One name of a
-//! pair alone is an ordinary property.
-[[nodiscard]] inline std::array<const PlyProperty*, 2> texture_pair(const PlyElement& element) {
+// The two numbers of an element that are texture coordinates; null: it has none. One name of a
+// pair alone is an ordinary property.
+std::array<const PlyProperty*, 2> texture_pair(const PlyElement& element) {
     constexpr std::array<std::array<const char*, 2>, 4> names = {
         {{"s", "t"}, {"u", "v"}, {"texture_u", "texture_v"}, {"texture_s", "texture_t"}}};
     const auto is_real = [](const PlyProperty* property) {
@@ -168,28 +147,14 @@ void read_strips(Values& values, const PlyElement& element, const SourceFile& fi
     return {nullptr, nullptr};
 }
 
-//! The list of an element's corners that are texture coordinates, or nullptr.
-[[nodiscard]] inline const PlyProperty* texture_list(const PlyElement& element) {
+// The list of an element's corners that are texture coordinates, or nullptr.
+const PlyProperty* texture_list(const PlyElement& element) {
     const PlyProperty* const list = element.find(TextureCoordinates::name);
     return list != nullptr && list->size_type && !is_integer(list->type) ? list : nullptr;
 }
 
-//! Reads the list of one face. It may stand before the corners, so it is given to them afterwards.
-template <typename Values>
-[[nodiscard]] std::vector<double> read_texture_list(Values& values, const PlyProperty& list,
-                                                    const SourceFile& file, SoupTexture& texture) {
-    std::vector<double> numbers;
-    for (std::int64_t k = read_length(values, list, file); k > 0; --k) {
-        const std::optional<double> number = values.attribute(list.type);
-        texture.is_broken = texture.is_broken || !number;
-        numbers.push_back(number.value_or(0));
-    }
-    return numbers;
-}
-
-//! Gives the last corners so far their coordinates; an empty list is none.
-inline void set_texture(std::span<const double> numbers, std::size_t num_corners,
-                        PolygonSoup& soup) {
+// Gives the last corners so far their coordinates, two numbers each; an empty list is none.
+void set_texture(std::span<const double> numbers, std::size_t num_corners, PolygonSoup& soup) {
     SoupTexture& texture = soup.texture;
     if (numbers.empty()) return;
     if (numbers.size() != 2 * num_corners) {
@@ -225,8 +190,7 @@ void read_vertices(Values& values, const PlyElement& element, const PlyHeader& h
     const std::array axes = {element.find("x"), element.find("y"), element.find("z")};
     for (const PlyProperty* axis : axes) {
         if (axis == nullptr || axis->size_type) {
-            file.fail_malformed(
-                0, "element vertex lacks the numbers x, y and z; export the file again");
+            file.fail_damaged(0, "element vertex lacks the numbers x, y and z");
         }
     }
     const std::array pair = find_texture(element, header, file, attributes);
@@ -263,9 +227,9 @@ void read_vertices(Values& values, const PlyElement& element, const PlyHeader& h
         }
         if (pair[0] != nullptr) soup.texture.add(coordinates.x(), coordinates.y());
         if (!p.allFinite()) {
-            file.fail_unusable(start, name_of(element, v) +
-                                          " has a coordinate that is not finite; "
-                                          "correct or delete the vertex");
+            file.fail_unusable(
+                start, name_of(element, v),
+                " has a coordinate that is not finite; correct or delete the vertex");
         }
         values.end();
         soup.positions.push_back(p);
@@ -283,14 +247,19 @@ void read_faces(Values& values, const PlyElement& element, const SourceFile& fil
         soup.texture.type = texture->type;
     }
     PlyAttributes others(element, ElementKind::Face, {&corners, texture}, file, attributes);
-    std::vector<double> coordinates;
+    std::vector<double> coordinates;  // Of a face: they may stand before the corners.
     for (std::uint64_t f = 0; f < element.count; ++f) {
         values.begin(element, f);
         const std::size_t num_before = soup.num_corners();
         for (std::size_t i = 0; i < element.properties.size(); ++i) {
             const PlyProperty& property = element.properties[i];
             if (&property == texture) {
-                coordinates = read_texture_list(values, property, file, soup.texture);
+                coordinates.clear();
+                for (std::int64_t k = read_length(values, property, file); k > 0; --k) {
+                    const std::optional<double> number = values.attribute(property.type);
+                    soup.texture.is_broken = soup.texture.is_broken || !number;
+                    coordinates.push_back(number.value_or(0));
+                }
                 continue;
             }
             if (&property != &corners) {
@@ -309,15 +278,6 @@ void read_faces(Values& values, const PlyElement& element, const SourceFile& fil
         values.end();
     }
     std::move(others).finish(attributes);
-}
-
-// Where strips add triangles, not each face has a value.
-void decline_face_values(MeshAttributes& attributes) {
-    for (const Attribute& attribute : attributes.of_faces) {
-        attributes.declined.push_back(
-            {"face " + attribute.name, "the triangles of strips have no such value"});
-    }
-    attributes.of_faces.clear();
 }
 
 // What was passed over may have been read at the wrong place: faces then lack corners, and numbers
@@ -359,7 +319,12 @@ MeshFile read_body(Values values, const PlyHeader& header, const SourceFile& fil
             }
         }
     }
-    if (num_strip_lists > 0) decline_face_values(attributes);
+    if (num_strip_lists > 0) {
+        for (const Attribute& attribute : std::exchange(attributes.of_faces, {})) {
+            attributes.declined.push_back(
+                {"face " + attribute.name, "the triangles of strips have no such value"});
+        }
+    }
     MeshFile result = std::move(soup).finish();
     attach(std::move(attributes), result);
     if (header.elements.empty()) return result;
@@ -369,15 +334,14 @@ MeshFile read_body(Values values, const PlyHeader& header, const SourceFile& fil
     const std::uint64_t num_more =
         file.is_binary && size > 0 ? (file.bytes.size() - end) / size : 0;
     const std::string kind = last.name + " elements";
-    add_warning(header.warning, result);
-    add_warning(values.warning(), result);
+    add_warning(result, header.warning);
+    add_warning(result, values.warning());
     if (file.is_lenient && (!result.warnings.empty() || num_more > 0) && looks_misread(result)) {
-        file.fail_malformed(header.size,
-                            "the data are not what the header announces, not even leniently: "
-                            "faces lack corners, or coordinates are next to zero; export the file "
-                            "again");
+        file.fail_damaged(header.size,
+                          "the data are not what the header announces, not even leniently: faces "
+                          "lack corners, or coordinates are next to zero");
     }
-    add_warning(file.judge_rest(end, kind.c_str(), last.count, num_more), result);
+    add_warning(result, file.judge_rest(end, kind.c_str(), last.count, num_more));
     return result;
 }
 
@@ -385,21 +349,13 @@ NumberType stored_type(const Attribute& attribute) {
     return attribute.is_intensity ? NumberType::UInt8 : attribute.type;
 }
 
-std::string properties_of(const std::vector<Attribute>& attributes) {
-    std::string text;
-    for (const Attribute& attribute : attributes) {
-        text += std::string("property ") + name_of(stored_type(attribute)) + ' ' + attribute.name +
-                '\n';
-    }
-    return text;
+std::string property_of(NumberType type, const std::string& name) {
+    return joined("property ", name_of(type), " ", name, "\n");
 }
 
-std::string normal_properties(const MeshAttributes& attributes) {
+std::string properties_of(const std::vector<Attribute>& attributes) {
     std::string text;
-    if (!attributes.normals) return text;
-    for (const char* name : {"nx", "ny", "nz"}) {
-        text += std::string("property ") + name_of(*attributes.normals) + ' ' + name + '\n';
-    }
+    for (const Attribute& one : attributes) text += property_of(stored_type(one), one.name);
     return text;
 }
 
@@ -408,8 +364,7 @@ std::string label_comments(const MeshAttributes& attributes) {
     std::string text;
     for (const Attribute& attribute : attributes.of_faces) {
         for (std::size_t i = 0; i < attribute.names.size(); ++i) {
-            text += "comment " + attribute.name + ' ' + std::to_string(i) + ' ' +
-                    attribute.names[i] + '\n';
+            text += joined("comment ", attribute.name, " ", i, " ", attribute.names[i], "\n");
         }
     }
     return text;
@@ -417,12 +372,6 @@ std::string label_comments(const MeshAttributes& attributes) {
 
 NumberType stored_type(const TextureCoordinates& texture) {
     return texture.type == NumberType::Float64 ? NumberType::Float64 : NumberType::Float32;
-}
-
-std::string texture_property(const TextureCoordinates& texture) {
-    if (texture.empty()) return "";
-    return std::string("property list uchar ") + name_of(stored_type(texture)) + ' ' +
-           TextureCoordinates::name + '\n';
 }
 
 void append_texture(std::string& bytes, const TextureCoordinates& texture, std::size_t face) {
@@ -458,14 +407,19 @@ MeshFile read_ply(SourceFile file) {
 std::string format_ply(const MeshView& mesh, const MeshAttributes& attributes, Ticker ticker) {
     // "int" is what every reader knows; it does for all but the largest meshes.
     const char* const index_type = mesh.positions.size() <= INT32_MAX ? "int" : "uint";
-    std::string bytes = "ply\nformat binary_little_endian 1.0\n" + label_comments(attributes) +
-                        "element vertex " + std::to_string(mesh.positions.size()) +
-                        "\nproperty double x\nproperty double y\nproperty double z\n" +
-                        normal_properties(attributes) + properties_of(attributes.of_vertices) +
-                        "element face " + std::to_string(mesh.triangles.size()) +
-                        "\nproperty list uchar " + index_type + " vertex_indices\n" +
-                        texture_property(attributes.texture) + properties_of(attributes.of_faces) +
-                        "end_header\n";
+    std::string bytes = joined("ply\nformat binary_little_endian 1.0\n", label_comments(attributes),
+                               "element vertex ", mesh.positions.size(),
+                               "\nproperty double x\nproperty double y\nproperty double z\n");
+    for (const char* name : {"nx", "ny", "nz"}) {
+        if (attributes.normals) bytes += property_of(*attributes.normals, name);
+    }
+    bytes += joined(properties_of(attributes.of_vertices), "element face ", mesh.triangles.size(),
+                    "\nproperty list uchar ", index_type, " vertex_indices\n");
+    if (!attributes.texture.empty()) {
+        bytes += joined("property list uchar ", name_of(stored_type(attributes.texture)), " ",
+                        TextureCoordinates::name, "\n");
+    }
+    bytes += properties_of(attributes.of_faces) + "end_header\n";
     std::vector<Vec3> normals;
     if (attributes.normals) normals = vertex_normals(mesh);
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {

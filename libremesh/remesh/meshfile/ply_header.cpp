@@ -1,11 +1,4 @@
-// Reads the header line by line: the format, then elements with their properties in order. The data
-// begin behind the line of end_header.
-
-#include <algorithm>
-#include <iterator>
-
 #include "remesh/meshfile/ply_values.h"
-#include "remesh/meshfile/text_scanner.h"
 
 namespace remesh {
 namespace {
@@ -32,9 +25,9 @@ PlyType read_type(TextScanner& scan, const SourceFile& file) {
     const auto* const found = std::find_if(std::begin(type_names), std::end(type_names),
                                            [&](const auto& known) { return name == known.name; });
     if (found == std::end(type_names)) {
-        file.fail_malformed(start, "unknown property type " + in_quotes(name) +
-                                       "; PLY has char, uchar, short, ushort, int, uint, float and "
-                                       "double; export the file with these");
+        file.fail_malformed(start, "unknown property type ", in_quotes(name),
+                            "; PLY has char, uchar, short, ushort, int, uint, float and double; "
+                            "export the file with these");
     }
     return found->type;
 }
@@ -45,11 +38,8 @@ PlyProperty read_property(TextScanner& scan, const SourceFile& file) {
     std::optional<PlyType> size_type;
     if (is_list) {
         size_type = read_type(scan, file);
-        if (*size_type == PlyType::Float32 || *size_type == PlyType::Float64) {
-            file.fail_malformed(
-                start,
-                "the length of a list has a type that is no integer type; export the "
-                "file again");
+        if (!is_integer(*size_type)) {
+            file.fail_damaged(start, "the length of a list has a type that is no integer type");
         }
     }
     const PlyType type = read_type(scan, file);
@@ -62,8 +52,8 @@ std::optional<std::endian> read_byte_order(TextScanner& scan, const SourceFile& 
     if (name == "ascii") return {};
     if (name == "binary_little_endian") return std::endian::little;
     if (name == "binary_big_endian") return std::endian::big;
-    file.fail_malformed(start, "unknown PLY format " + in_quotes(name) +
-                                   "; export as ascii, binary_little_endian or binary_big_endian");
+    file.fail_malformed(start, "unknown PLY format ", in_quotes(name),
+                        "; export as ascii, binary_little_endian or binary_big_endian");
 }
 
 // Data begin after the line end of end_header. Some programs end this line in CR LF and those
@@ -115,36 +105,28 @@ PlyHeader read_ply_header(const SourceFile& file) {
             header.byte_order = read_byte_order(scan, file);
             has_format = true;
         } else if (keyword == "element") {
-            PlyElement element{.name = read_name(scan, "the element's name"), .properties = {}};
-            const std::int64_t count = scan.integer("the number of elements");
-            if (count < 0)
-                file.fail_malformed(start,
-                                    "the number of elements is negative; export the file again");
-            element.count = static_cast<std::uint64_t>(count);
-            header.elements.push_back(std::move(element));
+            std::string name = read_name(scan, "the element's name");
+            header.elements.push_back({std::move(name), scan.count("the number of elements"), {}});
         } else if (keyword == "property" && !header.elements.empty()) {
             header.elements.back().properties.push_back(read_property(scan, file));
         } else if (keyword == "property") {
-            file.fail_malformed(start,
-                                "unexpected 'property' before an element; export the file again");
+            file.fail_damaged(start, "unexpected 'property' before an element");
         } else if (file.is_lenient) {
             if (num_unknown++ == 0) first_unknown = start;
         } else {
-            file.fail_malformed(start, "unexpected " + in_quotes(keyword) +
-                                           " in the header; export the file again, or pass over "
-                                           "such lines (remesh and agvd diagram: --lenient)");
+            file.fail_malformed(start, "unexpected ", in_quotes(keyword),
+                                " in the header; export the file again, or pass over such lines "
+                                "(remesh and agvd diagram: --lenient)");
         }
     }
     if (num_unknown > 0) {
-        header.warning =
-            file.place(first_unknown) + std::to_string(num_unknown) +
-            (num_unknown == 1 ? " line of the header begins with no keyword and is "
-                              : " lines of the header begin with no keyword and are ") +
-            "passed over";
+        header.warning = joined(
+            file.place(first_unknown), num_unknown,
+            num_unknown == 1 ? " line of the header begins with no keyword and is passed over"
+                             : " lines of the header begin with no keyword and are passed over");
     }
-    if (!has_format) file.fail_malformed(0, "the header has no 'format'; export the file again");
-    if (scan.has_word())
-        scan.fail_malformed("data follow on the line of 'end_header'; export the file again");
+    if (!has_format) file.fail_damaged(0, "the header has no 'format'");
+    if (scan.has_word()) scan.fail_damaged("data follow on the line of 'end_header'");
     header.size = end_of_header(file, scan.offset());
     return header;
 }

@@ -1,17 +1,10 @@
 //! \file
-//! The head of a PLY file: which elements follow, and how they are stored. Private to the reader.
-//! The values of a PLY file's elements, in any of its encodings. Private to the readers.
+//! The head of a PLY file and the values of its elements, in any encoding. Private to the readers.
 //! AsciiValues and BinaryValues have the same interface (begin an element, take its values, end
-//! it), so that the readers of elements are templates that are written once.
+//! it), so that the readers of elements are templates.
 #pragma once
 
-#include <bit>
-#include <optional>
-#include <vector>
-
 #include "remesh/meshfile/numbers.h"
-#include "remesh/meshfile/read_mesh.h"
-#include "remesh/meshfile/source_file.h"
 #include "remesh/meshfile/text_scanner.h"
 
 namespace remesh {
@@ -54,8 +47,7 @@ struct PlyHeader {
     return element.name + " " + std::to_string(index) + " of " + std::to_string(element.count);
 }
 
-//! The values of an ascii file, one after the other. Has the interface of BinaryValues, so that
-//! readers of elements are written once: begin an element, its values, end.
+//! The values of an ascii file.
 class AsciiValues {
 public:
     AsciiValues(const SourceFile& file, const PlyHeader& header)
@@ -63,7 +55,7 @@ public:
 
     void begin(const PlyElement& element, std::uint64_t index) {
         if (scan_.find_word()) return;
-        scan_.fail_malformed("the file ends before " + name_of(element, index) +
+        scan_.fail_malformed("the file ends before ", name_of(element, index),
                              "; it is truncated: export the file again");
     }
     double real(PlyType) { return scan_.number("a number"); }
@@ -116,9 +108,9 @@ public:
     std::optional<double> attribute(PlyType type) { return next<double>(type); }
     std::int64_t integer(PlyType type) { return next<std::int64_t>(type); }
     void skip(PlyType type, std::int64_t count) {
-        constexpr std::array<std::size_t, 8> sizes = {1, 1, 2, 2, 4, 4, 4, 8};
         // A length has 32 bits at most: the product cannot overflow.
-        take(sizes[static_cast<std::size_t>(type)] * static_cast<std::size_t>(count));
+        take(with_type(type, [](auto zero) { return sizeof zero; }) *
+             static_cast<std::size_t>(count));
     }
     void end() {}
     [[nodiscard]] std::size_t offset() const { return at_; }
@@ -127,9 +119,9 @@ public:
 private:
     const char* take(std::size_t size) {
         if (file_.bytes.size() - at_ < size) {
-            file_.fail_malformed(file_.bytes.size(),
-                                 "the file ends within " + name_of(*element_, index_) +
-                                     "; it is truncated: export the file again");
+            file_.fail_malformed(file_.bytes.size(), "the file ends within ",
+                                 name_of(*element_, index_),
+                                 "; it is truncated: export the file again");
         }
         at_ += size;
         return file_.bytes.data() + at_ - size;
@@ -137,28 +129,9 @@ private:
 
     template <typename Result>
     Result next(PlyType type) {
-        const auto get = [&]<typename Stored>(Stored) {
+        return with_type(type, [&]<typename Stored>(Stored) {
             return static_cast<Result>(load<Stored>(take(sizeof(Stored)), order_));
-        };
-        switch (type) {
-            case PlyType::Int8:
-                return get(std::int8_t{});
-            case PlyType::UInt8:
-                return get(std::uint8_t{});
-            case PlyType::Int16:
-                return get(std::int16_t{});
-            case PlyType::UInt16:
-                return get(std::uint16_t{});
-            case PlyType::Int32:
-                return get(std::int32_t{});
-            case PlyType::UInt32:
-                return get(std::uint32_t{});
-            case PlyType::Float32:
-                return get(float{});
-            case PlyType::Float64:
-                break;
-        }
-        return get(double{});
+        });
     }
 
     const SourceFile& file_;
@@ -172,8 +145,7 @@ template <typename Values>
 std::int64_t read_length(Values& values, const PlyProperty& list, const SourceFile& file) {
     const std::size_t start = values.offset();
     const std::int64_t length = values.integer(*list.size_type);
-    if (length < 0)
-        file.fail_malformed(start, "a list has a negative length; export the file again");
+    if (length < 0) file.fail_damaged(start, "a list has a negative length");
     return length;
 }
 
@@ -189,9 +161,8 @@ void skip_property(Values& values, const PlyProperty& property, const SourceFile
     const PlyProperty* corners = element.find("vertex_indices");
     if (corners == nullptr) corners = element.find("vertex_index");
     if (corners == nullptr || !corners->size_type || !is_integer(corners->type)) {
-        file.fail_malformed(0, "element " + element.name +
-                                   " lacks a list of whole numbers named vertex_indices; "
-                                   "export the file again");
+        file.fail_damaged(0, "element ", element.name,
+                          " lacks a list of whole numbers named vertex_indices");
     }
     return *corners;
 }

@@ -6,14 +6,18 @@
 #include <utility>
 
 #include "agvd/core/bucket_sort.h"
-#include "agvd/core/error.h"
-#include "remesh/meshfile/read_mesh.h"
-#include "remesh/meshfile/text.h"
 
 namespace remesh {
 namespace {
 
 constexpr const char* export_again = "; correct the face, or export the file again";
+
+[[noreturn]] void fail_index(std::int64_t vertex, const char* kind, std::size_t number,
+                             std::size_t offset, const SourceFile& file) {
+    file.fail_unusable(offset, kind, " ", number, " names vertex ", vertex, ", which is ",
+                       vertex < 0 ? "negative" : "too large", "; correct the ", kind,
+                       ", or export the file again");
+}
 
 // The places in a polygon of its triangles' corners. Where a vertex comes twice, its first place.
 void append_corners(std::span<const Index> polygon, std::size_t begin,
@@ -114,9 +118,7 @@ void PolygonSoup::reserve(std::uint64_t vertices, std::uint64_t polygons) {
 
 void PolygonSoup::add_corner(std::int64_t vertex, std::size_t offset) {
     if (vertex < 0 || vertex >= no_index) {
-        file_.fail_unusable(offset, "face " + std::to_string(num_polygons()) + " names vertex " +
-                                        std::to_string(vertex) + ", which is " +
-                                        (vertex < 0 ? "negative" : "too large") + export_again);
+        fail_index(vertex, "face", num_polygons(), offset, file_);
     }
     const auto index = static_cast<Index>(vertex);
     if (index > highest_) {
@@ -143,12 +145,10 @@ MeshFile PolygonSoup::finish() && {
             ": the mesh has more than 2^32 - 2 vertices or corners; split it into parts");
     }
     if (highest_ >= positions.size()) {
-        file_.fail_unusable(highest_offset_,
-                            "face " + std::to_string(highest_polygon_) + " names vertex " +
-                                std::to_string(std::int64_t{highest_} + first_index_) +
-                                ", but the file has only " + std::to_string(positions.size()) +
-                                " vertices, counted from " + std::to_string(first_index_) +
-                                export_again);
+        file_.fail_unusable(highest_offset_, "face ", highest_polygon_, " names vertex ",
+                            std::int64_t{highest_} + first_index_, ", but the file has only ",
+                            positions.size(), " vertices, counted from ", first_index_,
+                            export_again);
     }
 
     MeshFile result;
@@ -175,8 +175,9 @@ MeshFile PolygonSoup::finish() && {
         result.face_polygon.resize(result.mesh.triangles.size(), p);
     }
     if (result.mesh.triangles.empty()) {
-        throw InvalidInput(file_.path.string() +
-                           ": no face of the file has three corners; export a surface, not lines");
+        throw InvalidInput(
+            joined(file_.path.string(),
+                   ": no face of the file has three corners; export a surface, not lines"));
     }
     if (has_texture) {
         result.attributes.texture = texture_of(result.mesh, corner);
@@ -220,10 +221,7 @@ TextureCoordinates PolygonSoup::texture_of(const TriangleMesh& mesh,
 
 void VolumeSurface::add_corner(std::int64_t vertex, std::size_t offset) {
     if (vertex < 0 || vertex >= no_index) {
-        file_.fail_unusable(offset, "cell " + std::to_string(num_cells()) + " names vertex " +
-                                        std::to_string(vertex) + ", which is " +
-                                        (vertex < 0 ? "negative" : "too large") +
-                                        "; correct the cell, or export the file again");
+        fail_index(vertex, "cell", num_cells(), offset, file_);
     }
     corners_.push_back(static_cast<Index>(vertex));
     if (corners_.back() < highest_) return;
@@ -234,9 +232,8 @@ void VolumeSurface::add_corner(std::int64_t vertex, std::size_t offset) {
 std::vector<std::size_t> VolumeSurface::add_to(PolygonSoup& soup) const {
     if (kinds_.empty() || soup.num_polygons() > 0) return {};
     if (highest_ >= soup.positions.size()) {
-        file_.fail_unusable(highest_offset_, "a cell names a vertex behind the last of the " +
-                                                 std::to_string(soup.positions.size()) +
-                                                 "; correct the cell, or export the file again");
+        file_.fail_unusable(highest_offset_, "a cell names a vertex behind the last of the ",
+                            soup.positions.size(), "; correct the cell, or export the file again");
     }
     std::vector<std::size_t> begins;  // By cell, of its corners.
     std::vector<CellFace> faces;

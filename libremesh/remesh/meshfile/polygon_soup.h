@@ -1,13 +1,6 @@
 //! \file
-//! Vertices and polygons as in the file, filled by the readers. Private.
-//! Triangle strips: each vertex from the third one on makes a triangle with the two before it;
-//! every second triangle is turned round, so that all face the same way. Private to the readers.
-//! The surface of tetrahedra, hexahedra and the like. Private to the readers.
+//! Vertices, polygons, strips and volume cells as in the file. Private to the readers.
 #pragma once
-
-#include <array>
-#include <cstdint>
-#include <span>
 
 #include "remesh/meshfile/read_mesh.h"
 #include "remesh/meshfile/source_file.h"

@@ -1,77 +1,73 @@
-//! A model part of a 3MF file, before its objects are put together. Private to the reader.
-// A model part of 3MF (format: 3MF Consortium, "3D Manufacturing Format: Core Specification" 1.3,
-// "Materials and Properties Extension" 1.2, "Production Extension" 1.1).
 // 3MF: the surfaces of all items of the build, each where its transforms put it. Materials and
 // objects are labels of the faces. Coordinates are those of the file, whatever its unit, which is
-// kept.
+// kept (format: 3MF Consortium, "3D Manufacturing Format: Core Specification" 1.3, "Materials and
+// Properties Extension" 1.2, "Production Extension" 1.1).
 
 #include <algorithm>
-#include <array>
-#include <charconv>
-#include <map>
 #include <memory>
-#include <set>
-#include <string>
-#include <utility>
-#include <vector>
 
-#include "agvd/core/error.h"
-#include "agvd/core/types.h"
 #include "remesh/meshfile/formats.h"
 #include "remesh/meshfile/materials.h"
 #include "remesh/meshfile/packed.h"
 #include "remesh/meshfile/polygon_soup.h"
-#include "remesh/meshfile/source_file.h"
 #include "remesh/meshfile/text_scanner.h"
 #include "remesh/meshfile/xml_reader.h"
 
 namespace remesh {
 namespace {
 
-//! An object placed somewhere: an item of the build, or a component of another object.
+// An object placed somewhere: an item of the build, or a component of another object.
 struct Placement3mf {
-    std::string part;  //!< That holds the object; empty: the one where this stands.
+    std::string part;  // That holds the object; empty: the one where this stands.
     std::uint64_t object = 0;
     Eigen::Affine3d transform = Eigen::Affine3d::Identity();
-    bool is_moved = false;  //!< Else the transform changes nothing.
-    std::size_t tag = 0;    //!< In the text of the part.
+    bool is_moved = false;  // Else the transform changes nothing.
+    std::size_t tag = 0;    // In the text of the part.
 };
 
 struct Object3mf {
     std::string name;
-    bool is_surface = true;  //!< Else it supports others while they are printed, or the like.
+    bool is_surface = true;  // Else it supports others while they are printed, or the like.
     std::vector<Vec3> vertices;
-    std::vector<Triangle> triangles;    //!< Their corners are in range.
-    std::vector<Index> materials = {};  //!< By triangle, with attributes: of Model3mf::names.
+    std::vector<Triangle> triangles;    // Their corners are in range.
+    std::vector<Index> materials = {};  // By triangle, with attributes: of Model3mf::names.
     std::vector<Placement3mf> components = {};
 };
 
+// A model part of the file, before its objects are put together.
 struct Model3mf {
     std::map<std::uint64_t, Object3mf> objects;
     std::vector<Placement3mf> items;
     std::string unit = "millimeter";
-    std::vector<std::string> names = {""};   //!< Of materials; the first: none.
-    std::vector<std::string> colors = {""};  //!< Of each, as in the file: #RRGGBB or #RRGGBBAA.
-    bool has_lattice = false;                //!< Beams, which are not read.
-    bool has_texture = false;                //!< Properties of triangles that are not read.
-    bool has_gradients = false;              //!< Triangles whose corners have different colours.
+    std::vector<std::string> names = {""};   // Of materials; the first: none.
+    std::vector<std::string> colors = {""};  // Of each, as in the file: #RRGGBB or #RRGGBBAA.
+    bool has_lattice = false;                // Beams, which are not read.
+    bool has_texture = false;                // Properties of triangles that are not read.
+    bool has_gradients = false;              // Triangles whose corners have different colours.
 };
 
-//! \throw IoError  no model, or one that needs an extension that is not known.
-//! \throw InvalidInput  a coordinate is not finite, a corner is out of range.
-//! \throw Cancelled
-[[nodiscard]] Model3mf parse_3mf_model(const SourceFile& part);
-
-constexpr std::string_view core_space = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02";
-constexpr std::string_view material_space =
-    "http://schemas.microsoft.com/3dmanufacturing/material/2015/02";
-constexpr std::string_view production_space =
-    "http://schemas.microsoft.com/3dmanufacturing/production/2015/06";
+constexpr std::string_view core_space = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02",
+                           material_space =
+                               "http://schemas.microsoft.com/3dmanufacturing/material/2015/02",
+                           production_space =
+                               "http://schemas.microsoft.com/3dmanufacturing/production/2015/06",
+                           sets_space =
+                               "http://schemas.microsoft.com/3dmanufacturing/trianglesets/2021/07",
+                           model_relation =
+                               "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel";
 constexpr std::string_view xml_blanks = " \t\r\n";
 
 std::string_view trimmed(std::string_view text) {
     text.remove_prefix(std::min(text.find_first_not_of(xml_blanks), text.size()));
     return text.substr(0, text.find_last_not_of(xml_blanks) + 1);
+}
+
+// Takes the next word from the front of a text; empty: there is none.
+std::string_view next_word(std::string_view& text) {
+    text = trimmed(text);
+    const std::string_view word = text.substr(0, text.find_first_of(xml_blanks));
+    text.remove_prefix(word.size());
+    return word;
 }
 
 class ModelParser3mf : public XmlVisitor {
@@ -89,7 +85,8 @@ public:
         } else if (tag.space == core_space) {
             read_core(tag, depth);
         } else if (tag.space == material_space) {
-            read_material(tag, depth);
+            if (tag.name == "colorgroup") open_group(tag, depth, true);
+            if (tag.name == "color") add_material(tag, "color", "color");
         } else if (tag.name == "beamlattice") {
             model_.has_lattice = true;
         }
@@ -111,36 +108,33 @@ private:
         bool is_color = false;
     };
 
-    [[noreturn]] void fail(const XmlTag& tag, const std::string& text) const {
-        part_.fail_malformed(tag.begin, text + "; export the file again");
+    template <typename... Parts>
+    [[noreturn]] void fail(const XmlTag& tag, Parts... parts) const {
+        part_.fail_damaged(tag.begin, parts...);
     }
 
     void read_root(const XmlTag& tag) {
         if (tag.name != "model" || tag.space != core_space) {
-            fail(tag, "the part begins with the element " + in_quotes(tag.name) +
-                          ", which is no model of 3MF");
+            fail(tag, "the part begins with the element ", in_quotes(tag.name),
+                 ", which is no model of 3MF");
         }
         model_.unit = tag.find("unit").value_or(model_.unit);
         constexpr std::array units = {"micron", "millimeter", "centimeter",
                                       "inch",   "foot",       "meter"};
         if (std::find(units.begin(), units.end(), model_.unit) == units.end()) {
-            fail(tag, "the unit " + in_quotes(model_.unit) + " is none of 3MF");
+            fail(tag, "the unit ", in_quotes(model_.unit), " is none of 3MF");
         }
         // Extensions without which the model means something else.
-        constexpr std::array known = {
-            core_space, material_space, production_space,
-            std::string_view("http://schemas.microsoft.com/3dmanufacturing/trianglesets/2021/07")};
+        constexpr std::array known = {core_space, material_space, production_space, sets_space};
         std::string_view prefixes = tag.find("requiredextensions").value_or("");
-        while (!(prefixes = trimmed(prefixes)).empty()) {
-            const std::size_t size = std::min(prefixes.find_first_of(xml_blanks), prefixes.size());
-            const std::string prefix(prefixes.substr(0, size));
+        for (std::string_view word; !(word = next_word(prefixes)).empty();) {
+            const std::string prefix(word);
             const auto found = spaces_.find(prefix);
             const std::string uri = found == spaces_.end() ? prefix : found->second;
             if (std::find(known.begin(), known.end(), uri) == known.end()) {
-                part_.fail_malformed(tag.begin, "the model needs the extension '" + uri +
-                                                    "', which is not supported; export it without");
+                part_.fail_malformed(tag.begin, "the model needs the extension '", uri,
+                                     "', which is not supported; export it without");
             }
-            prefixes.remove_prefix(size);
         }
     }
 
@@ -162,19 +156,11 @@ private:
         }
     }
 
-    void read_material(const XmlTag& tag, std::size_t depth) {
-        if (tag.name == "colorgroup") {
-            open_group(tag, depth, true);
-        } else if (tag.name == "color") {
-            add_material(tag, "color", "color");
-        }
-    }
-
     void read_object(const XmlTag& tag, std::size_t depth) {
         if (object_ != nullptr) fail(tag, "there is an object inside of another");
         const std::uint64_t id = required_number(tag, "id");
         const auto [entry, is_new] = model_.objects.try_emplace(id);
-        if (!is_new) fail(tag, "there are two objects with the id " + std::to_string(id));
+        if (!is_new) fail(tag, "there are two objects with the id ", id);
         object_ = &entry->second;
         object_depth_ = depth;
         const std::string_view type = tag.find("type").value_or("model");
@@ -186,8 +172,7 @@ private:
     }
 
     Object3mf& open_object(const XmlTag& tag) const {
-        if (object_ == nullptr)
-            fail(tag, "the element " + in_quotes(tag.name) + " is in no object");
+        if (object_ == nullptr) fail(tag, "the element ", in_quotes(tag.name), " is in no object");
         return *object_;
     }
 
@@ -197,10 +182,9 @@ private:
         constexpr std::array names = {"x", "y", "z"};
         for (int k = 0; k < 3; ++k) p[k] = coordinate(tag, names[static_cast<std::size_t>(k)]);
         if (!p.allFinite()) {
-            part_.fail_unusable(tag.begin, "vertex " + std::to_string(object.vertices.size()) +
-                                               " of object " + in_quotes(object.name) +
-                                               " has a coordinate that is not finite; correct or "
-                                               "delete the vertex");
+            part_.fail_unusable(
+                tag.begin, "vertex ", object.vertices.size(), " of object ", in_quotes(object.name),
+                " has a coordinate that is not finite; correct or delete the vertex");
         }
         object.vertices.push_back(p);
     }
@@ -213,12 +197,10 @@ private:
         for (std::size_t k = 0; k < 3; ++k) {
             const std::uint64_t vertex = required_number(tag, names[k]);
             if (vertex >= object.vertices.size()) {
-                part_.fail_unusable(tag.begin, "a triangle of object " + in_quotes(object.name) +
-                                                   " names vertex " + std::to_string(vertex) +
-                                                   ", but the object has only " +
-                                                   std::to_string(object.vertices.size()) +
-                                                   " vertices, counted from 0; correct the "
-                                                   "triangle, or export the file again");
+                part_.fail_unusable(
+                    tag.begin, "a triangle of object ", in_quotes(object.name), " names vertex ",
+                    vertex, ", but the object has only ", object.vertices.size(),
+                    " vertices, counted from 0; correct the triangle, or export the file again");
             }
             corners[k] = static_cast<Index>(vertex);
         }
@@ -240,9 +222,8 @@ private:
         }
         const Group& names = found->second;
         if (*property >= names.count) {
-            fail(tag, "a triangle has property " + std::to_string(*property) + " of group " +
-                          std::to_string(*group) + ", which has only " +
-                          std::to_string(names.count));
+            fail(tag, "a triangle has property ", *property, " of group ", *group,
+                 ", which has only ", names.count);
         }
         for (const char* other : {"p2", "p3"}) {
             if (names.is_color && number(tag, other).value_or(*property) != *property) {
@@ -276,15 +257,12 @@ private:
         // Rows of four by three: the last one is the translation.
         std::string_view left = *text;
         for (int i = 0; i < 12; ++i) {
-            left = trimmed(left);
-            const std::size_t size = std::min(left.find_first_of(xml_blanks), left.size());
-            const auto value = as_number(left.substr(0, size));
+            const auto value = as_number(next_word(left));
             if (!value || !std::isfinite(*value)) break;
             result.transform.matrix()(i % 3, i / 3) = *value;
-            left.remove_prefix(size);
             if (i == 11 && trimmed(left).empty()) return result;
         }
-        fail(tag, "the transform " + in_quotes(*text) + " has not twelve finite numbers");
+        fail(tag, "the transform ", in_quotes(*text), " has not twelve finite numbers");
     }
 
     [[nodiscard]] std::optional<std::uint64_t> number(const XmlTag& tag, const char* name) const {
@@ -295,13 +273,13 @@ private:
         const char* const end = text.data() + text.size();
         const auto [last, error] = std::from_chars(text.data(), end, value);
         if (error == std::errc{} && last == end) return value;
-        fail(tag, std::string(name) + " of " + in_quotes(tag.name) + " is " + in_quotes(text) +
-                      " and no whole number from 0");
+        fail(tag, name, " of ", in_quotes(tag.name), " is ", in_quotes(text),
+             " and no whole number from 0");
     }
 
     [[nodiscard]] std::uint64_t required_number(const XmlTag& tag, const char* name) const {
         const auto value = number(tag, name);
-        if (!value) fail(tag, "the element " + in_quotes(tag.name) + " has no " + name);
+        if (!value) fail(tag, "the element ", in_quotes(tag.name), " has no ", name);
         return *value;
     }
 
@@ -309,7 +287,7 @@ private:
         const std::string_view text = trimmed(tag.find(name).value_or(""));
         const auto value = as_number(text);
         if (!value) {
-            fail(tag, std::string(name) + " of a vertex is " + in_quotes(text) + " and no number");
+            fail(tag, name, " of a vertex is ", in_quotes(text), " and no number");
         }
         return *value;
     }
@@ -327,15 +305,6 @@ private:
     std::optional<std::uint64_t> object_group_, object_property_;
 };
 
-Model3mf parse_3mf_model(const SourceFile& part) {
-    ModelParser3mf parser(part);
-    read_xml(part, parser);
-    return std::move(parser).finish();
-}
-
-constexpr const char* relations_part = "_rels/.rels";
-constexpr std::string_view model_relation =
-    "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel";
 // A component of components of ... may make any number of a few bytes.
 constexpr std::size_t most_placements = 1 << 16;
 
@@ -369,13 +338,19 @@ public:
                                        "the model has no item to build; export it with one");
         }
         for (const Placement3mf& item : part.model.items) {
-            place({.placement = &item, .part = &part}, Eigen::Affine3d::Identity(), false);
+            place(item, part, Eigen::Affine3d::Identity(), false);
             place_components();
         }
         MeshFile result = std::move(soup_).finish();
         if (file_.with_attributes) attach(finish_attributes(), result);
         result.attributes.unit = part.model.unit;
-        add_warnings(result);
+        const std::string begin = file_.path.string() + ": ";
+        if (num_others_ > 0) {
+            add_warning(result, begin, num_others_,
+                        " objects that are no surfaces of the model (such as supports) are passed "
+                        "over");
+        }
+        if (has_lattice_) add_warning(result, begin, "beams of lattices are passed over");
         return result;
     }
 
@@ -383,11 +358,6 @@ private:
     struct Part {
         SourceFile source;
         Model3mf model;
-    };
-    // Where a placement stands.
-    struct Place {
-        const Placement3mf* placement;
-        const Part* part;
     };
     // An object whose components are being placed.
     struct Open {
@@ -399,21 +369,22 @@ private:
     };
 
     std::string find_root() const {
-        const SourceFile relations = zip_.read(relations_part);
+        const SourceFile relations = zip_.read("_rels/.rels");
         RelationsParser parser;
         read_xml(relations, parser);
         if (!parser.target.empty()) return part_name(parser.target);
-        relations.fail_malformed(relations.bytes.size(),
-                                 "no part is called the model; this is no 3MF file: check its "
-                                 "extension");
+        relations.fail_malformed(
+            relations.bytes.size(),
+            "no part is called the model; this is no 3MF file: check its extension");
     }
 
     const Part& load(const std::string& name) {
         std::unique_ptr<Part>& part = parts_[in_lower_case(name)];
         if (part == nullptr) {
             SourceFile source = zip_.read(name);
-            Model3mf model = parse_3mf_model(source);
-            part = std::make_unique<Part>(Part{std::move(source), std::move(model)});
+            ModelParser3mf parser(source);
+            read_xml(source, parser);
+            part = std::make_unique<Part>(Part{std::move(source), std::move(parser).finish()});
             has_lattice_ = has_lattice_ || part->model.has_lattice;
             has_texture_ = has_texture_ || part->model.has_texture;
             has_gradients_ = has_gradients_ || part->model.has_gradients;
@@ -422,21 +393,19 @@ private:
     }
 
     // Adds the object's mesh, and opens it if it has components.
-    void place(const Place& at, const Eigen::Affine3d& parent, bool is_parent_moved) {
-        const Placement3mf& placement = *at.placement;
-        const SourceFile& source = at.part->source;
+    // \param home  the part where the placement stands.
+    void place(const Placement3mf& placement, const Part& home, const Eigen::Affine3d& parent,
+               bool is_parent_moved) {
+        const SourceFile& source = home.source;
         if (++num_placements_ > most_placements) {
-            source.fail_malformed(placement.tag, "the model places more than " +
-                                                     std::to_string(most_placements) +
-                                                     " objects; export fewer of them");
+            source.fail_malformed(placement.tag, "the model places more than ", most_placements,
+                                  " objects; export fewer of them");
         }
         soup_.ticker.tick(16);
-        const Part& part = placement.part.empty() ? *at.part : load(part_name(placement.part));
+        const Part& part = placement.part.empty() ? home : load(part_name(placement.part));
         const auto found = part.model.objects.find(placement.object);
         if (found == part.model.objects.end()) {
-            source.fail_malformed(placement.tag, "there is no object with the id " +
-                                                     std::to_string(placement.object) +
-                                                     "; export the file again");
+            source.fail_damaged(placement.tag, "there is no object with the id ", placement.object);
         }
         const Object3mf& object = found->second;
         if (!object.is_surface) {
@@ -444,9 +413,8 @@ private:
             return;
         }
         if (open_objects_.contains(&object)) {
-            source.fail_malformed(placement.tag, "object " + in_quotes(object.name) +
-                                                     " is a component of itself; export the file "
-                                                     "again");
+            source.fail_damaged(placement.tag, "object ", in_quotes(object.name),
+                                " is a component of itself");
         }
         const bool is_moved = placement.is_moved || is_parent_moved;
         const Eigen::Affine3d transform =
@@ -467,7 +435,7 @@ private:
             }
             const Placement3mf& component = last.object->components[last.next++];
             const Eigen::Affine3d transform = last.transform;  // Opening another moves `last`.
-            place({.placement = &component, .part = last.part}, transform, last.is_moved);
+            place(component, *last.part, transform, last.is_moved);
         }
     }
 
@@ -475,17 +443,17 @@ private:
                   bool is_moved) {
         const std::size_t first = soup_.positions.size();
         if (first + object.vertices.size() >= no_index) {
-            throw InvalidInput(file_.path.string() +
-                               ": the objects have more than 2^32 - 2 vertices; split the "
-                               "file into parts");
+            throw InvalidInput(joined(
+                file_.path.string(),
+                ": the objects have more than 2^32 - 2 vertices; split the file into parts"));
         }
         for (const Vec3& p : object.vertices) {
             soup_.ticker.tick(2);
             const Vec3 moved = is_moved ? Vec3(transform * p) : p;
             if (!moved.allFinite()) {
-                file_.fail_unusable(0, "a transform moves a vertex of object " +
-                                           in_quotes(object.name) +
-                                           " beyond double precision; correct the transform");
+                file_.fail_unusable(0, "a transform moves a vertex of object ",
+                                    in_quotes(object.name),
+                                    " beyond double precision; correct the transform");
             }
             soup_.positions.push_back(moved);
         }
@@ -541,17 +509,6 @@ private:
         return attributes;
     }
 
-    void add_warnings(MeshFile& result) const {
-        const std::string begin = file_.path.string() + ": ";
-        if (num_others_ > 0) {
-            add_warning(begin + std::to_string(num_others_) +
-                            " objects that are no surfaces of the model (such as supports) are "
-                            "passed over",
-                        result);
-        }
-        if (has_lattice_) add_warning(begin + "beams of lattices are passed over", result);
-    }
-
     SourceFile& file_;
     ZipArchive zip_;
     PolygonSoup soup_;
@@ -570,9 +527,8 @@ private:
 
 MeshFile read_3mf(SourceFile file) {
     if (!knows_gzip() || !knows_xml()) {
-        file.fail_malformed(0, std::string("this program was built without ") +
-                                   (knows_xml() ? "zlib" : "expat") +
-                                   ", which 3MF needs; convert the file to .ply");
+        file.fail_malformed(0, "this program was built without ", (knows_xml() ? "zlib" : "expat"),
+                            ", which 3MF needs; convert the file to .ply");
     }
     return Reader3mf(file).read();
 }

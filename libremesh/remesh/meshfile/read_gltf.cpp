@@ -3,13 +3,8 @@
 // materials are kept with their images (format: Khronos Group, glTF 2.0 Specification).
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
-#include <set>
-#include <utility>
 
-#include "agvd/core/error.h"
 #include "remesh/meshfile/formats.h"
 #include "remesh/meshfile/gltf_document.h"
 #include "remesh/meshfile/materials.h"
@@ -41,9 +36,8 @@ public:
         if (file_.with_attributes) attach(finish_attributes(num_vertices), result);
         result.attributes.unit = "meter";
         if (num_others_ > 0) {
-            add_warning(file_.path.string() + ": " + std::to_string(num_others_) +
-                            " primitives of points or lines are passed over",
-                        result);
+            add_warning(result, file_.path.string(), ": ", num_others_,
+                        " primitives of points or lines are passed over");
         }
         return result;
     }
@@ -69,8 +63,7 @@ private:
             open.pop_back();
             soup_.ticker.tick(16);
             const nlohmann::json& node = gltf_.at("nodes", index);
-            if (is_seen[index])
-                gltf_.fail("node " + std::to_string(index) + " has several parents");
+            if (is_seen[index]) gltf_.fail("node ", index, " has several parents");
             is_seen[index] = true;
             const Transform transform = parent * transform_of(node);
             if (const auto mesh = gltf_.number(node, "mesh")) read_mesh(*mesh, transform);
@@ -142,10 +135,8 @@ private:
                                             gltf_.value(array, row, 2));
             if (!p.allFinite()) {
                 file_.fail_unusable(
-                    gltf_.place(array, row),
-                    "vertex " + std::to_string(row) + " of accessor " + std::to_string(accessor) +
-                        " has a coordinate that is not finite; correct or delete the "
-                        "vertex");
+                    gltf_.place(array, row), "vertex ", row, " of accessor ", accessor,
+                    " has a coordinate that is not finite; correct or delete the vertex");
             }
             soup_.positions.push_back(p);
         }
@@ -219,9 +210,8 @@ private:
                 return Corner{static_cast<std::int64_t>(first) + static_cast<std::int64_t>(index),
                               offset};
             }
-            file_.fail_unusable(offset, "a face names vertex " + std::to_string(index) +
-                                            " of a primitive with " + std::to_string(count) +
-                                            " vertices, counted from 0; export the file again");
+            file_.fail_unusable(offset, "a face names vertex ", index, " of a primitive with ",
+                                count, " vertices, counted from 0; export the file again");
         };
         if (mode == mode_strip) {
             StripTriangles strip(soup_);

@@ -1,22 +1,13 @@
 //! \file
-//! Texture coordinates at the corners of faces, and the edges along which they disagree.
-//! What a mesh file holds besides coordinates and corners.
-//! What a mesh file holds, and how strictly it is read.
-//! Reads PLY, OBJ, OFF, STL, VTK, Medit, 3MF and glTF.
-//! Cuts polygons into triangles.
+//! Reads PLY, OBJ, OFF, STL, VTK, Medit, 3MF and glTF: the mesh and what the file holds besides.
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <filesystem>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "agvd/core/progress.h"
-#include "agvd/core/types.h"
 #include "agvd/mesh/mesh.h"
 #include "remesh/names.h"
 

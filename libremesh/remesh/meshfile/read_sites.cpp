@@ -3,10 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "agvd/mesh/closest_point.h"
-#include "remesh/meshfile/text.h"
 #include "remesh/meshfile/text_scanner.h"
 
 namespace remesh {
@@ -38,29 +36,36 @@ double area_of(const MeshView& mesh) {
     return area;
 }
 
+// Calls `read` at each line that holds something; it reads all of the line.
+// \throw IoError  there is none: `empty` says so.
+template <typename Read>
+void read_lines(const SourceFile& file, const char* empty, const Read& read) {
+    TextScanner scan(file, 0, {.comment = '#'});
+    Ticker ticker = file.ticker;
+    bool is_empty = true;
+    for (; scan.find_word(); is_empty = false) {
+        ticker.tick(16);
+        read(scan);
+        if (scan.has_word()) scan.fail_expecting("the end of the line");
+    }
+    if (is_empty) scan.fail_malformed(empty);
+}
+
 class SiteReader {
 public:
     SiteReader(const SourceFile& file, const MeshView& mesh, const Progress& progress)
-        : file_(file),
-          mesh_(mesh),
-          progress_(progress),
-          ticker_(file.ticker),
-          scan_(file, 0, {.comment = '#'}) {}
+        : file_(file), mesh_(mesh), progress_(progress) {}
 
     SitesFile read() {
         SitesFile result;
-        while (scan_.find_word()) {
-            ticker_.tick(16);
-            start_ = scan_.offset();
-            starts_.push_back(start_);
-            result.sites.push_back(read_site());
-            if (scan_.has_word()) scan_.fail_expecting("the end of the line");
-        }
-        if (result.sites.empty()) {
-            scan_.fail_malformed(
-                "the file holds no site; write lines \"v INDEX\", \"f FACE B0 B1 B2\" or "
-                "\"p X Y Z\"");
-        }
+        read_lines(
+            file_,
+            "the file holds no site; write lines \"v INDEX\", \"f FACE B0 B1 B2\" or \"p X Y Z\"",
+            [&](TextScanner& scan) {
+                start_ = scan.offset();
+                starts_.push_back(start_);
+                result.sites.push_back(read_site(scan));
+            });
         judge_distances(result);
         judge_repeats(result);
         return result;
@@ -83,10 +88,9 @@ private:
         const std::string text =
             "the point is " + detail::significant(farthest.distance) + " off the mesh";
         if (farthest.distance > spacing) {
-            file_.fail_unusable(farthest.start,
-                                text + ", more than the sites' spacing, " +
-                                    detail::significant(spacing) +
-                                    "; correct it, or give all points in the units of the mesh");
+            file_.fail_unusable(farthest.start, text, ", more than the sites' spacing, ",
+                                detail::significant(spacing),
+                                "; correct it, or give all points in the units of the mesh");
         }
         const auto is_told = [&](const Shift& s) { return s.distance > told_distance * spacing; };
         const auto count =
@@ -116,34 +120,33 @@ private:
                                   detail::counted(count, "such site") + "; give each place once");
     }
 
-    SurfacePoint read_site() {
-        const std::string_view kind = scan_.word();
-        if (kind == "v") return vertex_site();
-        if (kind == "f") return face_site();
+    SurfacePoint read_site(TextScanner& scan) {
+        const std::string_view kind = scan.word();
+        if (kind == "v") return vertex_site(scan);
+        if (kind == "f") return face_site(scan);
         if (kind == "p") {
-            const Vec3 point = scan_.point();
+            const Vec3 point = scan.point();
             if (!tree_) tree_.emplace(mesh_, progress_);
             const ClosestPoint nearest = tree_->query(point);
             shifts_.push_back({std::sqrt(nearest.distance_sq), start_});
             return nearest.point;
         }
-        file_.fail_malformed(start_, "a site begins with v, f or p, not with " + in_quotes(kind) +
-                                         "; correct the line or begin it with #");
+        file_.fail_malformed(start_, "a site begins with v, f or p, not with ", in_quotes(kind),
+                             "; correct the line or begin it with #");
     }
 
-    Index index(const char* what, const char* plural, std::size_t count) {
-        const std::int64_t value = scan_.integer(("a " + std::string(what) + " index").c_str());
+    Index index(TextScanner& scan, const char* what, const char* plural, std::size_t count) {
+        const std::int64_t value = scan.integer(("a " + std::string(what) + " index").c_str());
         if (value < 0 || static_cast<std::uint64_t>(value) >= count) {
-            file_.fail_unusable(start_, "the site names " + std::string(what) + " " +
-                                            std::to_string(value) + ", but the mesh has only " +
-                                            std::to_string(count) + " " + plural +
-                                            ", counted from 0; correct the line");
+            file_.fail_unusable(start_, "the site names ", what, " ", value,
+                                ", but the mesh has only ", count, " ", plural,
+                                ", counted from 0; correct the line");
         }
         return static_cast<Index>(value);
     }
 
-    SurfacePoint vertex_site() {
-        const Index vertex = index("vertex", "vertices", mesh_.positions.size());
+    SurfacePoint vertex_site(TextScanner& scan) {
+        const Index vertex = index(scan, "vertex", "vertices", mesh_.positions.size());
         if (lowest_corner_.empty()) {
             lowest_corner_.assign(mesh_.positions.size(), no_index);
             for (auto corner = static_cast<Index>(3 * mesh_.triangles.size()); corner-- > 0;) {
@@ -152,18 +155,18 @@ private:
         }
         const Index corner = lowest_corner_[vertex];
         if (corner == no_index) {
-            file_.fail_unusable(start_, "vertex " + std::to_string(vertex) +
-                                            " is in no face; use a vertex of a face");
+            file_.fail_unusable(start_, "vertex ", vertex,
+                                " is in no face; use a vertex of a face");
         }
         SurfacePoint site{FaceId(corner / 3), {0, 0, 0}};
         site.barycentric[corner % 3] = 1;
         return site;
     }
 
-    SurfacePoint face_site() {
-        SurfacePoint site{FaceId(index("face", "faces", mesh_.triangles.size())), {}};
+    SurfacePoint face_site(TextScanner& scan) {
+        SurfacePoint site{FaceId(index(scan, "face", "faces", mesh_.triangles.size())), {}};
         auto& b = site.barycentric;
-        for (double& x : b) x = scan_.number("a barycentric coordinate");
+        for (double& x : b) x = scan.number("a barycentric coordinate");
         const double sum = b[0] + b[1] + b[2];
         const bool is_inside = b[0] >= 0 && b[1] >= 0 && b[2] >= 0;
         if (!is_inside || !(std::abs(sum - 1) <= sum_tolerance)) {
@@ -178,8 +181,6 @@ private:
     const SourceFile& file_;
     const MeshView& mesh_;
     const Progress& progress_;
-    Ticker ticker_;
-    TextScanner scan_;
     std::size_t start_ = 0;                 // Of the current line's first word.
     std::vector<std::size_t> starts_;       // Of all sites' lines.
     std::vector<Shift> shifts_;             // Of all `p`.
@@ -206,27 +207,21 @@ std::vector<Index> read_vertices(const std::filesystem::path& path, const MeshVi
         ticker.tick();
         for (const Index v : t) is_corner[v] = true;
     }
-    TextScanner scan(file, 0, {.comment = '#'});
     std::vector<Index> vertices;
-    while (scan.find_word()) {
-        ticker.tick(16);
-        const std::size_t start = scan.offset();
-        const std::int64_t value = scan.integer("a vertex index");
-        if (value < 0 || static_cast<std::uint64_t>(value) >= is_corner.size()) {
-            file.fail_unusable(start, "there is no vertex " + std::to_string(value) +
-                                          ": the mesh has " + std::to_string(is_corner.size()) +
-                                          " vertices, counted from 0; correct the line");
-        }
-        if (!is_corner[static_cast<std::size_t>(value)]) {
-            file.fail_unusable(start, "vertex " + std::to_string(value) +
-                                          " is in no face; use a vertex of a face");
-        }
-        vertices.push_back(static_cast<Index>(value));
-        if (scan.has_word()) scan.fail_expecting("the end of the line");
-    }
-    if (vertices.empty()) {
-        scan.fail_malformed("the file holds no vertex; write lines of one vertex index");
-    }
+    read_lines(
+        file, "the file holds no vertex; write lines of one vertex index", [&](TextScanner& scan) {
+            const std::size_t start = scan.offset();
+            const std::int64_t value = scan.integer("a vertex index");
+            if (value < 0 || static_cast<std::uint64_t>(value) >= is_corner.size()) {
+                file.fail_unusable(start, "there is no vertex ", value, ": the mesh has ",
+                                   is_corner.size(), " vertices, counted from 0; correct the line");
+            }
+            if (!is_corner[static_cast<std::size_t>(value)]) {
+                file.fail_unusable(start, "vertex ", value,
+                                   " is in no face; use a vertex of a face");
+            }
+            vertices.push_back(static_cast<Index>(value));
+        });
     return vertices;
 }
 
@@ -234,25 +229,21 @@ std::vector<std::array<Index, 2>> read_edges(const std::filesystem::path& path,
                                              const Progress& progress) {
     Poller poller(progress);
     const SourceFile file = load_file(path, poller);
-    TextScanner scan(file, 0, {.comment = '#'});
-    const auto vertex = [&] {
-        const std::size_t start = scan.offset();
-        const std::int64_t value = scan.integer("a vertex index");
-        if (value < 0 || value >= no_index) {
-            file.fail_malformed(start, "the vertex index " + std::to_string(value) +
-                                           " is out of range; count vertices from 0");
-        }
-        return static_cast<Index>(value);
-    };
     std::vector<std::array<Index, 2>> edges;
-    while (scan.find_word()) {
-        const Index first = vertex();
-        edges.push_back({first, vertex()});
-        if (scan.has_word()) scan.fail_expecting("the end of the line");
-    }
-    if (edges.empty()) {
-        scan.fail_malformed("the file holds no edge; write lines of two vertex indices");
-    }
+    read_lines(file, "the file holds no edge; write lines of two vertex indices",
+               [&](TextScanner& scan) {
+                   std::array<Index, 2> edge{};
+                   for (Index& vertex : edge) {
+                       const std::size_t start = scan.offset();
+                       const std::int64_t value = scan.integer("a vertex index");
+                       if (value < 0 || value >= no_index) {
+                           file.fail_malformed(start, "the vertex index ", value,
+                                               " is out of range; count vertices from 0");
+                       }
+                       vertex = static_cast<Index>(value);
+                   }
+                   edges.push_back(edge);
+               });
     return edges;
 }
 

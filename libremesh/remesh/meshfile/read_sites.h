@@ -1,16 +1,11 @@
 //! \file
-//! Reads sites that the user placed.
-//! Reads vertices that the user named.
-//! Reads edges that the user named.
+//! Reads sites, vertices and edges that the user named.
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <string>
-#include <vector>
 
 #include "agvd/core/progress.h"
-#include "agvd/core/types.h"
 #include "agvd/mesh/mesh.h"
 #include "remesh/names.h"
 

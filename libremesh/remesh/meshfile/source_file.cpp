@@ -1,59 +1,28 @@
-//! Texts in UTF-16, as some programs and shells write them. Private to the readers.
-// Loads a whole file, or what a pipe delivers, into memory, and words the errors of its readers.
-// The size of a regular file is known; what a device or a pipe may bring has a limit, as it may
-// never end.
-// The line of an error is counted only when the error is thrown. Waiting for a pipe polls the
-// progress callback, so that reading can be interrupted.
+// Loads a whole file, or what a pipe delivers, into memory; texts in UTF-16 become UTF-8. The size
+// of a regular file is known; a device or a pipe may never end and has a limit.
 #include "remesh/meshfile/source_file.h"
 
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
-#include <algorithm>
-#include <bit>
 #include <cerrno>
-#include <cstdint>
-#include <limits>
-#include <optional>
-#include <string>
-#include <string_view>
 #include <system_error>
 
-#include "agvd/core/error.h"
-#include "agvd/core/progress.h"
 #include "remesh/meshfile/numbers.h"
 
 namespace remesh {
 namespace {
 
-//! The byte order of a text in UTF-16 with a byte order mark; nothing if the bytes are something
-//! else.
-[[nodiscard]] std::optional<std::endian> utf16_order(std::string_view bytes);
-
-//! The text in UTF-8, without its mark. Half a pair of surrogates becomes '?'.
-//! \throw Cancelled
-[[nodiscard]] std::string utf8_of_utf16(std::string_view bytes, std::endian order, Ticker ticker);
-
 void append_utf8(std::uint32_t code, std::string& text) {
-    const auto rest = [&](int shift) { text += static_cast<char>(0x80 | (code >> shift & 0x3F)); };
-    if (code < 0x80) {
-        text += static_cast<char>(code);
-    } else if (code < 0x800) {
-        text += static_cast<char>(0xC0 | code >> 6);
-        rest(0);
-    } else if (code < 0x10000) {
-        text += static_cast<char>(0xE0 | code >> 12);
-        rest(6);
-        rest(0);
-    } else {
-        text += static_cast<char>(0xF0 | code >> 18);
-        rest(12);
-        rest(6);
-        rest(0);
-    }
+    const int num_more = code < 0x80 ? 0 : code < 0x800 ? 1 : code < 0x10000 ? 2 : 3;
+    constexpr std::uint32_t marks[] = {0, 0xC0, 0xE0, 0xF0};
+    text += static_cast<char>(marks[num_more] | code >> (6 * num_more));
+    for (int k = num_more; k-- > 0;) text += static_cast<char>(0x80 | (code >> (6 * k) & 0x3F));
 }
 
+// The byte order of a text in UTF-16 with a byte order mark; nothing if the bytes are something
+// else.
 std::optional<std::endian> utf16_order(std::string_view bytes) {
     if (bytes.size() % 2 != 0) return std::nullopt;
     std::optional<std::endian> order;
@@ -66,6 +35,7 @@ std::optional<std::endian> utf16_order(std::string_view bytes) {
     return order;
 }
 
+// The text in UTF-8, without its mark. Half a pair of surrogates becomes '?'.
 std::string utf8_of_utf16(std::string_view bytes, std::endian order, Ticker ticker) {
     std::string text;
     text.reserve(bytes.size() / 2);
@@ -87,8 +57,9 @@ std::string utf8_of_utf16(std::string_view bytes, std::endian order, Ticker tick
 }
 
 [[noreturn]] void fail_to_read(const std::filesystem::path& path, int reason) {
-    throw IoError(path.string() + ": cannot be read: " + std::generic_category().message(reason) +
-                  "; check its name and permissions");
+    throw IoError(joined(path.string(),
+                         ": cannot be read: ", std::generic_category().message(reason),
+                         "; check its name and permissions"));
 }
 
 // Closes what it opened, but not the standard input.
@@ -138,39 +109,30 @@ std::string SourceFile::place(std::size_t offset) const {
     return path.string() + ": line " + std::to_string(line) + ": ";
 }
 
-void SourceFile::fail_malformed(std::size_t offset, const std::string& text) const {
-    throw IoError(place(offset) + text);
-}
-
-std::string SourceFile::judge_rest(std::size_t offset, const char* kind,
+std::string SourceFile::judge_rest(std::size_t offset, const std::string& kind,
                                    std::uint64_t num_announced, std::uint64_t num_more) const {
     constexpr const char* blanks = " \t\r\n\v\f";
     if (!is_binary) offset = std::min(bytes.find_first_not_of(blanks, offset), bytes.size());
     if (offset >= bytes.size()) return {};
-    if (!is_binary) {
-        // An element begins with a number; anything else is a remark.
-        if (std::string_view("+-.0123456789").find(bytes[offset]) != std::string_view::npos) {
-            for (std::size_t at = offset; at < bytes.size(); ++num_more) {
-                at = bytes.find_first_not_of(blanks, std::min(bytes.find('\n', at), bytes.size()));
-            }
+    // In a text an element begins with a number; anything else is a remark.
+    constexpr std::string_view begins = "+-.0123456789";
+    if (!is_binary && begins.find(bytes[offset]) != std::string_view::npos) {
+        for (std::size_t at = offset; at < bytes.size(); ++num_more) {
+            at = bytes.find_first_not_of(blanks, std::min(bytes.find('\n', at), bytes.size()));
         }
     }
     if (num_more == 0) {
-        return place(offset) + "the " + std::to_string(bytes.size() - offset) +
-               " bytes after the last element are ignored";
+        return joined(place(offset), "the ", bytes.size() - offset,
+                      " bytes after the last element are ignored");
     }
-    const std::string text = "the header announces " + std::to_string(num_announced) + " " + kind +
-                             ", the file holds " + std::to_string(num_announced + num_more);
+    const std::string text = joined("the header announces ", num_announced, " ", kind,
+                                    ", the file holds ", num_announced + num_more);
     if (!is_lenient) {
-        fail_malformed(offset, text +
-                                   "; export the file again, or read only what the header "
-                                   "announces (remesh and agvd diagram: --lenient)");
+        fail_malformed(offset, text,
+                       "; export the file again, or read only what the header announces (remesh "
+                       "and agvd diagram: --lenient)");
     }
     return place(offset) + text + "; the others are ignored";
-}
-
-void SourceFile::fail_unusable(std::size_t offset, const std::string& text) const {
-    throw InvalidInput(place(offset) + text);
 }
 
 SourceFile load_file(const std::filesystem::path& path, Poller& poller) {
@@ -196,15 +158,15 @@ SourceFile load_file(const std::filesystem::path& path, Poller& poller) {
         if (got == 0) break;
         length += static_cast<std::size_t>(got);
         if (length > most) {
-            throw IoError(path.string() + ": the file does not end within " +
-                          std::to_string(most >> 20) +
-                          " MB; name a file that ends, or save what a pipe brings to a file");
+            throw IoError(
+                joined(path.string(), ": the file does not end within ", most >> 20,
+                       " MB; name a file that ends, or save what a pipe brings to a file"));
         }
         if (length == file.bytes.size()) file.bytes.resize(std::min(2 * length, most + 1));
     }
     file.bytes.resize(length);
     if (length == 0) {
-        throw IoError(path.string() + ": the file is empty; export the file again");
+        throw IoError(joined(path.string(), ": the file is empty; export the file again"));
     }
     if (const auto order = utf16_order(file.bytes)) {
         file.bytes = utf8_of_utf16(file.bytes, *order, file.ticker);
@@ -217,6 +179,19 @@ std::string in_lower_case(std::string_view text) {
     // Not std::tolower, which depends on the locale.
     for (char& c : lower) c = 'A' <= c && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
     return lower;
+}
+
+std::string without_escapes(std::string_view text) {
+    std::string plain;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        unsigned char code = 0;
+        const char* const digits = text.data() + i + 1;
+        const bool is_code = text[i] == '%' && i + 2 < text.size() &&
+                             std::from_chars(digits, digits + 2, code, 16).ptr == digits + 2;
+        plain += is_code ? static_cast<char>(code) : text[i];
+        if (is_code) i += 2;
+    }
+    return plain;
 }
 
 std::string in_quotes(std::string_view text) {

@@ -1,16 +1,11 @@
 //! \file
-//! A file's bytes, and errors that name the place in it. Private to the readers.
-//! The paths that name streams of the process. Private to the readers and writers.
+//! A file's bytes, and errors that name the place in it. Private to the readers and writers.
 #pragma once
 
-#include <unistd.h>
-#include <cstddef>
 #include <filesystem>
-#include <string>
-#include <string_view>
 
 #include "agvd/core/progress.h"
-#include "remesh/names.h"
+#include "remesh/meshfile/text.h"
 
 namespace remesh {
 
@@ -25,19 +20,32 @@ struct SourceFile {
     //! "mesh.off: line 12: ". Lines are counted here and not while reading, so that valid files
     //! cost nothing.
     [[nodiscard]] std::string place(std::size_t offset) const;
+
     //! Throws IoError: the bytes are no file of this format.
-    [[noreturn]] void fail_malformed(std::size_t offset, const std::string& text) const;
+    template <typename... Parts>
+    [[noreturn]] void fail_malformed(std::size_t offset, Parts... parts) const {
+        throw IoError(place(offset) + joined(parts...));
+    }
+    //! Likewise; the remedy is a new export.
+    template <typename... Parts>
+    [[noreturn]] void fail_damaged(std::size_t offset, Parts... parts) const {
+        fail_malformed(offset, parts..., "; export the file again");
+    }
+    //! Throws InvalidInput: the format is right, the mesh is not.
+    template <typename... Parts>
+    [[noreturn]] void fail_unusable(std::size_t offset, Parts... parts) const {
+        throw InvalidInput(place(offset) + joined(parts...));
+    }
+
     //! Checks the bytes after the last element that the header announces: whole elements throw
     //! IoError unless is_lenient.
     //! \return a warning of them, or of a few stray bytes; empty if there are none (in a text: only
     //!        blanks).
     //! \param num_more  whole elements for which there is room; in a text lines are counted
-    //! instead.
-    [[nodiscard]] std::string judge_rest(std::size_t offset, const char* kind,
+    //!        instead.
+    [[nodiscard]] std::string judge_rest(std::size_t offset, const std::string& kind,
                                          std::uint64_t num_announced,
                                          std::uint64_t num_more = 0) const;
-    //! Throws InvalidInput: the format is right, the mesh is not.
-    [[noreturn]] void fail_unusable(std::size_t offset, const std::string& text) const;
 };
 
 //! A text in UTF-16 becomes UTF-8.
@@ -52,8 +60,11 @@ struct SourceFile {
 //! The text in quotes, cut to a readable length, with unprintable bytes shown as '?'.
 [[nodiscard]] std::string in_quotes(std::string_view text);
 
-// These are used through their descriptors: to open them again would fail for sockets, and would
-// replace a file instead of writing to where the caller's shell has got to.
+//! "a%20b" means "a b".
+[[nodiscard]] std::string without_escapes(std::string_view text);
+
+// The paths that name streams of the process. These are used through their descriptors: to open
+// them again would fail for sockets, and would replace a file instead of writing on.
 
 [[nodiscard]] inline bool is_standard_input(const std::filesystem::path& path) {
     return path == "/dev/stdin";

@@ -2,7 +2,6 @@
 // become one. Normals and attributes are skipped (format: 3D Systems, StereoLithography Interface
 // Specification, 1989).
 
-#include "agvd/core/error.h"
 #include "remesh/meshfile/formats.h"
 #include "remesh/meshfile/numbers.h"
 #include "remesh/meshfile/point_welder.h"
@@ -48,9 +47,9 @@ std::string judge_count(const SourceFile& file, std::uint64_t announced, std::ui
     const std::string text =
         "the header announces 0 triangles, the file holds " + std::to_string(held);
     if (!file.is_lenient) {
-        file.fail_malformed(80, text +
-                                    "; export the file again, or read those that it holds (remesh "
-                                    "and agvd diagram: --lenient)");
+        file.fail_malformed(80, text,
+                            "; export the file again, or read those that it holds (remesh and agvd "
+                            "diagram: --lenient)");
     }
     return file.place(80) + text + ", which are read";
 }
@@ -58,17 +57,15 @@ std::string judge_count(const SourceFile& file, std::uint64_t announced, std::ui
 MeshFile read_binary(const SourceFile& file) {
     const std::string& bytes = file.bytes;
     if (bytes.size() < header_size) {
-        file.fail_malformed(
-            bytes.size(),
-            "the file is too short for STL (a binary file has a header of 84 bytes, an ascii "
-            "file begins with 'solid'); export the file again");
+        file.fail_damaged(bytes.size(),
+                          "the file is too short for STL (a binary file has a header of 84 bytes, "
+                          "an ascii file begins with 'solid')");
     }
     const std::uint64_t announced = load<std::uint32_t>(&bytes[80]);
     const std::uint64_t held = (bytes.size() - header_size) / record_size;
     if (held < announced) {
-        file.fail_malformed(bytes.size(), "the file ends after " + std::to_string(held) + " of " +
-                                              std::to_string(announced) +
-                                              " triangles; it is truncated: export the file again");
+        file.fail_malformed(bytes.size(), "the file ends after ", held, " of ", announced,
+                            " triangles; it is truncated: export the file again");
     }
     const std::string warning = judge_count(file, announced, held);
     const std::uint64_t count = warning.empty() ? announced : held;
@@ -81,9 +78,9 @@ MeshFile read_binary(const SourceFile& file) {
             const char* const corner = &bytes[offset];
             const Vec3 p(load<float>(corner), load<float>(corner + 4), load<float>(corner + 8));
             if (!p.allFinite()) {
-                file.fail_unusable(offset,
-                                   "triangle " + std::to_string(f) + " has a coordinate " +
-                                       "that is not finite; correct or delete the triangle");
+                file.fail_unusable(
+                    offset, "triangle ", f,
+                    " has a coordinate that is not finite; correct or delete the triangle");
             }
             soup.add_corner(welder.index_of(p), offset);
         }
@@ -91,8 +88,8 @@ MeshFile read_binary(const SourceFile& file) {
     }
     const std::size_t end = header_size + count * record_size;
     MeshFile result = finish(std::move(soup), std::move(welder), 3 * count);
-    add_warning(warning, result);
-    add_warning(file.judge_rest(end, "triangles", count, held - count), result);
+    add_warning(result, warning);
+    add_warning(result, file.judge_rest(end, "triangles", count, held - count));
     return result;
 }
 
@@ -101,8 +98,7 @@ void find_keyword(TextScanner& scan) {
     if (scan.find_word()) return;
     scan.fail_malformed(
         "the file ends without 'endsolid'; it is truncated: export the file again, or add that "
-        "line if "
-        "nothing is missing");
+        "line if nothing is missing");
 }
 
 void expect(TextScanner& scan, const SourceFile& file, const char* keyword) {
@@ -110,8 +106,8 @@ void expect(TextScanner& scan, const SourceFile& file, const char* keyword) {
     const std::size_t start = scan.offset();
     const std::string_view word = scan.word();
     if (equals_keyword(word, keyword)) return;
-    file.fail_malformed(start, std::string("expected '") + keyword + "', found " + in_quotes(word) +
-                                   "; correct the line, or export the file again");
+    file.fail_malformed(start, "expected '", keyword, "', found ", in_quotes(word),
+                        "; correct the line, or export the file again");
 }
 
 // The loop of a facet whose first word has been read; returns its corners.

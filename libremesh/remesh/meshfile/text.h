@@ -1,7 +1,5 @@
 //! \file
-//! Numbers and counts as text, the same in any locale. Private.
-//! Lines of numbers with the fewest digits that read back as the same value. Private to the
-//! writers.
+//! Numbers as text, the same in any locale. Private.
 #pragma once
 
 #include <charconv>
@@ -10,6 +8,8 @@
 #include <locale>
 #include <sstream>
 #include <string>
+#include <string_view>
+#include <type_traits>
 
 #include "remesh/names.h"
 
@@ -25,25 +25,44 @@ namespace detail {
     return std::to_string(count) + ' ' + (count == 1 ? noun : plural);
 }
 
-//! printf's %.*f, without a locale's comma.
-[[nodiscard]] inline std::string fixed(double value, int digits) {
+//! The number as a stream with this manipulator writes it, without a locale's comma.
+[[nodiscard]] inline std::string written(double value, int digits,
+                                         std::ios_base& (*form)(std::ios_base&)) {
     std::ostringstream out;
     out.imbue(std::locale::classic());
-    out << std::fixed << std::setprecision(digits) << value;
+    out << form << std::setprecision(digits) << value;
     return out.str();
 }
 
-//! printf's %.4g, without a locale's comma.
+//! printf's %.*f.
+[[nodiscard]] inline std::string fixed(double value, int digits) {
+    return written(value, digits, std::fixed);
+}
+
+//! printf's %.4g.
 [[nodiscard]] inline std::string significant(double value) {
-    std::ostringstream out;
-    out.imbue(std::locale::classic());
-    out << std::setprecision(4) << value;
-    return out.str();
+    return written(value, 4, std::defaultfloat);
 }
 
 }  // namespace detail
 
-//! Appends the number.
+//! Texts and numbers, one behind the other. They are taken by value: a reader's counter whose
+//! address is taken would not stay in a register.
+template <typename... Parts>
+[[nodiscard]] std::string joined(Parts... parts) {
+    std::string text;
+    const auto append = [&]<typename Part>(const Part& part) {
+        if constexpr (std::is_arithmetic_v<Part>) {
+            text += std::to_string(part);
+        } else {
+            text += part;
+        }
+    };
+    (append(parts), ...);
+    return text;
+}
+
+//! Appends the number with the fewest digits that read back as the same value.
 template <typename Number>
 void append_shortest(std::string& bytes, Number value) {
     char digits[32];  // The longest double takes 24.

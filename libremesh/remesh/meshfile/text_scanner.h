@@ -1,15 +1,11 @@
 //! \file
-//! Numbers and words of a text file, line by line. Private to the readers; inline because every
-//! number of a file passes through here.
+//! Numbers and words of a text file, line by line. Private to the readers; inline, as every number
+//! of a file passes through here.
 #pragma once
 
 #include <fast_float/fast_float.h>
 
-#include <charconv>
-#include <cmath>
-#include <cstdint>
 #include <optional>
-#include <string>
 
 #include "agvd/core/types.h"
 #include "remesh/meshfile/source_file.h"
@@ -129,15 +125,22 @@ public:
         std::int64_t value = 0;
         const auto [last, error] = std::from_chars(at_, end_, value);
         if (error == std::errc::result_out_of_range) {
-            file_.fail_unusable(
-                offset(),
-                std::string(what) + " is too large; correct it, or export the file again");
+            file_.fail_unusable(offset(), what,
+                                " is too large; correct it, or export the file again");
         }
         if (error != std::errc{} || (!is_separator(last) && *last != stop)) {
             fail_expecting(what);
         }
         at_ = last;
         return value;
+    }
+
+    //! Likewise, one that is not negative.
+    std::uint64_t count(const std::string& what) {
+        const std::size_t start = offset();
+        const std::int64_t value = integer(what.c_str());
+        if (value < 0) file_.fail_damaged(start, what, " is negative");
+        return static_cast<std::uint64_t>(value);
     }
 
     //! The next three numbers of this line, finite; or so many, and 0 for the others.
@@ -153,19 +156,23 @@ public:
         return p;
     }
 
-    [[noreturn]] void fail_malformed(const std::string& text) const {
-        file_.fail_malformed(offset(), text);
+    template <typename... Parts>
+    [[noreturn]] void fail_malformed(Parts... parts) const {
+        file_.fail_malformed(offset(), parts...);
+    }
+    template <typename... Parts>
+    [[noreturn]] void fail_damaged(Parts... parts) const {
+        file_.fail_damaged(offset(), parts...);
     }
 
     [[noreturn]] void fail_expecting(const char* what) {
         const std::size_t start = offset();
         const std::string_view found = word();
-        file_.fail_malformed(start,
-                             std::string("expected ") + what + ", found " +
-                                 (!found.empty() ? in_quotes(found)
-                                  : at_ == end_  ? "the end of the file, which may be truncated"
-                                                 : "the end of the line") +
-                                 "; correct the line, or export the file again");
+        file_.fail_malformed(start, "expected ", what, ", found ",
+                             (!found.empty() ? in_quotes(found)
+                              : at_ == end_  ? "the end of the file, which may be truncated"
+                                             : "the end of the line"),
+                             "; correct the line, or export the file again");
     }
 
 private:

@@ -1,13 +1,8 @@
-#include "remesh/meshfile/read_mesh.h"
-
-#include <algorithm>
-#include <cmath>
 #include <limits>
-#include <string>
 
-#include "agvd/core/error.h"
-#include "agvd/core/types.h"
 #include "agvd/mesh/any_mesh.h"
+#include "remesh/meshfile/read_mesh.h"
+#include "remesh/meshfile/text.h"
 
 namespace remesh {
 namespace {
@@ -62,9 +57,9 @@ std::vector<std::array<Index, 2>> find_texture_seams(const MeshView& mesh,
                                                      std::span<const CornerCoordinates> values,
                                                      Ticker ticker) {
     if (values.size() != mesh.triangles.size()) {
-        throw InvalidOption("there are texture coordinates for " + std::to_string(values.size()) +
-                            " faces, but the mesh has " + std::to_string(mesh.triangles.size()) +
-                            "; give three for each");
+        throw InvalidOption(joined("there are texture coordinates for ", values.size(),
+                                   " faces, but the mesh has ", mesh.triangles.size(),
+                                   "; give three for each"));
     }
     const CornerAgreement agree(values);
     const std::vector<Side> sides = sorted_sides(mesh, ticker);

@@ -1,4 +1,3 @@
-//! Finds the marked corners of a polygon in a box. Private to the readers.
 // A quad is cut along the shorter of its inner diagonals. Larger polygons are projected into a
 // plane and lose one ear after the other (Meisters 1975); a kd-tree finds the reflex corners
 // inside an ear.
@@ -6,31 +5,57 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <vector>
 
-#include "agvd/core/types.h"
 #include "remesh/meshfile/read_mesh.h"
 
 namespace remesh {
 namespace {
 
-//! A kd-tree of fixed points, some of which are marked; each node stores their number.
+// A kd-tree of fixed points, some of which are marked; each node stores their number.
 class CornerTree {
 public:
-    //! None is marked. Cost: O(n log n).
-    explicit CornerTree(const std::vector<Vec2>& points);
+    // None is marked. Cost: O(n log n).
+    explicit CornerTree(const std::vector<Vec2>& points)
+        : points_(points),
+          order_(points.size()),
+          leaf_(points.size()),
+          is_marked_(points.size(), 0) {
+        std::iota(order_.begin(), order_.end(), std::size_t{0});
+        build(0, points.size(), no_parent);
+    }
 
-    //! Cost: O(log n).
-    void mark(std::size_t point, bool is_marked);
+    // Cost: O(log n).
+    void mark(std::size_t point, bool is_marked) {
+        if ((is_marked_[point] != 0) == is_marked) return;
+        is_marked_[point] = is_marked ? 1 : 0;
+        for (std::size_t i = leaf_[point]; i != no_parent; i = nodes_[i].parent) {
+            is_marked ? ++nodes_[i].num_marked : --nodes_[i].num_marked;
+        }
+    }
 
-    //! Calls visit(point) for the marked points of the box, edges included, until one says true.
-    //! \return whether one did. Cost: O(sqrt n + points in the box).
-    template <typename Visit>
-    [[nodiscard]] bool any_in(const Vec2& low, const Vec2& high, const Visit& visit) const {
-        return any_below(0, low, high, visit);
+    // Whether the test is true for a marked point of the box, edges included, below a node.
+    // Cost: O(sqrt n + points in the box).
+    template <typename Test>
+    [[nodiscard]] bool any_in(const Vec2& low, const Vec2& high, const Test& test,
+                              std::size_t index = 0) const {
+        const auto is_apart = [&](const Vec2& least, const Vec2& most) {
+            return (least.array() > high.array()).any() || (most.array() < low.array()).any();
+        };
+        const Node& node = nodes_[index];
+        if (node.num_marked == 0 || is_apart(node.low, node.high)) return false;
+        if (node.left != 0) {
+            return any_in(low, high, test, node.left) || any_in(low, high, test, node.right);
+        }
+        for (std::size_t i = node.begin; i < node.end; ++i) {
+            const std::size_t point = order_[i];
+            if (is_marked_[point] == 0 || is_apart(points_[point], points_[point])) continue;
+            if (test(point)) return true;
+        }
+        return false;
     }
 
 private:
+    static constexpr std::size_t most_in_leaf = 16, no_parent = ~std::size_t{0};
     struct Node {
         std::size_t begin, end;  // Of order_.
         std::size_t parent;
@@ -39,28 +64,31 @@ private:
         Vec2 low, high;
     };
 
-    void build(std::size_t begin, std::size_t end, std::size_t parent);
-
-    template <typename Visit>
-    [[nodiscard]] bool any_below(std::size_t index, const Vec2& low, const Vec2& high,
-                                 const Visit& visit) const {
-        const Node& node = nodes_[index];
-        if (node.num_marked == 0 || (node.low.array() > high.array()).any() ||
-            (node.high.array() < low.array()).any()) {
-            return false;
+    void build(std::size_t begin, std::size_t end, std::size_t parent) {
+        const std::size_t index = nodes_.size();
+        Node node{begin, end, parent, 0, 0, 0, points_[order_[begin]], points_[order_[begin]]};
+        for (std::size_t i = begin; i < end; ++i) {
+            node.low = node.low.cwiseMin(points_[order_[i]]);
+            node.high = node.high.cwiseMax(points_[order_[i]]);
         }
-        if (node.left != 0) {
-            return any_below(node.left, low, high, visit) ||
-                   any_below(node.right, low, high, visit);
+        nodes_.push_back(node);
+        if (end - begin <= most_in_leaf) {
+            for (std::size_t i = begin; i < end; ++i) leaf_[order_[i]] = index;
+            return;
         }
-        for (std::size_t i = node.begin; i < node.end; ++i) {
-            const std::size_t point = order_[i];
-            if (is_marked_[point] == 0) continue;
-            const Vec2& p = points_[point];
-            if ((p.array() < low.array()).any() || (p.array() > high.array()).any()) continue;
-            if (visit(point)) return true;
-        }
-        return false;
+        const Vec2 size = node.high - node.low;
+        const int axis = size.x() >= size.y() ? 0 : 1;
+        const std::size_t middle = begin + (end - begin) / 2;
+        const auto at = [&](std::size_t i) {
+            return order_.begin() + static_cast<std::ptrdiff_t>(i);
+        };
+        std::nth_element(at(begin), at(middle), at(end), [&](std::size_t a, std::size_t b) {
+            return points_[a][axis] < points_[b][axis];
+        });
+        nodes_[index].left = nodes_.size();
+        build(begin, middle, index);
+        nodes_[index].right = nodes_.size();
+        build(middle, end, index);
     }
 
     std::vector<Vec2> points_;
@@ -69,48 +97,6 @@ private:
     std::vector<std::uint8_t> is_marked_;
     std::vector<Node> nodes_;  // Depth first.
 };
-
-constexpr std::size_t most_in_leaf = 16;
-constexpr std::size_t no_parent = ~std::size_t{0};
-
-CornerTree::CornerTree(const std::vector<Vec2>& points)
-    : points_(points), order_(points.size()), leaf_(points.size()), is_marked_(points.size(), 0) {
-    std::iota(order_.begin(), order_.end(), std::size_t{0});
-    build(0, points.size(), no_parent);
-}
-
-void CornerTree::build(std::size_t begin, std::size_t end, std::size_t parent) {
-    const std::size_t index = nodes_.size();
-    Node node{begin, end, parent, 0, 0, 0, points_[order_[begin]], points_[order_[begin]]};
-    for (std::size_t i = begin; i < end; ++i) {
-        node.low = node.low.cwiseMin(points_[order_[i]]);
-        node.high = node.high.cwiseMax(points_[order_[i]]);
-    }
-    nodes_.push_back(node);
-    if (end - begin <= most_in_leaf) {
-        for (std::size_t i = begin; i < end; ++i) leaf_[order_[i]] = index;
-        return;
-    }
-    const Vec2 size = node.high - node.low;
-    const int axis = size.x() >= size.y() ? 0 : 1;
-    const std::size_t middle = begin + (end - begin) / 2;
-    const auto at = [&](std::size_t i) { return order_.begin() + static_cast<std::ptrdiff_t>(i); };
-    std::nth_element(at(begin), at(middle), at(end), [&](std::size_t a, std::size_t b) {
-        return points_[a][axis] < points_[b][axis];
-    });
-    nodes_[index].left = nodes_.size();
-    build(begin, middle, index);
-    nodes_[index].right = nodes_.size();
-    build(middle, end, index);
-}
-
-void CornerTree::mark(std::size_t point, bool is_marked) {
-    if ((is_marked_[point] != 0) == is_marked) return;
-    is_marked_[point] = is_marked ? 1 : 0;
-    for (std::size_t i = leaf_[point]; i != no_parent; i = nodes_[i].parent) {
-        is_marked ? ++nodes_[i].num_marked : --nodes_[i].num_marked;
-    }
-}
 
 // Newell's normal, twice the area long; relative to the first corner to keep digits.
 Vec3 normal_of(std::span<const Index> polygon, std::span<const Vec3> positions) {

@@ -1,38 +1,16 @@
-// Legacy VTK, ascii and binary (big endian): POLYDATA and UNSTRUCTURED_GRID. Points,
-// cells, and arrays of points and cells as attributes (format: The VTK User's Guide, "VTK File
-// Formats"; since version 5 cells are two arrays, OFFSETS and CONNECTIVITY).
-// Writes legacy VTK of version 3.0, which all programs read: binary POLYDATA with coordinates in
-// double. Texture coordinates belong to points.
+// Legacy VTK, ascii and binary (big endian): POLYDATA and UNSTRUCTURED_GRID with points, cells, and
+// arrays of both as attributes (format: The VTK User's Guide, "VTK File Formats"; since version 5
+// cells are two arrays, OFFSETS and CONNECTIVITY). Written is version 3.0, which all programs read:
+// binary POLYDATA with coordinates in double.
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <utility>
 
-#include "agvd/core/error.h"
-#include "agvd/mesh/mesh.h"
 #include "remesh/meshfile/formats.h"
-#include "remesh/meshfile/numbers.h"
 #include "remesh/meshfile/text_scanner.h"
-#include "remesh/meshfile/vtk_data.h"
 #include "remesh/meshfile/vtk_output.h"
 
 namespace remesh {
 namespace {
-
-// "%20" stands for a blank.
-std::string decoded(std::string_view name) {
-    std::string text;
-    for (std::size_t i = 0; i < name.size(); ++i) {
-        unsigned code = 0;
-        const bool is_code =
-            name[i] == '%' && i + 2 < name.size() &&
-            std::from_chars(&name[i + 1], &name[i] + 3, code, 16).ptr == &name[i] + 3;
-        text += is_code ? static_cast<char>(code) : name[i];
-        if (is_code) i += 2;
-    }
-    return text;
-}
 
 class LegacyVtkReader {
 public:
@@ -57,14 +35,16 @@ private:
     static constexpr std::size_t vertices = 0, lines = 1, polygons = 2, strips = 3, grid = 4;
     enum class Of { Nothing, Points, Cells };
 
-    [[noreturn]] void fail(const std::string& text) const { file_.fail_malformed(start_, text); }
+    template <typename... Parts>
+    [[noreturn]] void fail(Parts... parts) const {
+        file_.fail_damaged(start_, parts...);
+    }
 
     void read_head() {
         if (!scan_.take("# vtk DataFile Version ")) {
-            fail(
-                "this is not a legacy VTK file, as it does not begin with '# vtk DataFile "
-                "Version'; "
-                "check its extension");
+            file_.fail_malformed(start_,
+                                 "this is not a legacy VTK file, as it does not begin with '# vtk "
+                                 "DataFile Version'; check its extension");
         }
         version_ = scan_.number("a version");
         scan_.skip_line();
@@ -72,17 +52,16 @@ private:
         start_ = scan_.offset();
         const std::string encoding = scan_.find_word() ? in_lower_case(scan_.word()) : "";
         if (encoding != "ascii" && encoding != "binary") {
-            fail("expected ASCII or BINARY, found " + in_quotes(encoding) +
-                 "; export the file again");
+            fail("expected ASCII or BINARY, found ", in_quotes(encoding));
         }
         file_.is_binary = encoding == "binary";
         expect("dataset");
         start_ = scan_.offset();
         const std::string kind = name("a kind of data");
         if (in_lower_case(kind) != "polydata" && in_lower_case(kind) != "unstructured_grid") {
-            fail("the file holds " + in_quotes(kind) +
-                 ", not POLYDATA or UNSTRUCTURED_GRID; extract its surface (in ParaView: Extract "
-                 "Surface) and save that");
+            file_.fail_malformed(start_, "the file holds ", in_quotes(kind),
+                                 ", not POLYDATA or UNSTRUCTURED_GRID; extract its surface (in "
+                                 "ParaView: Extract Surface) and save that");
         }
     }
 
@@ -91,87 +70,72 @@ private:
         start_ = scan_.offset();
         const std::string word(scan_.word());
         if (in_lower_case(word) == keyword) return;
-        fail(std::string("expected ") + keyword + ", found " + in_quotes(word) +
-             "; export the file again");
+        fail("expected ", keyword, ", found ", in_quotes(word));
     }
 
     void read_section(const std::string& keyword) {
+        constexpr std::array groups = {"vertices", "lines", "polygons", "triangle_strips", "cells"};
+        const auto* const group = std::find(groups.begin(), groups.end(), keyword);
         if (keyword == "points") {
             const std::uint64_t count = number_of("points");
-            const VtkType& type = type_name();
-            data_.points = array("points", type, count, 3);
-        } else if (keyword == "vertices") {
-            read_cells(vertices);
-        } else if (keyword == "lines") {
-            read_cells(lines);
-        } else if (keyword == "polygons") {
-            read_cells(polygons);
-        } else if (keyword == "triangle_strips") {
-            read_cells(strips);
-        } else if (keyword == "cells") {
-            read_cells(grid);
+            data_.points = array("points", type_name(), count, 3);
+        } else if (group != groups.end()) {
+            read_cells(static_cast<std::size_t>(group - groups.begin()));
         } else if (keyword == "cell_types") {
-            read_types();
+            types_ = array("CELL_TYPES", *find_vtk_type("int"), number_of("types"), 1);
         } else if (keyword == "point_data" || keyword == "cell_data") {
             of_ = keyword == "point_data" ? Of::Points : Of::Cells;
             num_elements_ = number_of("elements");
         } else if (keyword == "metadata") {
             skip_to_empty_line();
-        } else if (!read_array(keyword)) {
-            fail("unknown keyword " + in_quotes(keyword) + "; export the file again");
+        } else if (keyword == "field") {
+            read_field();
+        } else {
+            read_array(keyword);
         }
     }
 
-    // Arrays of points or cells. \return false: the keyword is no array.
-    bool read_array(const std::string& keyword) {
-        if (keyword == "field") {
-            read_field();
-        } else if (keyword == "scalars") {
-            const std::string title = name("a name");
-            const VtkType& type = type_name();
-            const std::uint64_t components = scan_.has_word() ? number_of("components") : 1;
+    // Arrays of points or cells.
+    void read_array(const std::string& keyword) {
+        constexpr std::pair<const char*, std::uint64_t> widths[] = {
+            {"scalars", 0},      {"color_scalars", 0},
+            {"lookup_table", 4}, {"texture_coordinates", 0},
+            {"vectors", 3},      {"normals", 3},
+            {"tensors", 9},      {"global_ids", 1},
+            {"pedigree_ids", 1}};
+        const auto* const known = std::find_if(std::begin(widths), std::end(widths),
+                                               [&](auto& one) { return keyword == one.first; });
+        if (known == std::end(widths)) fail("unknown keyword ", in_quotes(keyword));
+        const std::string title = name("a name");
+        std::uint64_t components = known->second;
+        if (keyword == "lookup_table" || keyword == "color_scalars") {
+            const VtkType& type = *find_vtk_type(file_.is_binary ? "unsigned_char" : "float");
+            if (keyword == "lookup_table") {
+                array("", type, number_of("colours"), components);
+                return;
+            }
+            VtkArray colors = array(title, type, num_elements_, number_of("components"));
+            to_bytes(colors);
+            return keep(std::move(colors));
+        }
+        if (keyword == "texture_coordinates") components = number_of("components");
+        const VtkType& type = type_name();
+        if (keyword == "scalars") {
+            components = scan_.has_word() ? number_of("components") : 1;
             expect("lookup_table");
             scan_.word();
-            keep(array(title, type, num_elements_, components));
-        } else if (keyword == "color_scalars") {
-            const std::string title = name("a name");
-            const std::uint64_t components = number_of("components");
-            VtkArray colors =
-                array(title, *find_vtk_type(file_.is_binary ? "unsigned_char" : "float"),
-                      num_elements_, components);
-            to_bytes(colors);
-            keep(std::move(colors));
-        } else if (keyword == "lookup_table") {
-            name("a name");
-            const std::uint64_t count = number_of("colours");
-            array("", *find_vtk_type(file_.is_binary ? "unsigned_char" : "float"), count, 4);
-        } else if (keyword == "texture_coordinates") {
-            const std::string title = name("a name");
-            const std::uint64_t components = number_of("components");
-            VtkArray values = array(title, type_name(), num_elements_, components);
-            if (of_ == Of::Points && (components == 2 || components == 3)) {
-                data_.texture = std::move(values);
-            } else {
-                decline(title, "only two or three texture coordinates of points are carried over");
-            }
-        } else if (keyword == "vectors" || keyword == "normals" || keyword == "tensors" ||
-                   keyword == "global_ids" || keyword == "pedigree_ids") {
-            const std::string title = name("a name");
-            const VtkType& type = type_name();
-            const std::uint64_t components = keyword == "tensors"                           ? 9
-                                             : keyword == "vectors" || keyword == "normals" ? 3
-                                                                                            : 1;
-            VtkArray values = array(title, type, num_elements_, components);
-            if (keyword == "normals") {
-                if (of_ == Of::Points) data_.normals = type.type;
-                if (of_ == Of::Cells) decline(title, "normals of faces are not carried over");
-            } else {
-                keep(std::move(values));
-            }
-        } else {
-            return false;
         }
-        return true;
+        VtkArray values = array(title, type, num_elements_, components);
+        if (keyword == "normals") {
+            if (of_ == Of::Points) data_.normals = type.type;
+            if (of_ == Of::Cells) decline(title, "normals of faces are not carried over");
+        } else if (keyword != "texture_coordinates") {
+            keep(std::move(values));
+        } else if (of_ == Of::Points && (components == 2 || components == 3)) {
+            data_.texture = std::move(values);
+        } else {
+            decline(title, "only two or three texture coordinates of points are carried over");
+        }
     }
 
     void read_field() {
@@ -193,9 +157,8 @@ private:
             VtkArray values = array(title, type, count, components);
             if (of_ == Of::Nothing) continue;  // Of the whole file, such as a time.
             if (count != num_elements_) {
-                fail("array " + in_quotes(title) + " has " + std::to_string(count) +
-                     " values for " + std::to_string(num_elements_) +
-                     " elements; export the file again");
+                fail("array ", in_quotes(title), " has ", count, " values for ", num_elements_,
+                     " elements");
             }
             keep(std::move(values));
         }
@@ -214,7 +177,7 @@ private:
         else if (of_ == Of::Cells)
             data_.of_cells.push_back(std::move(values));
         else
-            fail("an array comes before POINT_DATA or CELL_DATA; export the file again");
+            fail("an array comes before POINT_DATA or CELL_DATA");
     }
     void decline(const std::string& title, const char* reason) {
         data_.declined.push_back({(of_ == Of::Points ? "vertex " : "face ") + title, reason});
@@ -224,7 +187,7 @@ private:
         constexpr std::array types = {VtkCell::Vertices, VtkCell::Lines, VtkCell::Polygon,
                                       VtkCell::Strip, VtkCell{0}};
         VtkCells& cells = groups_[group];
-        if (!cells.ends.empty()) fail("the same kind of cells comes twice; export the file again");
+        if (!cells.ends.empty()) fail("the same kind of cells comes twice");
         cells.types = {types[group]};
         const std::uint64_t count = number_of("cells"), size = number_of("numbers");
         if (version_ >= 5) {
@@ -244,9 +207,8 @@ private:
             const double corners = from < values.size() ? values[from] : -1;
             if (!(corners >= 0 && corners == std::floor(corners) &&
                   corners < static_cast<double>(values.size() - from))) {
-                fail("cell " + std::to_string(c) + " of " + std::to_string(count) +
-                     " does not fit into the " + std::to_string(size) +
-                     " numbers that are announced; export the file again");
+                fail("cell ", c, " of ", count, " does not fit into the ", size,
+                     " numbers that are announced");
             }
             ++from;
             for (auto k = static_cast<std::size_t>(corners); k > 0; --k)
@@ -254,8 +216,7 @@ private:
             cells.ends.push_back(to);
         }
         if (from != values.size()) {
-            fail("the cells have fewer numbers than the " + std::to_string(size) +
-                 " that are announced; export the file again");
+            fail("the cells have fewer numbers than the ", size, " that are announced");
         }
         values.resize(to);
     }
@@ -269,15 +230,9 @@ private:
         const VtkType& type = type_name();
         cells.corners = array("CONNECTIVITY", type, size, 1);
         if (!offsets.values.empty() && offsets.values[0] != 0) {
-            fail(
-                "the offset of the first cell is not 0, so that they are not in order; export the "
-                "file again");
+            fail("the offset of the first cell is not 0, so that they are not in order");
         }
         cells.ends = ends_of_cells(offsets, 1, cells.corners.values.size(), file_);
-    }
-
-    void read_types() {
-        types_ = array("CELL_TYPES", *find_vtk_type("int"), number_of("types"), 1);
     }
 
     // Gives the cells of a grid their types, wherever these stand in the file.
@@ -285,15 +240,14 @@ private:
         VtkCells& cells = groups_[grid];
         const std::size_t count = types_ ? types_->values.size() : 0;
         if (count != cells.ends.size()) {
-            fail("CELL_TYPES has " + std::to_string(count) + " types for " +
-                 std::to_string(cells.ends.size()) + " cells; export the file again");
+            fail("CELL_TYPES has ", count, " types for ", cells.ends.size(), " cells");
         }
         if (types_) cells.types = types_of_cells(*types_);
     }
 
     std::string name(const char* what) {
         if (!scan_.has_word()) scan_.fail_expecting(what);
-        return decoded(scan_.word());
+        return without_escapes(scan_.word());
     }
 
     const VtkType& type_name() {
@@ -301,16 +255,12 @@ private:
         const std::string word = name("a type of numbers");
         const VtkType* const type = find_vtk_type(in_lower_case(word));
         if (type != nullptr) return *type;
-        file_.fail_malformed(start, "arrays of type " + in_quotes(word) +
-                                        " are not supported; export the file without them");
+        file_.fail_malformed(start, "arrays of type ", in_quotes(word),
+                             " are not supported; export the file without them");
     }
 
     std::uint64_t number_of(const char* what) {
-        const std::size_t start = scan_.offset();
-        const std::int64_t count = scan_.integer(("the number of " + std::string(what)).c_str());
-        if (count >= 0) return static_cast<std::uint64_t>(count);
-        file_.fail_malformed(
-            start, "the number of " + std::string(what) + " is negative; export the file again");
+        return scan_.count(std::string("the number of ") + what);
     }
 
     // The numbers that follow the current line.
@@ -325,13 +275,14 @@ private:
         // Neither an element nor a number takes less than a byte; a text has blanks between them.
         const std::size_t size = file_.is_binary ? type.size : 2;
         if (count != 0 && components > (left + 1) / size / count) {
-            fail("the file ends before the " + std::to_string(count) + " elements of " +
-                 in_quotes(result.name) + "; it is truncated: export the file again");
+            file_.fail_malformed(start_, "the file ends before the ", count, " elements of ",
+                                 in_quotes(result.name),
+                                 "; it is truncated: export the file again");
         }
         const std::size_t total = static_cast<std::size_t>(count * components);
         if (file_.is_binary && total * type.size > left) {
-            fail("the file ends within " + in_quotes(result.name) +
-                 "; it is truncated: export the file again");
+            file_.fail_malformed(start_, "the file ends within ", in_quotes(result.name),
+                                 "; it is truncated: export the file again");
         }
         result.values.reserve(total);
         if (file_.is_binary) {
@@ -346,7 +297,7 @@ private:
         for (std::size_t i = 0; i < total; ++i) {
             ticker_.tick(2);
             if (!scan_.find_word()) {
-                scan_.fail_malformed("the file ends within " + in_quotes(result.name) +
+                scan_.fail_malformed("the file ends within ", in_quotes(result.name),
                                      "; it is truncated: export the file again");
             }
             result.values.push_back(scan_.number("a number"));
@@ -373,11 +324,7 @@ private:
 
 constexpr std::endian vtk_order = std::endian::big;
 
-const char* vtk_name_of(NumberType type) {
-    constexpr std::array names = {"char", "unsigned_char", "short", "unsigned_short",
-                                  "int",  "unsigned_int",  "float", "double"};
-    return names[static_cast<std::size_t>(type)];
-}
+const char* vtk_name_of(NumberType type) { return vtk_type_of(type).name; }
 
 // A blank would end a name.
 std::string encoded(const std::string& name) {

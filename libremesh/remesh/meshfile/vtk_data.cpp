@@ -1,8 +1,5 @@
 #include "remesh/meshfile/vtk_data.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <utility>
 
 #include "remesh/meshfile/formats.h"
@@ -32,6 +29,13 @@ constexpr std::array vtk_types = {
     VtkType{"float", "Float32", 4, NumberType::Float32, load_as<float>},
     VtkType{"double", "Float64", 8, NumberType::Float64, load_as<double>}};
 
+// The first type for which the test is true.
+template <typename Test>
+const VtkType* find_type(const Test& test) {
+    const auto found = std::find_if(vtk_types.begin(), vtk_types.end(), test);
+    return found == vtk_types.end() ? nullptr : found;
+}
+
 // Names that PLY gives to what is no attribute.
 constexpr std::array reserved_names = {"x",           "y", "z", "nx", "ny", "nz", "vertex_indices",
                                        "vertex_index"};
@@ -44,10 +48,8 @@ void add_points(const VtkArray& points, const SourceFile& file, PolygonSoup& sou
         soup.ticker.tick(2);
         const Vec3 p(points.values[i], points.values[i + 1], points.values[i + 2]);
         if (!p.allFinite()) {
-            file.fail_unusable(points.offset,
-                               "point " + std::to_string(i / 3) +
-                                   " has a coordinate that is not finite; correct or "
-                                   "delete the point");
+            file.fail_unusable(points.offset, "point ", i / 3,
+                               " has a coordinate that is not finite; correct or delete the point");
         }
         soup.positions.push_back(p);
     }
@@ -77,12 +79,11 @@ public:
     }
 
     void add_warnings(MeshFile& result) const {
-        add_warning(volumes_.warning(num_surface_faces_), result);
+        add_warning(result, volumes_.warning(num_surface_faces_));
         if (num_others_ == 0) return;
-        add_warning(file_.path.string() + ": " + std::to_string(num_others_) +
-                        " cells that are neither faces nor linear volumes (vertices, lines, curved "
-                        "cells) are passed over",
-                    result);
+        add_warning(result, file_.path.string(), ": ", num_others_,
+                    " cells that are neither faces nor linear volumes (vertices, lines, curved "
+                    "cells) are passed over");
     }
 
     [[nodiscard]] const std::vector<std::size_t>& cell_of_polygon() const {
@@ -92,21 +93,20 @@ public:
 
 private:
     void add_cell(VtkCell type, std::size_t begin, std::size_t end) {
+        constexpr std::array by_row = {0u, 1u, 3u, 2u, 4u, 5u, 7u, 6u};
         soup_.ticker.tick();
         switch (type) {
             case VtkCell::Triangle:
-                require_corners(end - begin, 3);
-                return add_polygon(begin, end);
             case VtkCell::Quad:
-                require_corners(end - begin, 4);
-                return add_polygon(begin, end);
             case VtkCell::Pixel:
-                require_corners(end - begin, 4);
-                for (const std::size_t k : {0u, 1u, 3u, 2u})
-                    soup_.add_corner(vertex(begin + k), offset());
-                return soup_.end_polygon();
+                require_corners(end - begin, type == VtkCell::Triangle ? 3 : 4);
+                [[fallthrough]];
             case VtkCell::Polygon:
-                return add_polygon(begin, end);
+                for (std::size_t k = 0; k < end - begin; ++k) {
+                    soup_.add_corner(vertex(begin + (type == VtkCell::Pixel ? by_row[k] : k)),
+                                     offset());
+                }
+                return soup_.end_polygon();
             case VtkCell::Strip: {
                 StripTriangles strip(soup_);
                 for (std::size_t k = begin; k < end; ++k) strip.add(vertex(k), offset());
@@ -115,10 +115,7 @@ private:
             case VtkCell::Tetrahedron:
                 return add_volume(VolumeCell::Tetrahedron, begin, end);
             case VtkCell::Voxel:
-                require_corners(end - begin, 8);
-                for (const std::size_t k : {0u, 1u, 3u, 2u, 4u, 5u, 7u, 6u})
-                    volumes_.add_corner(vertex(begin + k), offset());
-                return end_volume(VolumeCell::Hexahedron);
+                return add_volume(VolumeCell::Hexahedron, begin, end, by_row.data());
             case VtkCell::Hexahedron:
                 return add_volume(VolumeCell::Hexahedron, begin, end);
             case VtkCell::Wedge:
@@ -130,27 +127,21 @@ private:
         }
     }
 
-    void add_polygon(std::size_t begin, std::size_t end) {
-        for (std::size_t k = begin; k < end; ++k) soup_.add_corner(vertex(k), offset());
-        soup_.end_polygon();
-    }
-
-    void add_volume(VolumeCell kind, std::size_t begin, std::size_t end) {
+    // \param order  of the corners; null: that of the file.
+    void add_volume(VolumeCell kind, std::size_t begin, std::size_t end,
+                    const unsigned* order = nullptr) {
         require_corners(end - begin, num_corners(kind));
-        for (std::size_t k = begin; k < end; ++k) volumes_.add_corner(vertex(k), offset());
-        end_volume(kind);
-    }
-
-    void end_volume(VolumeCell kind) {
+        for (std::size_t k = 0; k < end - begin; ++k) {
+            volumes_.add_corner(vertex(begin + (order == nullptr ? k : order[k])), offset());
+        }
         volumes_.end_cell(kind);
         cell_of_volume_.push_back(num_cells_);
     }
 
     void require_corners(std::size_t found, std::size_t needed) const {
         if (found == needed) return;
-        file_.fail_malformed(offset(), "cell " + std::to_string(num_cells_) + " has " +
-                                           std::to_string(found) + " corners instead of " +
-                                           std::to_string(needed) + "; export the file again");
+        file_.fail_damaged(offset(), "cell ", num_cells_, " has ", found, " corners instead of ",
+                           needed);
     }
 
     [[nodiscard]] std::int64_t vertex(std::size_t corner) const {
@@ -158,9 +149,7 @@ private:
         if (value == std::floor(value) && std::abs(value) < 1e15) {
             return static_cast<std::int64_t>(value);
         }
-        file_.fail_malformed(offset(), "cell " + std::to_string(num_cells_) +
-                                           " has a corner that is no whole number; export the file "
-                                           "again");
+        file_.fail_damaged(offset(), "cell ", num_cells_, " has a corner that is no whole number");
     }
     [[nodiscard]] std::size_t offset() const { return cells_->corners.offset; }
 
@@ -197,11 +186,9 @@ bool has_wrong_values(const VtkArray& array, NumberType type) {
 
 void require_numbers(const VtkArray& array, std::size_t num_elements, const SourceFile& file) {
     if (array.values.size() == num_elements * array.num_components) return;
-    file.fail_malformed(array.offset, "array " + in_quotes(array.name) + " has " +
-                                          std::to_string(array.values.size()) + " numbers for " +
-                                          std::to_string(num_elements) + " elements with " +
-                                          std::to_string(array.num_components) +
-                                          " each; export the file again");
+    file.fail_damaged(array.offset, "array ", in_quotes(array.name), " has ", array.values.size(),
+                      " numbers for ", num_elements, " elements with ", array.num_components,
+                      " each");
 }
 
 // A third coordinate does not count.
@@ -231,20 +218,22 @@ public:
     void take(const VtkArray& array) {
         require_numbers(array, num_elements_, file_);
         const NumberType type = type_of(array);
-        const bool is_color =
-            type == NumberType::UInt8 && (array.num_components == 3 || array.num_components == 4);
+        const std::size_t width = array.num_components;
+        const bool is_color = type == NumberType::UInt8 && (width == 3 || width == 4) &&
+                              find_attribute(target_, "red") == nullptr;
         if (has_wrong_values(array, type)) {
             decline(array.name, "some of its values are not of its type");
-        } else if (is_color && find_attribute(target_, "red") == nullptr) {
-            for (std::size_t k = 0; k < array.num_components; ++k)
-                add(color_names[k], type, array, k);
-        } else if (array.num_components == 0 || array.num_components > most_vtk_components) {
+            return;
+        }
+        if (!is_color && (width == 0 || width > most_vtk_components)) {
             decline(array.name, "arrays of so many numbers for an element are not carried over");
-        } else if (array.num_components == 1) {
-            add(as_word(array.name), type, array, 0);
-        } else {
-            for (std::size_t k = 0; k < array.num_components; ++k)
-                add(as_word(array.name) + '_' + std::to_string(k), type, array, k);
+            return;
+        }
+        for (std::size_t k = 0; k < width; ++k) {
+            add(is_color     ? color_names[k]
+                : width == 1 ? as_word(array.name)
+                             : as_word(array.name) + '_' + std::to_string(k),
+                type, array, k);
         }
     }
 
@@ -296,16 +285,15 @@ MeshAttributes read_attributes(VtkData& data, const CellReader& cells, std::size
 }  // namespace
 
 const VtkType* find_vtk_type(std::string_view name) {
-    const auto found = std::find_if(vtk_types.begin(), vtk_types.end(),
-                                    [&](const VtkType& type) { return name == type.name; });
-    return found == vtk_types.end() ? nullptr : found;
+    return find_type([&](const VtkType& type) { return name == type.name; });
 }
 
 const VtkType* find_vtk_xml_type(std::string_view name) {
-    const auto found = std::find_if(vtk_types.begin(), vtk_types.end(), [&](const VtkType& type) {
-        return !name.empty() && name == type.xml_name;
-    });
-    return found == vtk_types.end() ? nullptr : found;
+    return find_type([&](const VtkType& type) { return !name.empty() && name == type.xml_name; });
+}
+
+const VtkType& vtk_type_of(NumberType number) {
+    return *find_type([&](const VtkType& type) { return number == type.type; });
 }
 
 std::vector<std::size_t> ends_of_cells(const VtkArray& offsets, std::size_t first,
@@ -317,15 +305,13 @@ std::vector<std::size_t> ends_of_cells(const VtkArray& offsets, std::size_t firs
         ticker.tick();
         const double end = offsets.values[i];
         if (!(end >= last && end <= static_cast<double>(num_corners) && end == std::floor(end))) {
-            file.fail_malformed(offsets.offset, "the offset of cell " + std::to_string(i - first) +
-                                                    " is not in order; export the file again");
+            file.fail_damaged(offsets.offset, "the offset of cell ", i - first, " is not in order");
         }
         ends.push_back(static_cast<std::size_t>(end));
         last = end;
     }
     if (last != static_cast<double>(num_corners)) {
-        file.fail_malformed(offsets.offset,
-                            "the last offset is not the number of corners; export the file again");
+        file.fail_damaged(offsets.offset, "the last offset is not the number of corners");
     }
     return ends;
 }

@@ -4,9 +4,6 @@
 #pragma once
 
 #include <bit>
-#include <optional>
-#include <string>
-#include <vector>
 
 #include "remesh/meshfile/read_mesh.h"
 #include "remesh/meshfile/source_file.h"
@@ -24,6 +21,8 @@ struct VtkType {
 
 //! The type of a legacy name, in lower case; nullptr: unknown.
 [[nodiscard]] const VtkType* find_vtk_type(std::string_view name);
+//! The type of an attribute.
+[[nodiscard]] const VtkType& vtk_type_of(NumberType type);
 //! The type of a name in XML files, such as Float64; nullptr: unknown.
 [[nodiscard]] const VtkType* find_vtk_xml_type(std::string_view name);
 

@@ -1,16 +1,7 @@
-// Writes VTK's XML PolyData (.vtp) and UnstructuredGrid (.vtu): a piece of triangles, coordinates
-// in double.
 #include "remesh/meshfile/vtk_output.h"
 
-#include <algorithm>
-#include <array>
-#include <utility>
-
-#include "agvd/mesh/mesh.h"
 #include "remesh/meshfile/formats.h"
 #include "remesh/meshfile/materials.h"
-#include "remesh/meshfile/numbers.h"
-#include "remesh/meshfile/vtk_data.h"
 
 namespace remesh {
 namespace {
@@ -45,17 +36,11 @@ std::size_t num_bytes_of_character(std::string_view text) {
     return first >= 0xC2 && first < 0xF5 && is_character ? size : 0;
 }
 
-const char* vtp_name_of(NumberType type) {
-    constexpr std::array names = {"Int8",  "UInt8",  "Int16",   "UInt16",
-                                  "Int32", "UInt32", "Float32", "Float64"};
-    return names[static_cast<std::size_t>(type)];
-}
-
 void add_attributes(const std::vector<Attribute>& attributes, std::size_t count, Ticker& ticker,
                     VtpWriter& writer) {
     for (const VtkOutputArray& array : arrays_of(attributes)) {
         std::string& bytes =
-            writer.begin_array(array.name, vtp_name_of(array.type), array.parts.size());
+            writer.begin_array(array.name, vtk_type_of(array.type).xml_name, array.parts.size());
         append_values(array, count, std::endian::little, ticker, bytes);
         writer.end_array();
     }
@@ -123,19 +108,12 @@ std::string xml_escaped(std::string_view text) {
     std::string escaped;
     while (!text.empty()) {
         const std::size_t size = num_bytes_of_character(text);
-        switch (text.front()) {
-            case '&':
-                escaped += "&amp;";
-                break;
-            case '<':
-                escaped += "&lt;";
-                break;
-            case '"':
-                escaped += "&quot;";
-                break;
-            default:
-                escaped += size == 0 ? "_" : text.substr(0, size);
-        }
+        const char first = text.front();
+        escaped += first == '&'   ? "&amp;"
+                   : first == '<' ? "&lt;"
+                   : first == '"' ? "&quot;"
+                   : size == 0    ? "_"
+                                  : text.substr(0, size);
         text.remove_prefix(std::max<std::size_t>(size, 1));
     }
     return escaped;

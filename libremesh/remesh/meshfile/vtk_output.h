@@ -1,18 +1,8 @@
 //! \file
-//! Attributes as VTK's files hold them, in both formats. Private to the writers of VTK.
-//! Writes VTK's XML PolyData and UnstructuredGrid: arrays of numbers behind XML that describes
-//! them. Private to the writers of meshes and diagrams.
+//! What both formats of VTK share, and VTK's XML. Private to the writers of meshes and diagrams.
 #pragma once
 
-#include <array>
-#include <bit>
-#include <cstdint>
-#include <string>
-#include <vector>
-
-#include "agvd/core/progress.h"
 #include "remesh/meshfile/numbers.h"
-#include "remesh/meshfile/read_mesh.h"
 #include "remesh/meshfile/vtk_data.h"
 
 namespace remesh {

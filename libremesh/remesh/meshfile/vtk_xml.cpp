@@ -1,25 +1,11 @@
-//! What an XML file of VTK holds, before its arrays are decoded. Private to the reader of .vtp.
-//! Decodes the arrays of an XML file of VTK. Private to the reader of .vtp.
-// The structure of an XML file of VTK (format: The VTK User's Guide, "VTK File Formats", "XML File
-// Formats"). Appended data may hold any bytes: XML is read up to the '_' that begins them.
-// VTK's XML files: PolyData (.vtp) and UnstructuredGrid (.vtu). The pieces of a file become
-// one mesh, piece after piece.
-
-#include <algorithm>
-#include <bit>
-#include <charconv>
-#include <cstdint>
-#include <map>
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
+// VTK's XML files: PolyData (.vtp) and UnstructuredGrid (.vtu). The pieces of a file become one
+// mesh, piece after piece (format: The VTK User's Guide, "VTK File Formats", "XML File Formats").
+// Appended data may hold any bytes: XML is read up to the '_' that begins them.
 
 #include "remesh/meshfile/byte_source.h"
 #include "remesh/meshfile/formats.h"
 #include "remesh/meshfile/numbers.h"
 #include "remesh/meshfile/packed.h"
-#include "remesh/meshfile/source_file.h"
 #include "remesh/meshfile/text_scanner.h"
 #include "remesh/meshfile/vtk_data.h"
 #include "remesh/meshfile/xml_reader.h"
@@ -27,73 +13,52 @@
 namespace remesh {
 namespace {
 
-//! A DataArray: where it stands and how it is encoded.
-struct VtkXmlArray {
-    std::string section;  //!< "Points", "Polys", "PointData", ...
-    std::string name, type, format;
-    std::string num_components;      //!< Empty: 1.
-    std::string appended_at;         //!< Of appended data: where they begin behind the '_'.
-    std::size_t tag = 0;             //!< Of its tag in the file.
-    std::size_t begin = 0, end = 0;  //!< Of the text between its tags.
+// What a tag says.
+struct VtkXmlElement {
+    std::size_t tag = 0;  // In the file.
+    std::map<std::string, std::string, std::less<>> values = {};
+
+    // Empty: it is missing.
+    std::string operator[](std::string_view name) const {
+        const auto found = values.find(name);
+        return found == values.end() ? "" : found->second;
+    }
 };
 
-struct VtkXmlPiece {
-    std::size_t tag = 0;  //!< In the file.
-    std::string num_points, num_verts, num_lines, num_strips, num_polys, num_cells;
-    std::string normals_of_points, texture_of_points, normals_of_cells;  //!< Names of arrays.
+VtkXmlElement element_of(const XmlTag& tag) {
+    VtkXmlElement element{.tag = tag.begin};
+    for (const XmlAttribute& one : tag.attributes) {
+        if (one.space.empty()) element.values.emplace(one.name, one.value);
+    }
+    return element;
+}
+
+// A DataArray: where it stands and how it is encoded.
+struct VtkXmlArray : VtkXmlElement {
+    std::string section;             // "Points", "Polys", "PointData", ...
+    std::size_t begin = 0, end = 0;  // Of the text between its tags.
+
+    [[nodiscard]] std::string name() const { return (*this)["Name"]; }
+    // Points often have no name.
+    [[nodiscard]] std::string shown() const {
+        return "array " + (name().empty() ? "" : in_quotes(name()) + " ") + "of " + section;
+    }
+};
+
+struct VtkXmlPiece : VtkXmlElement {
+    std::map<std::string, VtkXmlElement, std::less<>> sections = {};
     std::vector<VtkXmlArray> arrays = {};
 };
 
 struct VtkXmlFile {
-    bool is_grid = false;  //!< UnstructuredGrid, else PolyData.
+    bool is_grid = false;  // UnstructuredGrid, else PolyData.
     std::endian order = std::endian::little;
-    std::size_t header_size = 4;  //!< Bytes of a count before an array.
-    std::string compressor;       //!< Empty: none.
-    std::vector<VtkXmlPiece> pieces;
-    bool is_appended_raw = false;    //!< Else base64.
-    std::size_t appended_begin = 0;  //!< Behind the '_'; 0: there is none.
+    std::size_t header_size = 4;  // Bytes of a count before an array.
+    std::string compressor = {};  // Empty: none.
+    std::vector<VtkXmlPiece> pieces = {};
+    bool is_appended_raw = false;    // Else base64.
+    std::size_t appended_begin = 0;  // Behind the '_'; 0: there is none.
 };
-
-//! \throw IoError  it is no XML, or no PolyData nor UnstructuredGrid.  \throw Cancelled
-[[nodiscard]] VtkXmlFile parse_vtk_xml(const SourceFile& file);
-
-class VtkXmlArrays {
-public:
-    //! Both outlive this.
-    VtkXmlArrays(const SourceFile& file, const VtkXmlFile& xml)
-        : file_(file), xml_(xml), ticker_(file.ticker) {}
-
-    //! The numbers of an array. Memory follows the bytes that are there.
-    //! \throw IoError  truncated, damaged, of an unknown type or encoding.
-    //! \throw Cancelled
-    [[nodiscard]] VtkArray read(const VtkXmlArray& array);
-
-    //! A count that an attribute gives; nothing if it is empty.
-    //! \throw IoError  it is no whole number.
-    [[nodiscard]] std::optional<std::uint64_t> count(const std::string& text, const char* what,
-                                                     std::size_t offset) const;
-
-    //! Throws IoError that names the array. The remedy is added.
-    [[noreturn]] void fail(const VtkXmlArray& array, const std::string& text) const;
-
-    Ticker& ticker() { return ticker_; }
-
-private:
-    void read_text(const VtkXmlArray& array, VtkArray& result);
-    void read_bytes(const VtkXmlArray& array, ByteSource source, VtkArray& result);
-    [[nodiscard]] ByteSource appended(const VtkXmlArray& array) const;
-    std::string unpack(const VtkXmlArray& array, ByteSource& source, std::uint64_t num_blocks);
-    std::uint64_t take_count(const VtkXmlArray& array, ByteSource& source);
-
-    const SourceFile& file_;
-    const VtkXmlFile& xml_;
-    Ticker ticker_;
-    std::string buffer_;
-};
-
-std::string value_of(const XmlTag& tag, std::string_view name) {
-    return std::string(tag.find(name).value_or(""));
-}
 
 class VtkXmlParser : public XmlVisitor {
 public:
@@ -108,12 +73,15 @@ public:
             if (tag.name == "AppendedData") return read_appended(tag);
         } else if (depth == 2 && is_in_mesh_) {
             is_in_piece_ = tag.name == "Piece";
-            if (is_in_piece_) read_piece(tag);
-        } else if (depth == 3 && is_in_mesh_ && is_in_piece_) {
-            read_section(tag);
-        } else if (depth == 4 && is_in_mesh_ && is_in_piece_) {
-            read_array(tag);
-        } else if (depth == 5 && is_in_mesh_ && is_in_piece_) {
+            if (is_in_piece_) result_.pieces.push_back({element_of(tag)});
+        } else if (!is_in_mesh_ || !is_in_piece_) {
+            return true;
+        } else if (depth == 3) {
+            section_ = tag.name;
+            result_.pieces.back().sections.insert_or_assign(section_, element_of(tag));
+        } else if (depth == 4) {
+            result_.pieces.back().arrays.push_back({element_of(tag), section_, tag.end, tag.end});
+        } else if (depth == 5) {
             end_text(tag.begin);
         }
         return true;
@@ -127,15 +95,11 @@ public:
     }
 
     VtkXmlFile finish() && {
-        if (kind_.empty()) fail(0, "there is no element VTKFile");
+        if (kind_.empty()) file_.fail_damaged(0, "there is no element VTKFile");
         return std::move(result_);
     }
 
 private:
-    [[noreturn]] void fail(std::size_t offset, const std::string& text) const {
-        file_.fail_malformed(offset, text + "; export the file again");
-    }
-
     // The numbers of an array stand before or behind the keys of VTK's pipeline in it.
     void end_text(std::size_t end) {
         VtkXmlArray& array = result_.pieces.back().arrays.back();
@@ -149,81 +113,42 @@ private:
 
     void read_root(const XmlTag& tag) {
         if (tag.name != "VTKFile") {
-            file_.fail_malformed(tag.begin, "the file begins with the element " +
-                                                in_quotes(tag.name) +
-                                                " instead of VTKFile; check its extension");
+            file_.fail_malformed(tag.begin, "the file begins with the element ",
+                                 in_quotes(tag.name), " instead of VTKFile; check its extension");
         }
-        kind_ = value_of(tag, "type");
+        const VtkXmlElement root = element_of(tag);
+        kind_ = root["type"];
         result_.is_grid = kind_ == "UnstructuredGrid";
         if (kind_ != "PolyData" && !result_.is_grid) {
-            file_.fail_malformed(tag.begin,
-                                 "the file holds " + in_quotes(kind_) +
-                                     ", not PolyData or UnstructuredGrid; extract its surface (in "
-                                     "ParaView: Extract Surface) and save that as one file");
+            file_.fail_malformed(tag.begin, "the file holds ", in_quotes(kind_),
+                                 ", not PolyData or UnstructuredGrid; extract its surface (in "
+                                 "ParaView: Extract Surface) and save that as one file");
         }
-        const std::string order = value_of(tag, "byte_order");
-        if (order == "BigEndian") result_.order = std::endian::big;
-        if (!order.empty() && order != "BigEndian" && order != "LittleEndian") {
-            fail(tag.begin, "unknown byte_order " + in_quotes(order));
-        }
-        const std::string header = value_of(tag, "header_type");
-        if (header == "UInt64") result_.header_size = 8;
-        if (!header.empty() && header != "UInt32" && header != "UInt64") {
-            fail(tag.begin, "unknown header_type " + in_quotes(header));
-        }
-        result_.compressor = value_of(tag, "compressor");
+        // Either the usual value, which may be left out, or the other one.
+        const auto is_other = [&](const char* name, const char* usual, const char* other) {
+            const std::string value = root[name];
+            if (value.empty() || value == usual || value == other) return value == other;
+            file_.fail_damaged(tag.begin, "unknown ", name, " ", in_quotes(value));
+        };
+        if (is_other("byte_order", "LittleEndian", "BigEndian")) result_.order = std::endian::big;
+        if (is_other("header_type", "UInt32", "UInt64")) result_.header_size = 8;
+        result_.compressor = root["compressor"];
     }
 
     // \return false, as nothing behind it is XML.
     bool read_appended(const XmlTag& tag) {
-        const std::string encoding = value_of(tag, "encoding");
+        const std::string encoding = element_of(tag)["encoding"];
         result_.is_appended_raw = encoding == "raw";
         if (!result_.is_appended_raw && encoding != "base64") {
-            fail(tag.begin, "unknown encoding " + in_quotes(encoding) + " of AppendedData");
+            file_.fail_damaged(tag.begin, "unknown encoding ", in_quotes(encoding),
+                               " of AppendedData");
         }
         const std::size_t mark = file_.bytes.find_first_not_of(" \t\r\n", tag.end);
         if (mark == std::string::npos || file_.bytes[mark] != '_') {
-            fail(tag.end, "AppendedData do not begin with '_'");
+            file_.fail_damaged(tag.end, "AppendedData do not begin with '_'");
         }
         result_.appended_begin = mark + 1;
         return false;
-    }
-
-    void read_piece(const XmlTag& tag) {
-        result_.pieces.push_back({.tag = tag.begin,
-                                  .num_points = value_of(tag, "NumberOfPoints"),
-                                  .num_verts = value_of(tag, "NumberOfVerts"),
-                                  .num_lines = value_of(tag, "NumberOfLines"),
-                                  .num_strips = value_of(tag, "NumberOfStrips"),
-                                  .num_polys = value_of(tag, "NumberOfPolys"),
-                                  .num_cells = value_of(tag, "NumberOfCells"),
-                                  .normals_of_points = {},
-                                  .texture_of_points = {},
-                                  .normals_of_cells = {}});
-    }
-
-    void read_section(const XmlTag& tag) {
-        section_ = tag.name;
-        VtkXmlPiece& piece = result_.pieces.back();
-        if (section_ == "PointData") {
-            piece.normals_of_points = value_of(tag, "Normals");
-            piece.texture_of_points = value_of(tag, "TCoords");
-        } else if (section_ == "CellData") {
-            piece.normals_of_cells = value_of(tag, "Normals");
-        }
-    }
-
-    void read_array(const XmlTag& tag) {
-        result_.pieces.back().arrays.push_back(
-            {.section = section_,
-             .name = value_of(tag, "Name"),
-             .type = value_of(tag, "type"),
-             .format = value_of(tag, "format"),
-             .num_components = value_of(tag, "NumberOfComponents"),
-             .appended_at = value_of(tag, "offset"),
-             .tag = tag.begin,
-             .begin = tag.end,
-             .end = tag.end});
     }
 
     const SourceFile& file_;
@@ -233,147 +158,156 @@ private:
     bool is_in_mesh_ = false, is_in_piece_ = false;
 };
 
-VtkXmlFile parse_vtk_xml(const SourceFile& file) {
-    VtkXmlParser parser(file);
-    read_xml(file, parser);
-    return std::move(parser).finish();
-}
+// Decodes arrays.
+class VtkXmlArrays {
+public:
+    // Both outlive this.
+    VtkXmlArrays(const SourceFile& file, const VtkXmlFile& xml)
+        : file_(file), xml_(xml), ticker_(file.ticker) {}
 
-constexpr const char* array_is_truncated = "the file ends within it, or it is no base64";
+    // The numbers of an array. Memory follows the bytes that are there.
+    VtkArray read(const VtkXmlArray& array) {
+        VtkArray result{
+            .name = array.name(), .type = find_vtk_xml_type(array["type"]), .offset = array.tag};
+        if (result.type == nullptr) {
+            file_.fail_malformed(array.tag, array.shown(), " has the type ",
+                                 in_quotes(array["type"]),
+                                 ", which is not supported; export the file without it");
+        }
+        result.num_components = static_cast<std::size_t>(
+            count(array, "NumberOfComponents", "NumberOfComponents").value_or(1));
+        const std::string format = array["format"];
+        if (format.empty() || format == "ascii") {
+            TextScanner scan(file_, array.begin, {.comment = '<'});
+            while (scan.find_word() && scan.offset() < array.end) {
+                ticker_.tick(2);
+                result.values.push_back(scan.number("a number"));
+            }
+        } else if (format == "binary") {
+            ByteSource source(
+                std::string_view(file_.bytes).substr(array.begin, array.end - array.begin), true);
+            // Some writers leave out the count of an empty array.
+            if (source.is_at_end()) return result;
+            read_bytes(array, source, result);
+        } else if (format == "appended") {
+            ByteSource source = appended(array);
+            read_bytes(array, source, result);
+        } else {
+            fail(array, "unknown format ", in_quotes(format));
+        }
+        return result;
+    }
 
-// Points often have no name.
-std::string shown(const VtkXmlArray& array) {
-    return "array " + (array.name.empty() ? "" : in_quotes(array.name) + " ") + "of " +
-           array.section;
-}
+    // A count that an attribute gives; nothing if it is empty.
+    std::optional<std::uint64_t> count(const VtkXmlElement& element, const std::string& name,
+                                       const char* what) const {
+        const std::string text = element[name];
+        if (text.empty()) return std::nullopt;
+        std::uint64_t value = 0;
+        const char* const end = text.data() + text.size();
+        const auto [last, error] = std::from_chars(text.data(), end, value);
+        if (error == std::errc{} && last == end) return value;
+        file_.fail_damaged(element.tag, what, " is ", in_quotes(text),
+                           " and no whole number from 0");
+    }
 
-VtkArray VtkXmlArrays::read(const VtkXmlArray& array) {
-    VtkArray result{.name = array.name, .type = find_vtk_xml_type(array.type), .offset = array.tag};
-    if (result.type == nullptr) {
-        file_.fail_malformed(array.tag, shown(array) + " has the type " + in_quotes(array.type) +
-                                            ", which is not supported; export the file without it");
+    template <typename... Parts>
+    [[noreturn]] void fail(const VtkXmlArray& array, Parts... parts) const {
+        file_.fail_damaged(array.tag, array.shown(), ": ", parts...);
     }
-    result.num_components = static_cast<std::size_t>(
-        count(array.num_components, "NumberOfComponents", array.tag).value_or(1));
-    const auto text = std::string_view(file_.bytes).substr(array.begin, array.end - array.begin);
-    if (array.format.empty() || array.format == "ascii") {
-        read_text(array, result);
-    } else if (array.format == "binary") {
-        read_bytes(array, ByteSource(text, true), result);
-    } else if (array.format == "appended") {
-        read_bytes(array, appended(array), result);
-    } else {
-        fail(array, "unknown format " + in_quotes(array.format));
-    }
-    return result;
-}
 
-std::optional<std::uint64_t> VtkXmlArrays::count(const std::string& text, const char* what,
-                                                 std::size_t offset) const {
-    if (text.empty()) return std::nullopt;
-    std::uint64_t value = 0;
-    const char* const end = text.data() + text.size();
-    const auto [last, error] = std::from_chars(text.data(), end, value);
-    if (error == std::errc{} && last == end) return value;
-    file_.fail_malformed(offset, std::string(what) + " is " + in_quotes(text) +
-                                     " and no whole number from 0; export the file again");
-}
+    Ticker& ticker() { return ticker_; }
 
-void VtkXmlArrays::fail(const VtkXmlArray& array, const std::string& text) const {
-    file_.fail_malformed(array.tag, shown(array) + ": " + text + "; export the file again");
-}
+private:
+    ByteSource appended(const VtkXmlArray& array) const {
+        const auto at = count(array, "offset", "the offset of an array");
+        if (!at) fail(array, "its data are appended, but it has no offset");
+        if (xml_.appended_begin == 0) {
+            fail(array, "its data are appended, but there are no such data");
+        }
+        if (*at > file_.bytes.size() - xml_.appended_begin) {
+            fail(array, "its data begin at byte ", *at,
+                 " of the appended ones, behind the end of the file");
+        }
+        const auto begin = xml_.appended_begin + static_cast<std::size_t>(*at);
+        return {std::string_view(file_.bytes).substr(begin), !xml_.is_appended_raw};
+    }
 
-void VtkXmlArrays::read_text(const VtkXmlArray& array, VtkArray& result) {
-    TextScanner scan(file_, array.begin, {.comment = '<'});
-    while (scan.find_word() && scan.offset() < array.end) {
-        ticker_.tick(2);
-        result.values.push_back(scan.number("a number"));
+    std::string_view take(const VtkXmlArray& array, ByteSource& source, std::uint64_t size) {
+        const auto bytes = source.take(size, buffer_, ticker_);
+        if (!bytes) fail(array, "the file ends within it, or it is no base64");
+        return *bytes;
     }
-}
 
-ByteSource VtkXmlArrays::appended(const VtkXmlArray& array) const {
-    const auto at = count(array.appended_at, "the offset of an array", array.tag);
-    if (!at) fail(array, "its data are appended, but it has no offset");
-    if (xml_.appended_begin == 0) fail(array, "its data are appended, but there are no such data");
-    if (*at > file_.bytes.size() - xml_.appended_begin) {
-        fail(array, "its data begin at byte " + std::to_string(*at) +
-                        " of the appended ones, behind the end of the file");
+    std::uint64_t take_count(const VtkXmlArray& array, ByteSource& source) {
+        const char* const bytes = take(array, source, xml_.header_size).data();
+        return xml_.header_size == 8 ? load<std::uint64_t>(bytes, xml_.order)
+                                     : load<std::uint32_t>(bytes, xml_.order);
     }
-    const auto begin = xml_.appended_begin + static_cast<std::size_t>(*at);
-    return {std::string_view(file_.bytes).substr(begin), !xml_.is_appended_raw};
-}
 
-std::uint64_t VtkXmlArrays::take_count(const VtkXmlArray& array, ByteSource& source) {
-    const auto bytes = source.take(xml_.header_size, buffer_, ticker_);
-    if (!bytes) fail(array, array_is_truncated);
-    return xml_.header_size == 8 ? load<std::uint64_t>(bytes->data(), xml_.order)
-                                 : load<std::uint32_t>(bytes->data(), xml_.order);
-}
-
-// The first count is that of bytes, or of compressed blocks.
-void VtkXmlArrays::read_bytes(const VtkXmlArray& array, ByteSource source, VtkArray& result) {
-    // Some writers leave out the count of an empty array.
-    if (array.format == "binary" && source.is_at_end()) return;
-    const std::uint64_t first = take_count(array, source);
-    std::string unpacked;
-    std::string_view bytes;
-    if (xml_.compressor.empty()) {
-        const auto taken = source.take(first, buffer_, ticker_);
-        if (!taken) fail(array, array_is_truncated);
-        bytes = *taken;
-    } else {
-        unpacked = unpack(array, source, first);
-        bytes = unpacked;
-    }
-    if (array.format == "binary" && !source.is_at_end()) {
-        fail(array, "it has more data than it announces");
-    }
-    const std::size_t size = result.type->size;
-    if (bytes.size() % size != 0) {
-        fail(array,
-             "its " + std::to_string(bytes.size()) + " bytes are no whole number of " + array.type);
-    }
-    result.values.reserve(bytes.size() / size);
-    for (std::size_t at = 0; at < bytes.size(); at += size) {
-        ticker_.tick();
-        result.values.push_back(result.type->load(bytes.data() + at, xml_.order));
-    }
-}
-
-// Blocks of one size, but for a last one that may be smaller (0: it is not), and before them the
-// size that each is compressed to.
-std::string VtkXmlArrays::unpack(const VtkXmlArray& array, ByteSource& source,
-                                 std::uint64_t num_blocks) {
-    if (xml_.compressor != "vtkZLibDataCompressor") {
-        file_.fail_malformed(array.tag, "the arrays are compressed by " +
-                                            in_quotes(xml_.compressor) +
-                                            ", which is not supported; save the file with zlib, or "
-                                            "without compression");
-    }
-    if (!knows_gzip()) {
-        file_.fail_malformed(array.tag,
-                             "the arrays are compressed, and this program was built without zlib; "
-                             "save the file without compression");
-    }
-    const std::uint64_t block_size = take_count(array, source);
-    const std::uint64_t last_size = take_count(array, source);
-    std::vector<std::uint64_t> packed_sizes;
-    for (std::uint64_t b = 0; b < num_blocks; ++b) {
-        ticker_.tick();
-        packed_sizes.push_back(take_count(array, source));
-    }
-    std::string bytes;
-    for (std::uint64_t b = 0; b < num_blocks; ++b) {
-        const bool is_partial = b + 1 == num_blocks && last_size != 0;
-        const auto packed = source.take(packed_sizes[b], buffer_, ticker_);
-        if (!packed) fail(array, array_is_truncated);
-        if (!append_unpacked(*packed, DeflatedIn::Zlib, is_partial ? last_size : block_size,
-                             ticker_, bytes)) {
-            fail(array, "block " + std::to_string(b) + " of its compressed data is damaged");
+    // The first count is that of bytes, or of compressed blocks.
+    void read_bytes(const VtkXmlArray& array, ByteSource& source, VtkArray& result) {
+        const std::uint64_t first = take_count(array, source);
+        std::string unpacked;
+        std::string_view bytes;
+        if (xml_.compressor.empty()) {
+            bytes = take(array, source, first);
+        } else {
+            unpacked = unpack(array, source, first);
+            bytes = unpacked;
+        }
+        if (array["format"] == "binary" && !source.is_at_end()) {
+            fail(array, "it has more data than it announces");
+        }
+        const std::size_t size = result.type->size;
+        if (bytes.size() % size != 0) {
+            fail(array, "its ", bytes.size(), " bytes are no whole number of ", array["type"]);
+        }
+        result.values.reserve(bytes.size() / size);
+        for (std::size_t at = 0; at < bytes.size(); at += size) {
+            ticker_.tick();
+            result.values.push_back(result.type->load(bytes.data() + at, xml_.order));
         }
     }
-    return bytes;
-}
+
+    // Blocks of one size, but for a last one that may be smaller (0: it is not), and before them
+    // the size that each is compressed to.
+    std::string unpack(const VtkXmlArray& array, ByteSource& source, std::uint64_t num_blocks) {
+        if (xml_.compressor != "vtkZLibDataCompressor") {
+            file_.fail_malformed(array.tag, "the arrays are compressed by ",
+                                 in_quotes(xml_.compressor),
+                                 ", which is not supported; save the file with zlib, or without "
+                                 "compression");
+        }
+        if (!knows_gzip()) {
+            file_.fail_malformed(array.tag,
+                                 "the arrays are compressed, and this program was built without "
+                                 "zlib; save the file without compression");
+        }
+        const std::uint64_t block_size = take_count(array, source);
+        const std::uint64_t last_size = take_count(array, source);
+        std::vector<std::uint64_t> packed_sizes;
+        for (std::uint64_t b = 0; b < num_blocks; ++b) {
+            ticker_.tick();
+            packed_sizes.push_back(take_count(array, source));
+        }
+        std::string bytes;
+        for (std::uint64_t b = 0; b < num_blocks; ++b) {
+            const bool is_partial = b + 1 == num_blocks && last_size != 0;
+            const std::string_view packed = take(array, source, packed_sizes[b]);
+            if (!append_unpacked(packed, DeflatedIn::Zlib, is_partial ? last_size : block_size,
+                                 ticker_, bytes)) {
+                fail(array, "block ", b, " of its compressed data is damaged");
+            }
+        }
+        return bytes;
+    }
+
+    const SourceFile& file_;
+    const VtkXmlFile& xml_;
+    Ticker ticker_;
+    std::string buffer_;
+};
 
 // Arrays of points or cells, piece after piece. What not all pieces have is declined.
 class PieceArrays {
@@ -413,7 +347,7 @@ private:
 class VtpReader {
 public:
     explicit VtpReader(const SourceFile& file)
-        : file_(file), xml_(parse_vtk_xml(file)), arrays_(file, xml_) {}
+        : file_(file), xml_(parse(file)), arrays_(file, xml_) {}
 
     VtkData read() {
         for (const VtkXmlPiece& piece : xml_.pieces) read_piece(piece);
@@ -426,20 +360,25 @@ public:
 private:
     using Count = std::optional<std::uint64_t>;
 
+    static VtkXmlFile parse(const SourceFile& file) {
+        VtkXmlParser parser(file);
+        read_xml(file, parser);
+        return std::move(parser).finish();
+    }
+
     void read_piece(const VtkXmlPiece& piece) {
         const std::uint64_t num_points = read_points(piece);
         std::uint64_t num_cells = 0;
-        const auto read = [&](const char* section, const std::string& count, VtkCell type) {
-            num_cells += read_cells(piece, section, arrays_.count(count, section, piece.tag), type,
-                                    num_points);
+        const auto read = [&](const std::string& section, VtkCell type) {
+            num_cells += read_cells(piece, section, type, num_points);
         };
         if (xml_.is_grid) {
-            read("Cells", piece.num_cells, VtkCell{0});
+            read("Cells", VtkCell{0});
         } else {
-            read("Verts", piece.num_verts, VtkCell::Vertices);
-            read("Lines", piece.num_lines, VtkCell::Lines);
-            read("Polys", piece.num_polys, VtkCell::Polygon);
-            read("Strips", piece.num_strips, VtkCell::Strip);
+            read("Verts", VtkCell::Vertices);
+            read("Lines", VtkCell::Lines);
+            read("Polys", VtkCell::Polygon);
+            read("Strips", VtkCell::Strip);
         }
         num_points_ += num_points;
         if (!file_.with_attributes || (num_points == 0 && num_cells == 0)) return;
@@ -451,20 +390,19 @@ private:
                                    std::string_view name) {
         const auto found =
             std::find_if(piece.arrays.begin(), piece.arrays.end(), [&](const VtkXmlArray& array) {
-                return array.section == section && (name.empty() || array.name == name);
+                return array.section == section && (name.empty() || array.name() == name);
             });
         return found == piece.arrays.end() ? nullptr : &*found;
     }
 
     // \return how many points the piece has.
     std::uint64_t read_points(const VtkXmlPiece& piece) {
-        const Count announced = arrays_.count(piece.num_points, "NumberOfPoints", piece.tag);
+        const Count announced = arrays_.count(piece, "NumberOfPoints", "NumberOfPoints");
         const VtkXmlArray* const found = find(piece, "Points", "");
         if (found == nullptr) {
             if (announced.value_or(0) == 0) return 0;
-            file_.fail_malformed(piece.tag, "NumberOfPoints is " + std::to_string(*announced) +
-                                                ", but the piece has no array of Points; export "
-                                                "the file again");
+            file_.fail_damaged(piece.tag, "NumberOfPoints is ", *announced,
+                               ", but the piece has no array of Points");
         }
         VtkArray points = arrays_.read(*found);
         if (points.num_components != 3) arrays_.fail(*found, "it has not three coordinates each");
@@ -484,23 +422,21 @@ private:
         const std::size_t size = array.values.size(), width = array.num_components;
         const bool is_whole = width != 0 && size % width == 0;
         if (is_whole && (!announced || size / width == *announced)) return;
-        arrays_.fail(found, "it has " + std::to_string(size) + " numbers for " +
-                                std::to_string(announced.value_or(0)) + " elements with " +
-                                std::to_string(width) + " each");
+        arrays_.fail(found, "it has ", size, " numbers for ", announced.value_or(0),
+                     " elements with ", width, " each");
     }
 
     // \return how many cells the section has.
-    std::uint64_t read_cells(const VtkXmlPiece& piece, const char* section, const Count& announced,
-                             VtkCell type, std::uint64_t num_points) {
+    std::uint64_t read_cells(const VtkXmlPiece& piece, const std::string& section, VtkCell type,
+                             std::uint64_t num_points) {
+        const Count announced = arrays_.count(piece, "NumberOf" + section, section.c_str());
         const VtkXmlArray* const corners = find(piece, section, "connectivity");
         const VtkXmlArray* const ends = find(piece, section, "offsets");
         const VtkXmlArray* const types = xml_.is_grid ? find(piece, section, "types") : nullptr;
         if (corners == nullptr || ends == nullptr || (xml_.is_grid && types == nullptr)) {
             if (announced.value_or(0) == 0) return 0;
-            file_.fail_malformed(piece.tag, "there are " + std::to_string(*announced) + " cells (" +
-                                                section +
-                                                "), but not the arrays that make them; export the "
-                                                "file again");
+            file_.fail_damaged(piece.tag, "there are ", *announced, " cells (", section,
+                               "), but not the arrays that make them");
         }
         VtkCells cells{.corners = arrays_.read(*corners), .ends = {}, .types = {type}};
         const VtkArray offsets = arrays_.read(*ends);
@@ -523,11 +459,9 @@ private:
             arrays_.ticker().tick();
             if (!(corner >= 0 && corner < static_cast<double>(num_points))) {
                 file_.fail_unusable(
-                    found.tag, "array " + in_quotes(found.name) + " of " + found.section +
-                                   " names point " + shown(corner) + ", but the piece has only " +
-                                   std::to_string(num_points) +
-                                   " points, counted from 0; correct the cell, or export the file "
-                                   "again");
+                    found.tag, "array ", in_quotes(found.name()), " of ", found.section,
+                    " names point ", shown(corner), ", but the piece has only ", num_points,
+                    " points, counted from 0; correct the cell, or export the file again");
             }
             corner += static_cast<double>(num_points_);
         }
@@ -540,22 +474,23 @@ private:
     std::vector<VtkArray> read_data(const VtkXmlPiece& piece, std::string_view section,
                                     std::uint64_t count) {
         const bool is_of_points = section == "PointData";
-        const char* const kind = is_of_points ? "vertex " : "face ";
+        const auto names = piece.sections.find(section);
         std::vector<VtkArray> result;
         for (const VtkXmlArray& array : piece.arrays) {
             if (array.section != section) continue;
-            const VtkType* const type = find_vtk_xml_type(array.type);
-            const auto is = [&](const std::string& name) {
-                return !name.empty() && array.name == name;
+            const std::string name = (is_of_points ? "vertex " : "face ") + array.name();
+            const VtkType* const type = find_vtk_xml_type(array["type"]);
+            const auto is = [&](const char* role) {
+                return !array.name().empty() && array.name() == names->second[role];
             };
             if (type == nullptr) {
-                decline(kind + array.name, "arrays of this type are not carried over");
-            } else if (is_of_points && is(piece.normals_of_points)) {
+                decline(name, "arrays of this type are not carried over");
+            } else if (is("Normals") && is_of_points) {
                 data_.normals = type->type;
-            } else if (is_of_points && is(piece.texture_of_points)) {
-                decline(kind + array.name, "texture coordinates are not carried over");
-            } else if (!is_of_points && is(piece.normals_of_cells)) {
-                decline(kind + array.name, "normals of faces are not carried over");
+            } else if (is("Normals")) {
+                decline(name, "normals of faces are not carried over");
+            } else if (is_of_points && is("TCoords")) {
+                decline(name, "texture coordinates are not carried over");
             } else {
                 result.push_back(arrays_.read(array));
                 require_count(array, result.back(), count);

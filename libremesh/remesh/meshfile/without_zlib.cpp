@@ -1,6 +1,5 @@
 // Compressed files, for a build without zlib: they are refused.
 
-#include "agvd/core/error.h"
 #include "remesh/meshfile/packed.h"
 
 namespace remesh {

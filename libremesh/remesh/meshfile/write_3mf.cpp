@@ -3,14 +3,11 @@
 // that read back as the same number.
 
 #include <algorithm>
-#include <map>
 #include <numeric>
-#include <utility>
 
 #include "remesh/meshfile/formats.h"
 #include "remesh/meshfile/materials.h"
 #include "remesh/meshfile/packed.h"
-#include "remesh/meshfile/text.h"
 
 namespace remesh {
 namespace {
@@ -169,11 +166,10 @@ std::string format_3mf(const MeshView& mesh, const MeshAttributes& attributes, T
         items += "<item objectid=\"" + number + "\"/>\n";
     }
     model += "</resources>\n<build>\n" + items + "</build>\n</model>\n";
-    ZipWriter zip;
-    zip.add("[Content_Types].xml", content_types, ticker);
-    zip.add("_rels/.rels", relations, ticker);
-    zip.add("3D/3dmodel.model", model, ticker);
-    return std::move(zip).finish();
+    return pack_zip({{"[Content_Types].xml", content_types},
+                     {"_rels/.rels", relations},
+                     {"3D/3dmodel.model", std::move(model)}},
+                    ticker);
 }
 
 }  // namespace remesh

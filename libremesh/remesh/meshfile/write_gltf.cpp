@@ -2,17 +2,11 @@
 // single precision and colours in bytes; a primitive for each material, and the materials with
 // their images. Vertices are split where their corners' coordinates differ.
 
-#include <algorithm>
-#include <array>
-#include <limits>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <numeric>
-#include <span>
 #include <tuple>
 
-#include "agvd/core/error.h"
-#include "agvd/mesh/mesh.h"
+#include "remesh/meshfile/byte_source.h"
 #include "remesh/meshfile/formats.h"
 #include "remesh/meshfile/materials.h"
 #include "remesh/meshfile/numbers.h"
@@ -89,13 +83,6 @@ GltfVertices split_vertices(const MeshView& mesh, const TextureCoordinates& text
     return result;
 }
 
-std::vector<Vec3> taken(std::span<const Vec3> vectors, const GltfVertices& vertices) {
-    std::vector<Vec3> result;
-    result.reserve(vertices.source.size());
-    for (const Index v : vertices.source) result.push_back(vectors[v]);
-    return result;
-}
-
 std::size_t add_texture(const std::vector<Vec2>& texture, Ticker& ticker, GltfBuffer& buffer) {
     const std::size_t begin = buffer.bytes.size();
     for (const Vec2& p : texture) {
@@ -106,14 +93,16 @@ std::size_t add_texture(const std::vector<Vec2>& texture, Ticker& ticker, GltfBu
                       {{"componentType", type_float}, {"count", texture.size()}, {"type", "VEC2"}});
 }
 
-std::size_t add_vectors(const std::vector<Vec3>& vectors, Ticker& ticker, GltfBuffer& buffer) {
+// \param vectors  of the mesh's vertices.
+std::size_t add_vectors(std::span<const Vec3> vectors, const GltfVertices& vertices, Ticker& ticker,
+                        GltfBuffer& buffer) {
     const std::size_t begin = buffer.bytes.size();
     constexpr float largest = std::numeric_limits<float>::max();
     std::array<float, 3> low{largest, largest, largest}, high{-largest, -largest, -largest};
-    for (const Vec3& v : vectors) {
+    for (const Index v : vertices.source) {
         ticker.tick();
         for (std::size_t k = 0; k < 3; ++k) {
-            const auto x = static_cast<float>(v.data()[k]);
+            const auto x = static_cast<float>(vectors[v].data()[k]);
             low[k] = std::min(low[k], x);
             high[k] = std::max(high[k], x);
             append(buffer.bytes, x);
@@ -121,7 +110,7 @@ std::size_t add_vectors(const std::vector<Vec3>& vectors, Ticker& ticker, GltfBu
     }
     return buffer.add(begin, of_vertices,
                       {{"componentType", type_float},
-                       {"count", vectors.size()},
+                       {"count", vertices.source.size()},
                        {"type", "VEC3"},
                        {"min", low},
                        {"max", high}});
@@ -255,12 +244,9 @@ void append_chunk(const char* type, std::string content, char padding, std::stri
     bytes += content;
 }
 
-struct GltfFile {
-    GltfJson root;
-    std::string buffer;
-};
-
-GltfFile make_file(const MeshView& mesh, const MeshAttributes& attributes, Ticker& ticker) {
+// The JSON, and the bytes of the buffer.
+std::pair<GltfJson, std::string> make_file(const MeshView& mesh, const MeshAttributes& attributes,
+                                           Ticker& ticker) {
     const GltfVertices vertices = split_vertices(mesh, attributes.texture, ticker);
     std::size_t size = vertices.source.size() * 36 + mesh.triangles.size() * 12;
     for (const std::string& image : attributes.materials.images) size += image.size();
@@ -272,11 +258,10 @@ GltfFile make_file(const MeshView& mesh, const MeshAttributes& attributes, Ticke
     }
     GltfBuffer buffer;
     GltfJson primitive;
-    primitive["attributes"]["POSITION"] =
-        add_vectors(taken(mesh.positions, vertices), ticker, buffer);
+    primitive["attributes"]["POSITION"] = add_vectors(mesh.positions, vertices, ticker, buffer);
     if (attributes.normals) {
         primitive["attributes"]["NORMAL"] =
-            add_vectors(taken(vertex_normals(mesh), vertices), ticker, buffer);
+            add_vectors(vertex_normals(mesh), vertices, ticker, buffer);
     }
     if (!vertices.texture.empty()) {
         primitive["attributes"]["TEXCOORD_0"] = add_texture(vertices.texture, ticker, buffer);
@@ -297,25 +282,6 @@ GltfFile make_file(const MeshView& mesh, const MeshAttributes& attributes, Ticke
     return {root, std::move(buffer.bytes)};
 }
 
-std::string in_base64(std::string_view bytes, Ticker& ticker) {
-    constexpr const char* digits =
-        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    text.reserve((bytes.size() + 2) / 3 * 4);
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        ticker.tick();
-        std::uint32_t bits = 0;
-        for (std::size_t k = 0; k < 3; ++k) {
-            bits =
-                bits << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0);
-        }
-        for (std::size_t k = 0; k < 4; ++k) {
-            text += i + k <= bytes.size() ? digits[bits >> (18 - 6 * k) & 63] : '=';
-        }
-    }
-    return text;
-}
-
 }  // namespace
 
 bool gltf_holds(const Attribute& attribute, ElementKind kind, const MeshAttributes& all) {
@@ -324,10 +290,10 @@ bool gltf_holds(const Attribute& attribute, ElementKind kind, const MeshAttribut
 }
 
 std::string format_glb(const MeshView& mesh, const MeshAttributes& attributes, Ticker ticker) {
-    GltfFile file = make_file(mesh, attributes, ticker);
+    auto [root, buffer] = make_file(mesh, attributes, ticker);
     std::string chunks;
-    append_chunk("JSON", text_of(file.root), ' ', chunks);
-    append_chunk("BIN\0", std::move(file.buffer), '\0', chunks);
+    append_chunk("JSON", text_of(root), ' ', chunks);
+    append_chunk("BIN\0", std::move(buffer), '\0', chunks);
     std::string bytes = "glTF";
     append(bytes, std::uint32_t{2});
     append(bytes, static_cast<std::uint32_t>(12 + chunks.size()));
@@ -335,10 +301,9 @@ std::string format_glb(const MeshView& mesh, const MeshAttributes& attributes, T
 }
 
 std::string format_gltf(const MeshView& mesh, const MeshAttributes& attributes, Ticker ticker) {
-    GltfFile file = make_file(mesh, attributes, ticker);
-    file.root["buffers"][0]["uri"] =
-        "data:application/octet-stream;base64," + in_base64(file.buffer, ticker);
-    return text_of(file.root) + '\n';
+    auto [root, buffer] = make_file(mesh, attributes, ticker);
+    root["buffers"][0]["uri"] = "data:application/octet-stream;base64," + in_base64(buffer, ticker);
+    return text_of(root) + '\n';
 }
 
 }  // namespace remesh

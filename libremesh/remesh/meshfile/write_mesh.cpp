@@ -4,9 +4,7 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <limits>
 
-#include "agvd/core/error.h"
 #include "remesh/meshfile/atomic_file.h"
 #include "remesh/meshfile/formats.h"
 #include "remesh/meshfile/packed.h"
@@ -17,8 +15,8 @@ namespace {
 
 void check(const std::filesystem::path& path, const MeshFormat& format, const MeshView& mesh) {
     const auto fail = [&](const char* kind, std::size_t index, const std::string& text) {
-        throw InvalidInput(path.string() + ": cannot be written: " + kind + " " +
-                           std::to_string(index) + " " + text);
+        throw InvalidInput(
+            joined(path.string(), ": cannot be written: ", kind, " ", index, " ", text));
     };
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
         if (!mesh.positions[v].allFinite()) {
@@ -48,15 +46,14 @@ void check(const std::filesystem::path& path, const std::vector<Attribute>& attr
         const std::string begin =
             path.string() + ": cannot be written: attribute " + attribute.name;
         if (attribute.values.size() != count) {
-            throw InvalidInput(begin + " has " + std::to_string(attribute.values.size()) +
-                               " values instead of " + std::to_string(count) +
-                               "; give one for each element");
+            throw InvalidInput(joined(begin, " has ", attribute.values.size(),
+                                      " values instead of ", count, "; give one for each element"));
         }
         const auto num_names = static_cast<double>(attribute.names.size());
         const auto has_name = [&](double value) { return value >= 0 && value < num_names; };
         if (num_names > 0 &&
             !std::all_of(attribute.values.begin(), attribute.values.end(), has_name)) {
-            throw InvalidInput(begin + " has a value without a name; add the name");
+            throw InvalidInput(joined(begin, " has a value without a name; add the name"));
         }
     }
 }
@@ -64,11 +61,9 @@ void check(const std::filesystem::path& path, const std::vector<Attribute>& attr
 void check(const std::filesystem::path& path, const TextureCoordinates& texture,
            std::size_t num_faces) {
     if (texture.empty() || texture.corners.size() == num_faces) return;
-    throw InvalidInput(path.string() +
-                       ": cannot be written: there are texture coordinates "
-                       "for " +
-                       std::to_string(texture.corners.size()) + " faces instead of " +
-                       std::to_string(num_faces) + "; give three for each");
+    throw InvalidInput(
+        joined(path.string(), ": cannot be written: there are texture coordinates for ",
+               texture.corners.size(), " faces instead of ", num_faces, "; give three for each"));
 }
 
 // Names and types.
@@ -82,8 +77,8 @@ std::vector<Attribute> without_values(const std::vector<Attribute>& attributes) 
 constexpr double share_of_edge = 0.05;
 constexpr double share_of_diagonal = 1e-6;
 
-// Number by number: g++ 12 drops both conversions from p.cast<float>().cast<double>() at -O3.
-Vec3 rounded(const Vec3& p) {
+// Number by number and not in line: otherwise g++ 12 drops both conversions at -O3.
+[[gnu::noinline]] Vec3 rounded(const Vec3& p) {
     Vec3 q;
     for (int k = 0; k < 3; ++k) q[k] = static_cast<float>(p[k]);
     return q;
@@ -133,11 +128,6 @@ std::string format_mesh(const std::filesystem::path& path, const MeshView& mesh,
     return format_mesh(MeshPath{path}, mesh, {}, progress);
 }
 
-std::string format_mesh(const std::filesystem::path& path, const MeshView& mesh,
-                        const MeshAttributes& attributes, const Progress& progress) {
-    return format_mesh(MeshPath{path}, mesh, attributes, progress);
-}
-
 std::string format_mesh(const MeshPath& path, const MeshView& mesh,
                         const MeshAttributes& attributes, const Progress& progress) {
     Poller poller(progress);
@@ -148,11 +138,6 @@ std::string format_mesh(const MeshPath& path, const MeshView& mesh,
     check(path.path, attributes.texture, mesh.triangles.size());
     std::string bytes = format.format(mesh, attributes, Ticker(poller));
     return is_compressed(path) ? pack_gzip(bytes, Ticker(poller)) : bytes;
-}
-
-std::vector<std::string> remove_unwritable(const std::filesystem::path& path,
-                                           MeshAttributes& attributes) {
-    return remove_unwritable(MeshPath{path}, attributes);
 }
 
 std::vector<std::string> remove_unwritable(const MeshPath& path, MeshAttributes& attributes) {
@@ -204,10 +189,6 @@ std::string describe_unit(const MeshPath& path, const std::string& unit) {
 
 void write_mesh(const std::filesystem::path& path, const MeshView& mesh, const Progress& progress) {
     write_file_atomically(path, format_mesh(path, mesh, progress), progress);
-}
-
-bool is_known_mesh_extension(const std::filesystem::path& path) {
-    return is_known_mesh_format({path});
 }
 
 bool is_known_mesh_format(const MeshPath& path) { return find_format(path) != nullptr; }

@@ -2,10 +2,6 @@
 //! Writes PLY, OBJ, OFF, STL, VTK, Medit, 3MF and glTF.
 #pragma once
 
-#include <filesystem>
-
-#include "agvd/core/progress.h"
-#include "agvd/mesh/mesh.h"
 #include "remesh/meshfile/read_mesh.h"
 
 namespace remesh {
@@ -30,29 +26,31 @@ void write_mesh(const std::filesystem::path& path, const MeshView& mesh,
 [[nodiscard]] std::string format_mesh(const std::filesystem::path& path, const MeshView& mesh,
                                       const Progress& progress = {});
 
-//! The same with attributes. PLY holds all, under their names and types. Normals are those of the
-//! mesh. What the format cannot hold is left out: see remove_unwritable; of texture coordinates
-//! those of faces with a corner that has none, but that GLB has zeros there.
+//! The same with attributes, in the format that `path` names. PLY holds all, under their names and
+//! types. Normals are those of the mesh. What the format cannot hold is left out: see
+//! remove_unwritable; of texture coordinates those of faces with a corner that has none, but that
+//! GLB has zeros there.
 //! \throw InvalidInput  also: an attribute does not have one value for each vertex or face,
 //!        or one of its values has no name while others have.
-[[nodiscard]] std::string format_mesh(const std::filesystem::path& path, const MeshView& mesh,
-                                      const MeshAttributes& attributes,
-                                      const Progress& progress = {});
-
-//! The same in the format that `path.format` names.
 [[nodiscard]] std::string format_mesh(const MeshPath& path, const MeshView& mesh,
                                       const MeshAttributes& attributes,
                                       const Progress& progress = {});
 
-//! Removes the attributes that the format of the path's extension cannot hold. VTK and OFF hold
-//! texture coordinates without seams.
-//! \return what they were: "vertex quality", "face label", "corner texcoord", "material colours", ...
-//! \throw IoError  the extension is unknown.
-std::vector<std::string> remove_unwritable(const std::filesystem::path& path,
-                                           MeshAttributes& attributes);
+[[nodiscard]] inline std::string format_mesh(const std::filesystem::path& path,
+                                             const MeshView& mesh, const MeshAttributes& attributes,
+                                             const Progress& progress = {}) {
+    return format_mesh(MeshPath{path}, mesh, attributes, progress);
+}
 
-//! The same for the format that `path.format` names.
+//! Removes the attributes that the format cannot hold. VTK and OFF hold texture coordinates without
+//! seams.
+//! \return what they were: "vertex quality", "face label", "corner texcoord", "material colours", ...
+//! \throw IoError  the format is unknown.
 std::vector<std::string> remove_unwritable(const MeshPath& path, MeshAttributes& attributes);
+inline std::vector<std::string> remove_unwritable(const std::filesystem::path& path,
+                                                  MeshAttributes& attributes) {
+    return remove_unwritable(MeshPath{path}, attributes);
+}
 
 //! What happens to the unit of length: empty where the format stores it, or counts in it, or has
 //! none and the unit is the metre or the millimetre. Numbers are never converted.
@@ -80,11 +78,12 @@ struct RoundingLoss {
 //! The loss and its remedy in words; empty unless it matters.
 [[nodiscard]] std::string describe(const RoundingLoss& loss, const MeshPath& path);
 
-//! The extensions read_mesh and write_mesh know: true for "out.ply", "out.OBJ", ...
-[[nodiscard]] bool is_known_mesh_extension(const std::filesystem::path& path);
-
 //! Whether read_mesh and write_mesh know the format, or the extension if no format is given.
 [[nodiscard]] bool is_known_mesh_format(const MeshPath& path);
+//! The same: true for "out.ply", "out.OBJ", ...
+[[nodiscard]] inline bool is_known_mesh_extension(const std::filesystem::path& path) {
+    return is_known_mesh_format({path});
+}
 
 //! The name of the format: "ply", "obj", ...
 //! \throw IoError  it is unknown; the text lists the known ones.

@@ -43,9 +43,7 @@ public:
             if (status == XML_STATUS_ERROR && !is_done_) fail();
             offset += size;
             if (!is_done_ && offset > place() + longest_token) {
-                file_.fail_malformed(place(), "a tag is longer than " +
-                                                  std::to_string(longest_token) +
-                                                  " bytes; export the file again");
+                file_.fail_damaged(place(), "a tag is longer than ", longest_token, " bytes");
             }
         }
     }
@@ -59,14 +57,13 @@ private:
             case XML_ERROR_UNCLOSED_TOKEN:
             case XML_ERROR_PARTIAL_CHAR:
             case XML_ERROR_UNCLOSED_CDATA_SECTION:
-                file_.fail_malformed(file_.bytes.size(),
-                                     "the XML ends too early; the file is truncated: export it "
-                                     "again");
+                file_.fail_malformed(
+                    file_.bytes.size(),
+                    "the XML ends too early; the file is truncated: export it again");
             default:
-                file_.fail_malformed(place(),
-                                     std::string("this is no well-formed XML (") +
-                                         ::XML_ErrorString(::XML_GetErrorCode(parser_.get())) +
-                                         "); check the file's extension, or export it again");
+                file_.fail_malformed(place(), "this is no well-formed XML (",
+                                     ::XML_ErrorString(::XML_GetErrorCode(parser_.get())),
+                                     "); check the file's extension, or export it again");
         }
     }
 
@@ -111,8 +108,8 @@ private:
         reader(data).guard([&] {
             reader(data).file_.fail_malformed(
                 reader(data).place(),
-                "the XML has a document type, which files of this format have not; export the "
-                "file again, or delete the line with DOCTYPE");
+                "the XML has a document type, which files of this format have not; export the file "
+                "again, or delete the line with DOCTYPE");
         });
     }
 

@@ -2,9 +2,6 @@
 // (format: PKWARE, "APPNOTE.TXT - .ZIP File Format Specification", version 6.3). Sizes are those of
 // the directory; none of them is believed.
 
-#include <algorithm>
-
-#include "agvd/core/error.h"
 #include "remesh/meshfile/numbers.h"
 #include "remesh/meshfile/packed.h"
 
@@ -29,16 +26,14 @@ ZipArchive::ZipArchive(SourceFile& file) : file_(file) {
     file.is_binary = true;
     const std::string_view bytes = file.bytes;
     if (!bytes.starts_with("PK")) {
-        file_.fail_malformed(0,
-                             "this is no ZIP file, as it does not begin with 'PK'; check its "
-                             "extension");
+        file_.fail_malformed(
+            0, "this is no ZIP file, as it does not begin with 'PK'; check its extension");
     }
     const std::size_t first = bytes.size() - std::min(bytes.size(), end_size + longest_comment);
     const std::size_t found = bytes.substr(first).rfind(end_mark);
     if (found == std::string_view::npos || first + found + end_size > bytes.size()) {
-        file_.fail_malformed(bytes.size(),
-                             "there is no directory at the end; the file is truncated: save it "
-                             "again");
+        file_.fail_malformed(
+            bytes.size(), "there is no directory at the end; the file is truncated: save it again");
     }
     const std::size_t end = first + found;
     std::uint64_t size = number(end + 12, 4), begin = number(end + 16, 4);
@@ -53,15 +48,11 @@ ZipArchive::ZipArchive(SourceFile& file) : file_(file) {
     read_directory(begin, size);
 }
 
-bool ZipArchive::has(const std::string& name) const {
-    return entries_.contains(in_lower_case(name));
-}
-
 SourceFile ZipArchive::read(const std::string& name) const {
     const auto found = entries_.find(in_lower_case(name));
     if (found == entries_.end()) {
-        file_.fail_malformed(file_.bytes.size(),
-                             "the package has no part " + in_quotes(name) + zip_again);
+        file_.fail_malformed(file_.bytes.size(), "the package has no part ", in_quotes(name),
+                             zip_again);
     }
     const Entry& entry = found->second;
     const std::string of_part = "part " + in_quotes(name);
@@ -71,12 +62,11 @@ SourceFile ZipArchive::read(const std::string& name) const {
                     .with_attributes = file_.with_attributes,
                     .ticker = file_.ticker};
     if ((entry.flags & encrypted) != 0) {
-        file_.fail_malformed(entry.header, of_part + " is encrypted; save the file without");
+        file_.fail_malformed(entry.header, of_part, " is encrypted; save the file without");
     }
     if (entry.method != stored && entry.method != deflated) {
-        file_.fail_malformed(entry.header, of_part + " is compressed by method " +
-                                               std::to_string(entry.method) +
-                                               ", which is not supported; pack the file anew");
+        file_.fail_malformed(entry.header, of_part, " is compressed by method ", entry.method,
+                             ", which is not supported; pack the file anew");
     }
     const std::string_view bytes = packed(entry);
     bool is_whole = true;
@@ -87,7 +77,7 @@ SourceFile ZipArchive::read(const std::string& name) const {
         part.bytes = bytes;
     }
     if (!is_whole || part.bytes.size() != entry.size || crc32_of(part.bytes) != entry.checksum) {
-        file_.fail_malformed(entry.header, of_part + " is damaged" + zip_again);
+        file_.fail_malformed(entry.header, of_part, " is damaged", zip_again);
     }
     return part;
 }
@@ -114,7 +104,7 @@ void ZipArchive::read_directory(std::uint64_t begin, std::uint64_t size) {
         take_large_numbers(extra, extra + extra_size, entry);
         const std::string_view name = std::string_view(file_.bytes).substr(name_begin, name_size);
         if (!entries_.emplace(in_lower_case(name), entry).second) {
-            file_.fail_malformed(at, "there are two parts " + in_quotes(name) + zip_again);
+            file_.fail_malformed(at, "there are two parts ", in_quotes(name), zip_again);
         }
         at = extra + extra_size + comment_size;
     }
@@ -122,13 +112,13 @@ void ZipArchive::read_directory(std::uint64_t begin, std::uint64_t size) {
 
 void ZipArchive::require(std::uint64_t begin, std::uint64_t size, const char* what) const {
     if (begin <= file_.bytes.size() && size <= file_.bytes.size() - begin) return;
-    file_.fail_malformed(file_.bytes.size(), std::string("the file ends within ") + what +
-                                                 "; it is truncated or damaged: save it again");
+    file_.fail_malformed(file_.bytes.size(), "the file ends within ", what,
+                         "; it is truncated or damaged: save it again");
 }
 
 void ZipArchive::require_mark(std::uint64_t begin, std::string_view mark, const char* what) const {
     if (std::string_view(file_.bytes).substr(begin).starts_with(mark)) return;
-    file_.fail_malformed(begin, std::string("here is not ") + what + zip_again);
+    file_.fail_malformed(begin, "here is not ", what, zip_again);
 }
 
 std::uint64_t ZipArchive::number(std::uint64_t at, std::size_t num_bytes) const {
@@ -164,48 +154,39 @@ std::string_view ZipArchive::packed(const Entry& entry) const {
     return std::string_view(file_.bytes).substr(begin, entry.packed_size);
 }
 
-void ZipWriter::add(const std::string& name, const std::string& content, Ticker& ticker) {
-    require_size(content.size());
-    const std::string packed = pack_for_zip(content, ticker);
-    require_size(bytes_.size() + packed.size());
-    std::string fields;  // The same in both places.
-    append(fields, zip_version);
-    append(fields, std::uint16_t{0});  // Flags.
-    append(fields, zip_deflated);
-    append(fields, std::uint16_t{0});  // Midnight.
-    append(fields, first_of_1980);
-    append(fields, crc32_of(content));
-    append(fields, static_cast<std::uint32_t>(packed.size()));
-    append(fields, static_cast<std::uint32_t>(content.size()));
-    append(fields, static_cast<std::uint16_t>(name.size()));
-    append(fields, std::uint16_t{0});  // No further fields.
-
-    directory_ += "PK\1\2";
-    append(directory_, zip_version);
-    directory_ += fields;
-    directory_.append(10, '\0');  // No comment, the first disk, no attributes.
-    append(directory_, static_cast<std::uint32_t>(bytes_.size()));
-    directory_ += name;
-    bytes_ += "PK\3\4" + fields + name;
-    bytes_ += packed;
-    ++num_parts_;
-}
-
-std::string ZipWriter::finish() && {
-    require_size(bytes_.size() + directory_.size());
-    const std::size_t begin = bytes_.size();
-    bytes_ += directory_ + "PK\5\6" + std::string(4, '\0');
-    append(bytes_, static_cast<std::uint16_t>(num_parts_));
-    append(bytes_, static_cast<std::uint16_t>(num_parts_));
-    append(bytes_, static_cast<std::uint32_t>(directory_.size()));
-    append(bytes_, static_cast<std::uint32_t>(begin));
-    append(bytes_, std::uint16_t{0});  // No comment.
-    return std::move(bytes_);
-}
-
-void ZipWriter::require_size(std::size_t size) const {
-    if (size < UINT32_MAX) return;
-    throw InvalidInput("the mesh is too large for a ZIP file of 4 GB; write .ply");
+std::string pack_zip(const std::vector<std::pair<std::string, std::string>>& parts,
+                     Ticker& ticker) {
+    std::string bytes, directory;
+    const auto require_size = [](std::size_t size) {
+        if (size < UINT32_MAX) return;
+        throw InvalidInput("the mesh is too large for a ZIP file of 4 GB; write .ply");
+    };
+    constexpr std::uint16_t none = 0;
+    for (const auto& [name, content] : parts) {
+        require_size(content.size());
+        const std::string packed = pack_for_zip(content, ticker);
+        require_size(bytes.size() + packed.size());
+        // The same in both places; no flags, at midnight, no further fields.
+        std::string fields;
+        append_all(fields, zip_version, none, zip_deflated, none, first_of_1980, crc32_of(content),
+                   static_cast<std::uint32_t>(packed.size()),
+                   static_cast<std::uint32_t>(content.size()),
+                   static_cast<std::uint16_t>(name.size()), none);
+        directory += entry_mark;
+        append_all(directory, zip_version);
+        directory += fields;
+        directory.append(10, '\0');  // No comment, the first disk, no attributes.
+        append_all(directory, static_cast<std::uint32_t>(bytes.size()));
+        directory += name;
+        bytes.append(local_mark).append(fields).append(name).append(packed);
+    }
+    require_size(bytes.size() + directory.size());
+    const auto begin = static_cast<std::uint32_t>(bytes.size());
+    const auto num_parts = static_cast<std::uint16_t>(parts.size());
+    bytes.append(directory).append(end_mark);
+    append_all(bytes, none, none, num_parts, num_parts,
+               static_cast<std::uint32_t>(directory.size()), begin, none);
+    return bytes;
 }
 
 }  // namespace remesh

@@ -25,10 +25,8 @@ protected:
 using Parts = std::vector<std::pair<std::string, std::string>>;
 
 std::string package(const Parts& parts) {
-    remesh::ZipWriter zip;
     agvd::Ticker ticker;
-    for (const auto& [name, content] : parts) zip.add(name, content, ticker);
-    return std::move(zip).finish();
+    return remesh::pack_zip(parts, ticker);
 }
 
 const std::string relations =

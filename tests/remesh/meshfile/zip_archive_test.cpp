@@ -92,10 +92,7 @@ void expect_zip_refused(const std::string& bytes, const char* what) {
 
 std::string written(const std::string& content) {
     agvd::Ticker ticker;
-    remesh::ZipWriter zip;
-    zip.add("b.txt", "other", ticker);
-    zip.add("a.txt", content, ticker);
-    return std::move(zip).finish();
+    return remesh::pack_zip({{"b.txt", "other"}, {"a.txt", content}}, ticker);
 }
 
 }  // namespace
