@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "agvd/diagram/build_diagram.h"
+#include "agvd/diagram/diagram.h"
 #include "agvd/propagation/propagate.h"
 #include "remesh/sites/prepared_surface.h"
 

@@ -49,7 +49,7 @@ std::string after_dual(const RemeshResult& result) {
                        std::to_string(result.sites_dropped) +
                        " dropped; components thinned: " + std::to_string(result.components_thinned);
     for (const auto& [reason, count] : result.added_because) {
-        text += "; " + std::to_string(count) + " sites added " + remesh::place_text(reason);
+        text += "; " + std::to_string(count) + " sites added " + remesh::where_text(reason);
     }
     return text;
 }

@@ -4,7 +4,7 @@
 
 #include "agvd/core/error.h"
 #include "agvd/core/version.h"
-#include "agvd/diagram/build_diagram.h"
+#include "agvd/diagram/diagram.h"
 #include "agvd/intrinsic/intrinsic_triangulation.h"
 #include "agvd/mesh/closest_point.h"
 #include "agvd/mesh/mesh.h"

@@ -1,6 +1,6 @@
 // propagate() and build_diagram() with sites anywhere on a small cleaned mesh, or on its intrinsic
 // triangulation.
-#include "agvd/diagram/build_diagram.h"
+#include "agvd/diagram/diagram.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "agvd/diagram/build_diagram.h"
+#include "agvd/diagram/diagram.h"
 #include "agvd/propagation/propagate.h"
 #include "remesh/meshfile/diagram_file.h"
 #include "remesh/meshfile/numbers.h"

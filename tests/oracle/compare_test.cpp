@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "agvd/diagram/build_diagram.h"
+#include "agvd/diagram/diagram.h"
 #include "agvd/mesh/surface_points.h"
 #include "agvd/propagation/propagate.h"
 #include "paper/compare_diagrams.h"

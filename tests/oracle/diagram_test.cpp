@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "agvd/diagram/build_diagram.h"
+#include "agvd/diagram/diagram.h"
 #include "agvd/mesh/surface_points.h"
 #include "agvd/propagation/propagate.h"
 #include "paper/compare.h"

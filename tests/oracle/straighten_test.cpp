@@ -1,7 +1,7 @@
 // Straightened paths and the edges of the dual against exact distances.
 #include <gtest/gtest.h>
 
-#include "agvd/diagram/build_diagram.h"
+#include "agvd/diagram/diagram.h"
 #include "agvd/mesh/surface_points.h"
 #include "agvd/paths/geodesic_path.h"
 #include "agvd/propagation/propagate.h"

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "agvd/diagram/build_diagram.h"
+#include "agvd/diagram/diagram.h"
 #include "agvd/mesh/surface_points.h"
 #include "agvd/propagation/propagate.h"
 #include "support/points.h"

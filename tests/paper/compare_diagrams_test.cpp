@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "agvd/core/error.h"
-#include "agvd/diagram/build_diagram.h"
+#include "agvd/diagram/diagram.h"
 #include "agvd/mesh/closest_point.h"
 #include "agvd/propagation/propagate.h"
 #include "support/points.h"

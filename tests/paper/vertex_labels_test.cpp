@@ -4,7 +4,7 @@
 
 #include <numbers>
 
-#include "agvd/diagram/build_diagram.h"
+#include "agvd/diagram/diagram.h"
 #include "agvd/mesh/closest_point.h"
 #include "agvd/propagation/propagate.h"
 #include "paper/compare_diagrams.h"

@@ -7,7 +7,7 @@
 #include <new>
 #include <optional>
 
-#include "agvd/diagram/build_diagram.h"
+#include "agvd/diagram/diagram.h"
 #include "agvd/intrinsic/intrinsic_triangulation.h"
 #include "agvd/propagation/propagate.h"
 #include "remesh/meshfile/read_mesh.h"

@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "agvd/diagram/build_diagram.h"
+#include "agvd/diagram/diagram.h"
 #include "agvd/intrinsic/intrinsic_triangulation.h"
 #include "agvd/propagation/propagate.h"
 #include "arguments.h"

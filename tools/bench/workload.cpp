@@ -78,13 +78,6 @@ Surface load(const std::filesystem::path& path, Index min_faces) {
     return subdivided(build_surface(mesh.view()), min_faces);
 }
 
-SurfacePoint point_at(const Surface& surface, Index vertex) {
-    const Index h = surface.outgoing[vertex];
-    SurfacePoint point{FaceId(Surface::face(h)), {0, 0, 0}};
-    point.barycentric[h % 3] = 1;
-    return point;
-}
-
 std::vector<SurfacePoint> random_sites(const Surface& surface, Index count, Place place,
                                        std::uint64_t seed) {
     if (place == Place::Vertices) return random_vertices(surface, count, seed);

@@ -21,10 +21,6 @@ namespace bench {
 //! \throw agvd::IoError, agvd::InvalidInput, agvd::InvalidOption  FACES is too small or no number.
 [[nodiscard]] agvd::Surface load(const std::filesystem::path& path, agvd::Index min_faces);
 
-//! The vertex as a point of one of its faces.
-//! \pre it is not isolated.
-[[nodiscard]] agvd::SurfacePoint point_at(const agvd::Surface& surface, agvd::Index vertex);
-
 enum class Place { Vertices, Faces };
 
 //! Distinct random vertices, or points uniform by area in face interiors.

@@ -1,6 +1,6 @@
 // Error of the diagram against the exact one.
 
-#include "agvd/diagram/build_diagram.h"
+#include "agvd/diagram/diagram.h"
 #include "agvd/propagation/propagate.h"
 #include "bench/method.h"
 #include "bench/report.h"

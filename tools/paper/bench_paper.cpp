@@ -161,7 +161,7 @@ void fig13(Workshop& shop) {
                     std::max_element(corner.barycentric.begin(), corner.barycentric.end()) -
                     corner.barycentric.begin();
                 const Triangle& triangle = coarse.mesh.triangles[corner.face.value()];
-                sites.push_back(bench::point_at(surface, triangle[static_cast<std::size_t>(k)]));
+                sites.push_back(point_at(surface, triangle[static_cast<std::size_t>(k)]));
             }
             const bench::FaceShapes shapes = bench::face_shapes(surface);
             shop.measure("spot", surface, sites, methods({8}), {.repetitions = 2},

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "agvd/diagram/build_diagram.h"
+#include "agvd/diagram/diagram.h"
 #include "agvd/propagation/propagate.h"
 #include "bench/allocations.h"
 #include "bench/p0.h"

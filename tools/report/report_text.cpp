@@ -211,7 +211,7 @@ std::string describe_repair(const RemeshResult& result) {
                 counted(static_cast<std::size_t>(result.repair_rounds), "round");
     }
     for (const auto& [reason, count] : result.added_because) {
-        text += "\n  " + counted(count, "site") + " added " + place_text(reason);
+        text += "\n  " + counted(count, "site") + " added " + where_text(reason);
     }
     if (result.components_thinned > 0) {
         text += "\n" + counted(result.components_thinned, "component") +

@@ -81,8 +81,8 @@ class Ticker {
 public:
     //! Never polls.
     Ticker() = default;
-    //! Steps take 20 to 100 ns, so polls come every .3 to 2 ms. Steps are counted instead of time
-    //! measured, so that the number of polls does not depend on the machine.
+    //! Polls come about every millisecond. Steps are counted instead of time measured, so that the
+    //! number of polls does not depend on the machine.
     static constexpr std::size_t interval = 1 << 14;
 
     //! \param poller  outlives this.

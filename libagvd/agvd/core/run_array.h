@@ -29,18 +29,18 @@ public:
     [[nodiscard]] const T* end() const { return data_.get() + size_; }
 
     void clear() { size_ = 0; }
-    //! \return the place of the first of `count` new elements, which are to be written.
+    //! \return the index of the first of `count` new elements, which are to be written.
     Index extend(Index count) {
         const Index first = size_;
         if (count > capacity_ - size_) grow(count);
         size_ += count;
         return first;
     }
-    //! \return its place.
+    //! \return its index.
     Index push(const T& element) {
-        const Index place = extend(1);
-        data_.get()[place] = element;
-        return place;
+        const Index index = extend(1);
+        data_.get()[index] = element;
+        return index;
     }
     [[nodiscard]] std::size_t bytes() const { return capacity_ * sizeof(T); }
 

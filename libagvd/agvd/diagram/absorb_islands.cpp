@@ -40,22 +40,22 @@ Index interval_of(const StageInput& in, const EdgeLabels& labels, Index site, In
     return label == site ? holder : no_index;
 }
 
-// The node of the site's cell that holds the site; no_index: its place belongs to another cell, or
-// is an inner point.
+// The node of the site's cell that holds the site; no_index: its position belongs to another cell,
+// or is an inner point.
 Index holder_of(const StageInput& input, const EdgeLabels& labels, Index site) {
-    const SurfacePoint& place = input.sites[site];
-    if (const auto vertex = vertex_of(input.surface, place)) {
+    const SurfacePoint& point = input.sites[site];
+    if (const auto vertex = vertex_of(input.surface, point)) {
         return labels.point_site[*vertex] == site ? *vertex : no_index;
     }
-    const auto half_edge = half_edge_of(place);
+    const auto half_edge = half_edge_of(point);
     if (half_edge) return interval_of(input, labels, site, *half_edge);
     // A site inside an unlisted face owns the face.
-    const Index face = place.face.value();
+    const Index face = point.face.value();
     const Index v = input.surface.mesh.triangles[face][0];
     return labels.mixed_index[face] == no_index && labels.point_site[v] == site ? v : no_index;
 }
 
-// The sites whose place belongs to another cell. Islands that are absorbed change nothing of it.
+// The sites whose position belongs to another cell. Islands that are absorbed change nothing of it.
 CellSet find_displaced(const StageInput& input, const EdgeLabels& labels) {
     CellSet displaced(input.sites.size());
     for (Index s = 0; s < displaced.size(); ++s) {
@@ -68,7 +68,7 @@ CellSet find_displaced(const StageInput& input, const EdgeLabels& labels) {
 // --- Islands -----------------------------------------------------------------------------------
 
 // The cells that may have islands: all others are bounded by one loop, which each part would need
-// for itself, and own the place of their site.
+// for itself, and own the position of their site.
 CellSet find_cells_in_doubt(const Diagram& complex, const CellSet& displaced, Ticker ticker) {
     Cells cells;
     collect_loops(complex, ticker, cells);
@@ -260,7 +260,7 @@ void relabel_row(IslandSearch& search, const Row& row, std::vector<Index>& stale
     add_faces_of_line(search, line, stale_faces);
 }
 
-// An inner point is the place of its site, so only mesh vertices get other labels.
+// An inner point is the position of its site, so only mesh vertices get other labels.
 void relabel_points(IslandSearch& search, std::vector<Index>& stale_faces) {
     const Surface& surface = search.in.surface;
     EdgeLabels& labels = search.parts.labels;

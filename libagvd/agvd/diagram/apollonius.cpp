@@ -90,22 +90,22 @@ void TriangleSolver::collect_segments() {
     segments_.clear();
     for (Index i = start_.arcs; i < out_.arcs.size(); ++i) {
         const Arc& arc = out_.arcs[i];
-        const ArcPlace& place = places_[i - start_.arcs];
-        Vec2 last = place.tail;
+        const ArcEnds& ends = arc_ends_[i - start_.arcs];
+        Vec2 last = ends.tail;
         for (Index j = arc.first_point; j < arc.first_point + arc.num_points; ++j) {
             segments_.push_back({i, last, out_.points[j]});
             last = out_.points[j];
         }
-        segments_.push_back({i, last, place.head});
+        segments_.push_back({i, last, ends.head});
     }
 }
 
 // Takes the inner points away from arcs that cross others, or themselves. O(n^2) for n pieces.
 // False: no arcs cross.
 bool TriangleSolver::straighten() {
-    assert(places_.size() == out_.arcs.size() - start_.arcs);
+    assert(arc_ends_.size() == out_.arcs.size() - start_.arcs);
     // Two segments that share an end do not cross.
-    if (places_.size() + out_.points.size() - start_.points < 3) return false;
+    if (arc_ends_.size() + out_.points.size() - start_.points < 3) return false;
     collect_segments();
     bool is_any = false;
     for (std::size_t i = 0; i < segments_.size(); ++i) {
@@ -122,7 +122,7 @@ bool TriangleSolver::straighten() {
 void TriangleSolver::draw(std::span<const Breakpoint> breakpoints) {
     assert(breakpoints.size() >= 2);
     breakpoints_.assign(breakpoints.begin(), breakpoints.end());
-    places_.clear();
+    arc_ends_.clear();
     open_vertices_.clear();
     is_sound_ = true;
     if (breakpoints_.size() > 3) close_ears();
@@ -154,7 +154,7 @@ bool TriangleSolver::is_accepted(double violation) const {
 // --- Ears --------------------------------------------------------------------------------------
 
 // Where an interval meets both neighbours.
-VertexPlace TriangleSolver::find_vertex(std::size_t interval, bool is_thorough) const {
+VertexCandidate TriangleSolver::find_vertex(std::size_t interval, bool is_thorough) const {
     const std::size_t n = breakpoints_.size();
     const auto start = [&](std::size_t i) {
         return IntervalStart{breakpoints_[i].position, breakpoints_[i].site_after};
@@ -288,9 +288,9 @@ void TriangleSolver::close_lens(std::size_t i, double violation) {
     erase_both(breakpoints_, i);
 }
 
-// A place for the Voronoi vertex of interval i such that arcs drawn straight do not cross: on the
-// chord that cuts the ear off what is left stays convex.
-VertexPlace TriangleSolver::place_on_chord(std::size_t i) const {
+// A position for the Voronoi vertex of interval i such that arcs drawn straight do not cross: on
+// the chord that cuts the ear off what is left stays convex.
+VertexCandidate TriangleSolver::vertex_on_chord(std::size_t i) const {
     const std::size_t n = breakpoints_.size();
     const Breakpoint& previous = breakpoints_[before(i, n)];
     const Breakpoint& at = breakpoints_[i];
@@ -298,15 +298,15 @@ VertexPlace TriangleSolver::place_on_chord(std::size_t i) const {
     const Vec2& p = at.position;
     const Vec2& q = next.position;
     const Vec2& r = previous.position;
-    const Vec2 places[] = {(p + q) / 2, p, q, (p + q + r) / 3, r, (q + r) / 2, (r + p) / 2};
+    const Vec2 positions[] = {(p + q) / 2, p, q, (p + q + r) / 3, r, (q + r) / 2, (r + p) / 2};
     const std::size_t count = n == 3 ? 7 : 3;  // The last triangle is all cut off.
-    return least_unequal(triangle_, {places, count},
+    return least_unequal(triangle_, {positions, count},
                          {previous.site_after, at.site_after, next.site_after});
 }
 
 // Two arcs run from the interval's breakpoints to the Voronoi vertex; with three breakpoints left,
 // all three do.
-void TriangleSolver::close_with_vertex(std::size_t i, VertexPlace voronoi_vertex) {
+void TriangleSolver::close_with_vertex(std::size_t i, VertexCandidate voronoi_vertex) {
     const std::size_t n = breakpoints_.size();
     assert(n >= 3);
     const std::size_t next = after(i, n);
@@ -316,7 +316,7 @@ void TriangleSolver::close_with_vertex(std::size_t i, VertexPlace voronoi_vertex
     const Index site_after = breakpoints_[next].site_after;
     const bool is_sound = is_accepted(voronoi_vertex.violation);
     is_sound_ = is_sound_ && is_sound;
-    if (!is_sound) voronoi_vertex = place_on_chord(i);
+    if (!is_sound) voronoi_vertex = vertex_on_chord(i);
     const auto name = static_cast<Index>(out_.voronoi_vertices.size());
     const auto first_arc = static_cast<Index>(out_.arcs.size());
     out_.voronoi_vertices.push_back({face_,
@@ -351,7 +351,7 @@ void TriangleSolver::add_arc(const Breakpoint& from, const ArcHead& to, Index le
     out_.arcs.push_back({face_, from.node, to.node, left, from.site_after, first_point,
                          static_cast<Index>(out_.points.size()) - first_point, from.is_across,
                          to.is_across});
-    places_.push_back({from.position, to.position});
+    arc_ends_.push_back({from.position, to.position});
     connect_open_vertex(from.node, ArcEnd::tail_of(arc));
     connect_open_vertex(to.node, ArcEnd::head_of(arc));
 }

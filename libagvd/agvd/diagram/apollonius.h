@@ -47,7 +47,7 @@ private:
         bool is_lens;
         bool is_certain;
         double violation;
-        VertexPlace voronoi_vertex;
+        VertexCandidate voronoi_vertex;
     };
     struct ArcHead {
         Vec2 position;
@@ -55,7 +55,7 @@ private:
         bool is_across = false;
     };
     // Where an arc begins and ends.
-    struct ArcPlace {
+    struct ArcEnds {
         Vec2 tail, head;
     };
     // A piece of an arc.
@@ -72,15 +72,15 @@ private:
 
     [[nodiscard]] bool agrees(const Breakpoint& at, Index site_before) const;
     [[nodiscard]] bool is_accepted(double violation) const;
-    [[nodiscard]] VertexPlace find_vertex(std::size_t interval, bool is_thorough) const;
+    [[nodiscard]] VertexCandidate find_vertex(std::size_t interval, bool is_thorough) const;
     [[nodiscard]] Ear judge_ear(std::size_t i, bool is_thorough) const;
     void judge_lens(const Breakpoint& from, const Breakpoint& to, Ear& ear) const;
     void close_ears();
     [[nodiscard]] std::size_t choose_ear();
     void close_ear(std::size_t i, const Ear& ear);
     void close_lens(std::size_t i, double violation);
-    void close_with_vertex(std::size_t i, VertexPlace voronoi_vertex);
-    [[nodiscard]] VertexPlace place_on_chord(std::size_t i) const;
+    void close_with_vertex(std::size_t i, VertexCandidate voronoi_vertex);
+    [[nodiscard]] VertexCandidate vertex_on_chord(std::size_t i) const;
     void add_arc(const Breakpoint& from, const ArcHead& to, Index left, bool is_curved);
     void connect_open_vertex(NodeId node, ArcEnd end);
 
@@ -97,7 +97,7 @@ private:
     std::vector<Ear> ears_;  // By interval.
     // Voronoi vertices that became breakpoints and have no third arc so far.
     std::vector<Index> open_vertices_;
-    std::vector<ArcPlace> places_;  // Of the arcs drawn.
+    std::vector<ArcEnds> arc_ends_;  // Of the arcs drawn.
     std::vector<Segment> segments_;
 };
 

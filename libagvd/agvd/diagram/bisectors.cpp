@@ -332,8 +332,8 @@ bool joins_straight(std::span<const Relay> relays, const std::array<Vec2, 3>& co
                               known[1].at_middle, test.tolerance);
 }
 
-VertexPlace find_voronoi_vertex(const TriangleSites& triangle,
-                                const std::array<IntervalStart, 3>& intervals, bool thorough) {
+VertexCandidate find_voronoi_vertex(const TriangleSites& triangle,
+                                    const std::array<IntervalStart, 3>& intervals, bool thorough) {
     const auto& [before, at, after] = intervals;
     const std::array<Index, 3> sites{before.site, at.site, after.site};
     const std::array<Relays, 3> relays{relays_of_site(triangle, sites[0]),
@@ -356,24 +356,24 @@ VertexPlace find_voronoi_vertex(const TriangleSites& triangle,
                 undercut(triangle, p, found->distance, sites)};
     }
     // Cells may meet at the very end of an interval, where distances have no derivative.
-    const Vec2 places[] = {at.position, after.position, before.position};
-    const VertexPlace at_end = least_unequal(triangle, places, sites);
+    const Vec2 positions[] = {at.position, after.position, before.position};
+    const VertexCandidate at_end = least_unequal(triangle, positions, sites);
     if (at_end.violation <= inside_tolerance * triangle.size) return at_end;
     return {centroid, least_reach(relays[1], centroid).distance, no_voronoi_vertex * triangle.size};
 }
 
-VertexPlace least_unequal(const TriangleSites& triangle, std::span<const Vec2> places,
-                          const std::array<Index, 3>& sites) {
-    assert(!places.empty());
-    VertexPlace best{places[0], 0, infinity};
-    for (const Vec2& p : places) {
+VertexCandidate least_unequal(const TriangleSites& triangle, std::span<const Vec2> positions,
+                              const std::array<Index, 3>& sites) {
+    assert(!positions.empty());
+    VertexCandidate best{positions[0], 0, infinity};
+    for (const Vec2& p : positions) {
         std::array<double, 3> distances;
         for (std::size_t k = 0; k < 3; ++k) {
             distances[k] = least_reach(relays_of_site(triangle, sites[k]), p).distance;
         }
         const auto [least, most] = std::minmax_element(distances.begin(), distances.end());
         const double violation = *most - *least;
-        if (violation < best.violation || (&p == places.data())) {
+        if (violation < best.violation || (&p == positions.data())) {
             best = {p, *most, std::isfinite(*most) ? violation : infinity};
         }
     }

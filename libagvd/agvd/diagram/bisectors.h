@@ -77,8 +77,8 @@ struct ChordTest {
 
 // --- Voronoi vertices --------------------------------------------------------------------------
 
-//! A place for a Voronoi vertex.
-struct VertexPlace {
+//! Where a Voronoi vertex may be.
+struct VertexCandidate {
     Vec2 position;
     double distance;
     double violation;  //!< How badly the distances contradict it; 0: not at all.
@@ -93,17 +93,18 @@ struct IntervalStart {
     Index site;
 };
 
-//! Where the sites of three intervals meet, counter-clockwise around the place.
+//! Where the sites of three intervals meet, counter-clockwise around the vertex.
 //! \param thorough  tries more starts. Most vertices that are not found at once are nowhere; to be
 //!                  thorough takes twice the time.
-[[nodiscard]] VertexPlace find_voronoi_vertex(const TriangleSites& triangle,
-                                              const std::array<IntervalStart, 3>& intervals,
-                                              bool thorough);
+[[nodiscard]] VertexCandidate find_voronoi_vertex(const TriangleSites& triangle,
+                                                  const std::array<IntervalStart, 3>& intervals,
+                                                  bool thorough);
 
-//! That of some places where the distances from three sites differ least; by how much is the
+//! That of some positions at which the distances from three sites differ least; by how much is the
 //! violation.
-//! \param places  at least one.
-[[nodiscard]] VertexPlace least_unequal(const TriangleSites& triangle, std::span<const Vec2> places,
-                                        const std::array<Index, 3>& sites);
+//! \param positions  at least one.
+[[nodiscard]] VertexCandidate least_unequal(const TriangleSites& triangle,
+                                            std::span<const Vec2> positions,
+                                            const std::array<Index, 3>& sites);
 
 }  // namespace agvd

@@ -1,4 +1,4 @@
-#include "agvd/diagram/build_diagram.h"
+#include "agvd/diagram/diagram.h"
 
 #include <numeric>
 

@@ -100,10 +100,10 @@ private:
                     triangle.sides[k] = add_cut(std::min(from, to), std::max(from, to));
                 } else {
                     const auto& shared = pieces[neighbour].points;
-                    const auto place = std::find(shared.begin(), shared.end(), to);
+                    const auto found = std::find(shared.begin(), shared.end(), to);
                     triangle.sides[k] =
                         out_.triangles[first + neighbour]
-                            .sides[static_cast<std::size_t>(place - shared.begin())];
+                            .sides[static_cast<std::size_t>(found - shared.begin())];
                 }
             }
             out_.triangles.push_back(triangle);

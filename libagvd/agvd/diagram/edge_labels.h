@@ -44,7 +44,7 @@ struct Crossing {
     LineId line;  //!< A mesh edge is known by its edge_half.
 };
 
-//! A site inside a face that owns its place: a point of the complex like a mesh vertex.
+//! A site inside a face that owns its position: a point of the complex like a mesh vertex.
 struct InnerPoint {
     Vec2 position;  //!< In the face's own frame.
     Index site;

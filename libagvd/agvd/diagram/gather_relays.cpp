@@ -50,7 +50,7 @@ Motion between_half_edges(const Surface& surface, Index from, Index h) {
     return {-apex / length, apex};
 }
 
-// The three places of an image.
+// The three positions of an image.
 bool is_across(const Relay& r, Index half_edge) { return r.y < 0 && r.half_edge == half_edge; }
 bool is_corner(const Relay& r) { return r.x == 0 && r.y == 0; }  // The tail of its half-edge.
 bool is_inside(const Relay& r) { return r.y >= 0 && !is_corner(r); }

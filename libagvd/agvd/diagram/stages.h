@@ -38,7 +38,7 @@ void label_vertices(const StageInput& input, EdgeLabels& labels);
 void label_edges(const StageInput& input, EdgeLabels& labels);
 
 //! Cuts faces with sites inside into triangles at them. Sites that lie on edges reach the boundary
-//! by themselves; a site that owns nothing at its own place is left out.
+//! by themselves; a site that owns nothing at its own position is left out.
 //! Parallel. Cost: the relays near it, a site inside a mixed face, and sorting the face's relays.
 void cut_faces(const StageInput& input, EdgeLabels& labels);
 

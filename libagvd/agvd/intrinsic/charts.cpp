@@ -2,11 +2,6 @@
 
 namespace agvd::detail {
 
-const FaceChart* FaceCharts::find(Index face) const {
-    const auto found = charts_.find(face);
-    return found == charts_.end() ? nullptr : &found->second;
-}
-
 // The direction of a side in the first chart of a face, whose x axis is side 0. It is computed from
 // the angles, since the difference of two long sides has few digits of a short one.
 Vec2 FaceCharts::direction(Index half_edge) const {
@@ -22,12 +17,12 @@ Vec2 FaceCharts::direction(Index half_edge) const {
 }
 
 FaceChart& FaceCharts::of(Index face) {
-    const auto found = charts_.find(face);
-    return found == charts_.end() ? charts_.emplace(face, peek(face)).first->second : found->second;
+    if (!has(face)) set(face, peek(face));
+    return entries_[slot_[face]].chart;
 }
 
 FaceChart FaceCharts::peek(Index face) const {
-    if (const FaceChart* const made = find(face)) return *made;
+    if (has(face)) return entries_[slot_[face]].chart;
     FaceChart chart;
     for (Index k = 0; k < 3; ++k) {
         const Index h = 3 * face + k;
@@ -36,8 +31,8 @@ FaceChart FaceCharts::peek(Index face) const {
         chart.side[k] = surface_.length_of(h) * along;
         if (twin == no_index) {
             chart.turn[k] = {1, 0};
-        } else if (const FaceChart* const across = find(Surface::face(twin))) {
-            chart.turn[k] = conjugate(across->turn[twin % 3]);
+        } else if (has(Surface::face(twin))) {
+            chart.turn[k] = conjugate(entries_[slot_[Surface::face(twin)]].chart.turn[twin % 3]);
         } else {
             chart.turn[k] = turned_by(along, conjugate(-direction(twin))).normalized();
         }
@@ -45,30 +40,59 @@ FaceChart FaceCharts::peek(Index face) const {
     return chart;
 }
 
+void FaceCharts::set(Index face, const FaceChart& chart) {
+    if (face >= slot_.size()) slot_.resize(surface_.num_faces(), no_index);
+    Index& slot = slot_[face];
+    if (slot == no_index && free_.empty()) {
+        slot = static_cast<Index>(entries_.size());
+        entries_.push_back({face, chart});
+        return;
+    }
+    if (slot == no_index) {
+        slot = free_.back();
+        free_.pop_back();
+    }
+    entries_[slot] = {face, chart};
+}
+
+void FaceCharts::forget(Index face) {
+    if (!has(face)) return;
+    entries_[slot_[face]].face = no_index;
+    free_.push_back(slot_[face]);
+    slot_[face] = no_index;
+}
+
+void FaceCharts::take(const FaceCharts& part) {
+    for (const Entry& entry : part.entries_) {
+        if (entry.face == no_index) continue;
+        slot_[entry.face] = static_cast<Index>(entries_.size());
+        entries_.push_back(entry);
+    }
+}
+
 void FaceCharts::renew(Index face) {
-    const auto found = charts_.find(face);
-    if (found == charts_.end()) return;
-    FaceChart& chart = found->second;
+    if (!has(face)) return;
+    FaceChart& chart = entries_[slot_[face]].chart;
     for (Index k = 0; k < 3; ++k) {
         chart.side[k] = surface_.length_of(3 * face + k) * direction(3 * face + k);
     }
     for (Index k = 0; k < 3; ++k) {
         const Index twin = surface_.twin[3 * face + k];
         if (twin == no_index) continue;
-        const FaceChart* const across = find(Surface::face(twin));
-        const Vec2 along = across != nullptr ? across->side[twin % 3] : direction(twin);
+        const Index across = Surface::face(twin);
+        const Vec2 along =
+            has(across) ? entries_[slot_[across]].chart.side[twin % 3] : direction(twin);
         chart.turn[k] = turned_by(chart.side[k], -conjugate(along)).normalized();
     }
     share_turns(face);
 }
 
 void FaceCharts::share_turns(Index face) {
-    const FaceChart& chart = charts_.at(face);
+    const FaceChart& chart = entries_[slot_[face]].chart;
     for (Index k = 0; k < 3; ++k) {
         const Index twin = surface_.twin[3 * face + k];
-        if (twin == no_index) continue;
-        const auto across = charts_.find(Surface::face(twin));
-        if (across != charts_.end()) across->second.turn[twin % 3] = conjugate(chart.turn[k]);
+        if (twin == no_index || !has(Surface::face(twin))) continue;
+        entries_[slot_[Surface::face(twin)]].chart.turn[twin % 3] = conjugate(chart.turn[k]);
     }
 }
 

@@ -2,7 +2,7 @@
 //! Faces laid out in planes, and the rotations between the planes of neighbours. Private.
 #pragma once
 
-#include <unordered_map>
+#include <vector>
 
 #include "agvd/mesh/surface.h"
 
@@ -33,30 +33,49 @@ struct FaceChart {
 class FaceCharts {
 public:
     //! \param surface  outlives this; faces without a chart have not changed in it.
-    explicit FaceCharts(const Surface& surface) : surface_(surface) {}
+    explicit FaceCharts(const Surface& surface)
+        : surface_(surface), own_slot_(surface.num_faces(), no_index), slot_(own_slot_) {}
+    FaceCharts(const FaceCharts&) = delete;
+    FaceCharts& operator=(const FaceCharts&) = delete;
+    ~FaceCharts() = default;
 
-    //! The chart of a face, which is made if there is none.
+    //! Charts of old faces that have none here. Threads may fill several parts, of different faces,
+    //! as long as nothing else is done with the whole but to take() them.
+    [[nodiscard]] FaceCharts part() { return FaceCharts(surface_, slot_); }
+    //! Takes over the charts of a part, which is of no more use.
+    void take(const FaceCharts& part);
+
+    //! The chart of a face, which is made if there is none. Other charts may move in memory.
     FaceChart& of(Index face);
     //! The chart that of() would return, without storing a new one.
     [[nodiscard]] FaceChart peek(Index face) const;
     //! Adds or replaces the chart of a face.
-    void set(Index face, const FaceChart& chart) { charts_.insert_or_assign(face, chart); }
+    void set(Index face, const FaceChart& chart);
     //! Makes the chart of a face again after its lengths have changed, and updates the turns of its
     //! neighbours.
     void renew(Index face);
     //! Updates the turns of the neighbours from those of a face, which has a chart.
     void share_turns(Index face);
     //! Removes the chart of a face that was removed.
-    void forget(Index face) { charts_.erase(face); }
-    //! Takes over charts of faces that have none here.
-    void take(FaceCharts& others) { charts_.merge(others.charts_); }
+    void forget(Index face);
 
 private:
-    [[nodiscard]] const FaceChart* find(Index face) const;
+    struct Entry {
+        Index face;  // no_index: free.
+        FaceChart chart;
+    };
+
+    FaceCharts(const Surface& surface, std::vector<Index>& slot) : surface_(surface), slot_(slot) {}
+    [[nodiscard]] bool has(Index face) const {
+        return face < slot_.size() && slot_[face] != no_index;
+    }
     [[nodiscard]] Vec2 direction(Index half_edge) const;
 
     const Surface& surface_;
-    std::unordered_map<Index, FaceChart> charts_;  // By face.
+    std::vector<Index> own_slot_;
+    std::vector<Index>& slot_;  // By face: its entry; no_index: none. Parts use that of the whole.
+    std::vector<Entry> entries_;
+    std::vector<Index> free_;  // Entries.
 };
 
 }  // namespace agvd::detail

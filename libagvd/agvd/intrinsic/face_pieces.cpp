@@ -53,9 +53,9 @@ void add_samples(const IntrinsicTriangulation& base, Index face, double piece_ar
     const auto count = static_cast<Index>(
         std::clamp(std::ceil(area / piece_area), 1.0, static_cast<double>(most_pieces)));
     for (Index i = 0; i < count; ++i) {
-        const SurfacePoint place = base.to_input({FaceId(face), spread_point(i)});
-        const Vec3 normal = area_vector(input, place.face.value()).normalized();
-        pieces.push_back({position(input.mesh, place), area / count * normal});
+        const SurfacePoint point = base.to_input({FaceId(face), spread_point(i)});
+        const Vec3 normal = area_vector(input, point.face.value()).normalized();
+        pieces.push_back({position(input.mesh, point), area / count * normal});
     }
 }
 

@@ -189,8 +189,8 @@ void add_all(std::span<const FaceOperation> operations, FaceHistory& history) {
 }
 
 struct ChangedPart {
-    ChangedPart(Shared& shared, Index part, Ticker ticker)
-        : charts(shared.surface), remover(shared, charts, part, ticker) {}
+    ChangedPart(Shared& shared, FaceCharts& whole, Index part, Ticker ticker)
+        : charts(whole.part()), remover(shared, charts, part, ticker) {}
 
     FaceCharts charts;
     FlatRemover remover;
@@ -224,7 +224,8 @@ void move_face(Surface& surface, Index from, Index to) {
     surface.mesh.triangles[to] = surface.mesh.triangles[from];
     for (Index k = 0; k < 3; ++k) {
         const Index old = 3 * from + k, now = 3 * to + k;
-        const Index twin = surface.twin[old];  // In a seam the second join is right.
+        const Index twin =
+            surface.twin[old];  // Where two faces of an edge move, the second join is right.
         surface.apex[now] = surface.apex[old];
         surface.twin[old] = no_index;
         join(surface, now, twin, surface.edge[old]);
@@ -269,8 +270,8 @@ Index remove_flat_vertices(Surface& surface, FaceCharts& charts, FaceHistory& hi
     shared.round_of.assign(surface.num_vertices(), 0);
     PartsInOrder parts{charts, history, std::vector<std::unique_ptr<ChangedPart>>(num_parts)};
     const auto remove_inside = [&](Index number, Index, Index) {
-        auto part = std::make_unique<ChangedPart>(shared, shared.part_of[flat[begin[number]]],
-                                                  Ticker(poller));
+        auto part = std::make_unique<ChangedPart>(
+            shared, charts, shared.part_of[flat[begin[number]]], Ticker(poller));
         part->left =
             part->remover.run({flat.begin() + begin[number], flat.begin() + begin[number + 1]});
         parts.take(number, std::move(part));

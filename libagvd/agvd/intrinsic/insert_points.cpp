@@ -95,18 +95,18 @@ private:
         FacePart whole = std::move(part_of(face));
         const Index added = surface_.num_faces();
         insert_in_face(surface_, charts_, face, where, vertex);
-        const Shares place = mixed(whole, where);
+        const Shares split = mixed(whole, where);
         const std::array<Index, 3> faces{face, added, added + 1};
         const auto& corner = whole.corner;
         for (std::size_t k = 0; k < 3; ++k) {
-            parts_[faces[k]] = {{corner[k], corner[(k + 1) % 3], place}, {}};
+            parts_[faces[k]] = {{corner[k], corner[(k + 1) % 3], split}, {}};
         }
         for (const Index point : whole.waiting) {
             const Shares& at = points_[point].barycentric;
             // Find the edges from the new vertex to the corners between which the point lies.
             std::array<bool, 3> is_left;
             for (std::size_t k = 0; k < 3; ++k) {
-                is_left[k] = orientation(place, corner[k], at) >= 0;
+                is_left[k] = orientation(split, corner[k], at) >= 0;
             }
             std::size_t part = 0;
             while (part < 2 && !(is_left[part] && !is_left[(part + 1) % 3])) ++part;
@@ -133,15 +133,15 @@ private:
             Shares where{0, 0, 0};
             where[tail] = 1 - share;
             where[(tail + 1) % 3] = share;
-            const Shares place = mixed(whole, where);
+            const Shares split = mixed(whole, where);
             const Shares& a = whole.corner[tail];
             const Shares& b = whole.corner[(tail + 1) % 3];
             const Shares& c = whole.corner[(tail + 2) % 3];
             const Index face = Surface::face(made.side[i].half_edge);
-            parts_[face] = {{a, place, c}, {}};
-            parts_[made.side[i].new_face] = {{place, b, c}, {}};
+            parts_[face] = {{a, split, c}, {}};
+            parts_[made.side[i].new_face] = {{split, b, c}, {}};
             for (const Index point : whole.waiting) {
-                const bool is_near = orientation(place, c, points_[point].barycentric) >= 0;
+                const bool is_near = orientation(split, c, points_[point].barycentric) >= 0;
                 move_to(point, is_near ? face : made.side[i].new_face);
             }
         }

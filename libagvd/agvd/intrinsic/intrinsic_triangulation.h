@@ -75,7 +75,7 @@ public:
 
     //! The surface that was given.
     [[nodiscard]] const Surface& input() const { return *input_; }
-    //! Vertices of the input first, then added ones, at their places on the input.
+    //! Vertices of the input first, then added ones, at their points of the input.
     [[nodiscard]] const Surface& surface() const { return surface_; }
     //! What was done.
     [[nodiscard]] const IntrinsicCounts& counts() const { return counts_; }
@@ -84,7 +84,7 @@ public:
     [[nodiscard]] bool is_changed(Index face) const;
     //! The point of the input at which an added vertex lies.
     //! \param vertex  >= input().num_vertices().
-    [[nodiscard]] const SurfacePoint& place_of_added(Index vertex) const {
+    [[nodiscard]] const SurfacePoint& added_point(Index vertex) const {
         return added_[vertex - input_->num_vertices()];
     }
 

@@ -44,16 +44,16 @@ Side side_of(const Surface& surface, Index half_edge) {
 // Gives sides their new half-edges. If a side is the twin of another one, both have moved.
 template <std::size_t N>
 void move_sides(Surface& surface, const std::array<Side, N>& sides,
-                const std::array<Index, N>& places) {
+                const std::array<Index, N>& targets) {
     for (std::size_t i = 0; i < N; ++i) {
         Index twin = sides[i].twin;
         for (std::size_t k = 0; k < N; ++k) {
             if (twin != no_index && sides[k].half_edge == twin) {
-                twin = places[k];
+                twin = targets[k];
                 break;
             }
         }
-        join(surface, places[i], twin, sides[i].edge);
+        join(surface, targets[i], twin, sides[i].edge);
     }
 }
 
@@ -244,8 +244,7 @@ void flip(Surface& surface, FaceCharts& charts, Index half_edge, const Quad& qua
                            side_of(surface, Surface::previous(twin)),        // d b
                            side_of(surface, Surface::next(half_edge)),       // b c
                            side_of(surface, Surface::previous(half_edge))};  // c a
-    const FaceChart& chart_f = charts.of(f);
-    const Vec2 turn = chart_f.turn[half_edge % 3];
+    const Vec2 turn = charts.of(f).turn[half_edge % 3];
     // The charts of both new faces have the directions of the first face. The turns of faces across
     // do not change, unless these are the two faces.
     std::array<Vec2, 4> turns;
@@ -350,7 +349,7 @@ void insert_in_face(Surface& surface, FaceCharts& charts, Index face,
     const std::array sides{side_of(surface, 3 * face), side_of(surface, 3 * face + 1),
                            side_of(surface, 3 * face + 2)};
     const std::array<Vec2, 3> corner{Vec2(0, 0), whole.side[0], -whole.side[2]};
-    const Vec2 place = where[1] * corner[1] + where[2] * corner[2];
+    const Vec2 point = where[1] * corner[1] + where[2] * corner[2];
 
     forget_outgoing(surface, std::span(&face, 1));
     const Index added = add_faces(surface, 2);
@@ -360,12 +359,12 @@ void insert_in_face(Surface& surface, FaceCharts& charts, Index face,
     for (Index k = 0; k < 3; ++k) {
         surface.mesh.triangles[faces[k]] = {corners[k], corners[(k + 1) % 3], vertex};
         const Index spoke =  // From corner k + 1.
-            add_edge(surface, std::max((place - corner[(k + 1) % 3]).norm(), least));
+            add_edge(surface, std::max((point - corner[(k + 1) % 3]).norm(), least));
         surface.edge[3 * faces[(k + 1) % 3] + 2] = spoke;
         join(surface, 3 * faces[k] + 1, 3 * faces[(k + 1) % 3] + 2, spoke);
     }
     for (Index k = 0; k < 3; ++k) {
-        charts.set(faces[k], {{whole.side[k], place - corner[(k + 1) % 3], corner[k] - place},
+        charts.set(faces[k], {{whole.side[k], point - corner[(k + 1) % 3], corner[k] - point},
                               {whole.turn[k], Vec2(1, 0), Vec2(1, 0)}});
     }
     for (const Index f : faces) set_apexes(surface, f, charts.of(f));

@@ -1,6 +1,6 @@
 // Simplifies one component to given points ([liu2023]): makes it a surface of its own, cuts edges
 // until it is simplicial, inserts the points as vertices, and removes all other vertices. A vertex
-// of the result is named by the point that it is, or by its place on the whole surface if it had to
+// of the result is named by the point that it is, or by its point of the whole surface if it had to
 // stay.
 #include "agvd/intrinsic/simplify.h"
 
@@ -19,7 +19,7 @@ using detail::Way;
 // A component as a surface of its own, and the positions of its vertices on the whole surface.
 struct Part {
     Surface surface;
-    std::vector<SurfacePoint> place;  // By vertex.
+    std::vector<SurfacePoint> point;  // By vertex.
 };
 
 Index rank_of(std::span<const Index> ascending, Index value) {
@@ -50,14 +50,14 @@ Part part_of(const Surface& whole, std::span<const Index> faces) {
 
     Part part;
     Surface& s = part.surface;
-    part.place.resize(vertices.size());
+    part.point.resize(vertices.size());
     for (const Index f : faces) {
         Triangle t = whole.mesh.triangles[f];
         for (Index k = 0; k < 3; ++k) {
             t[k] = rank_of(vertices, t[k]);
             SurfacePoint corner{FaceId(f), {0, 0, 0}};
             corner.barycentric[k] = 1;
-            part.place[t[k]] = corner;
+            part.point[t[k]] = corner;
             s.twin.push_back(moved(whole.twin[3 * f + k]));
             s.edge.push_back(rank_of(edges, whole.edge[3 * f + k]));
             s.apex.push_back(whole.apex[3 * f + k]);
@@ -85,7 +85,7 @@ FaceHistory make_simplicial(Part& part, FaceCharts& charts, std::span<const Inde
             const Index h = s.edge_half[e];
             SurfacePoint middle = *history.carry(Way::Backward, detail::middle_of(h));
             middle.face = FaceId(faces[middle.face.value()]);
-            part.place.push_back(middle);
+            part.point.push_back(middle);
             const Index vertex = detail::add_vertex(s);
             for (const detail::EdgeSplit::Side& side :
                  detail::split_edge(s, charts, h, 0.5, vertex).side) {
@@ -113,11 +113,11 @@ SimplifiedMesh simplify(const Surface& surface, std::span<const Index> faces,
     }
     const std::vector<Index> vertex = detail::insert_points(s, charts, local);
     for (Index i = 0; i < vertex.size(); ++i) {
-        part.place.resize(s.num_vertices());
-        part.place[vertex[i]] = points[i];
+        part.point.resize(s.num_vertices());
+        part.point[vertex[i]] = points[i];
     }
     for (Index v = 0; v < s.num_vertices(); ++v) {
-        s.mesh.positions[v] = position(surface.mesh, part.place[v]);
+        s.mesh.positions[v] = position(surface.mesh, part.point[v]);
     }
 
     std::vector<Index> number(s.num_vertices(), no_index);
@@ -127,7 +127,7 @@ SimplifiedMesh simplify(const Surface& surface, std::span<const Index> faces,
     for (Index v = 0; v < s.num_vertices(); ++v) {
         if (number[v] != no_index || s.outgoing[v] == no_index) continue;
         number[v] = static_cast<Index>(points.size() + result.extra.size());
-        result.extra.push_back(part.place[v]);
+        result.extra.push_back(part.point[v]);
     }
     for (const Triangle& t : s.mesh.triangles) {
         if (t[0] == no_index) continue;

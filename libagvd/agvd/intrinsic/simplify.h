@@ -25,7 +25,7 @@ struct SimplifiedMesh {
 //!
 //! \param surface  may be a Delta-complex.
 //! \param faces    ascending: one component of it.
-//! \param points   of these faces, no two at one place.
+//! \param points   of these faces, no two at one position.
 //! Cost: O(n log n) in practice, n = faces + points.
 [[nodiscard]] SimplifiedMesh simplify(const Surface& surface, std::span<const Index> faces,
                                       std::span<const SurfacePoint> points);

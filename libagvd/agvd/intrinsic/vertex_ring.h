@@ -61,7 +61,7 @@ private:
     // The side of a face opposite to the vertex, and its neighbour beyond.
     struct Rim {
         Index twin, edge;
-        Index number;  // Its place in the first ring; no_index: a diagonal.
+        Index number;  // Its index in the first ring; no_index: a diagonal.
         Vec2 along;
         Vec2 turn;  // Turns vectors of the chart beyond into the chart of the ring's first face.
     };

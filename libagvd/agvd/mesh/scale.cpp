@@ -13,11 +13,10 @@ namespace {
 
 // Bits of the coordinates that the shape of a mesh needs, beyond its distance from the origin.
 constexpr int least_bits = 10;
-// With 10^12 runs of 96 faces took more than 20 s. Scans have such vertices where a program wrote
-// memory that it had not set.
+// Scans have vertices beyond this where a program wrote memory that it had not set. With a higher
+// bound a run on few faces may take very long.
 constexpr double most_spread = 1e10;
-// A tube of 12 needles 10^10 times longer than wide takes 1 s with 200 sites; with 10^12 times that
-// it took minutes, as thousands of paths around it are equally long up to rounding.
+// Around a longer tube of needles, thousands of paths are equally long up to rounding.
 constexpr double least_width = 3e-11;
 
 }  // namespace

@@ -114,7 +114,7 @@ Vec2 position_in_frame(const Surface& surface, const SurfacePoint& point, Index 
     return apex * surface.apex[half_edge] + Vec2(head * surface.length_of(half_edge), 0);
 }
 
-PlaceOnSurface place_of(const Surface& surface, const SurfacePoint& point) {
+SurfaceKey key_of(const Surface& surface, const SurfacePoint& point) {
     const std::uint64_t num_vertices = surface.num_vertices();
     if (const auto vertex = vertex_of(surface, point)) return {*vertex, {}};
     if (const auto h = half_edge_of(point)) {
@@ -127,15 +127,15 @@ PlaceOnSurface place_of(const Surface& surface, const SurfacePoint& point) {
 }
 
 std::vector<Index> distinct_points(const Surface& surface, std::span<const SurfacePoint> points) {
-    std::vector<std::pair<PlaceOnSurface, Index>> places;
-    places.reserve(points.size());
-    for (Index i = 0; i < points.size(); ++i) places.emplace_back(place_of(surface, points[i]), i);
-    std::sort(places.begin(), places.end());
-    const auto end = std::unique(places.begin(), places.end(),
+    std::vector<std::pair<SurfaceKey, Index>> keys;
+    keys.reserve(points.size());
+    for (Index i = 0; i < points.size(); ++i) keys.emplace_back(key_of(surface, points[i]), i);
+    std::sort(keys.begin(), keys.end());
+    const auto end = std::unique(keys.begin(), keys.end(),
                                  [](const auto& a, const auto& b) { return a.first == b.first; });
     std::vector<Index> distinct;
     distinct.reserve(points.size());
-    for (auto place = places.begin(); place != end; ++place) distinct.push_back(place->second);
+    for (auto key = keys.begin(); key != end; ++key) distinct.push_back(key->second);
     std::sort(distinct.begin(), distinct.end());
     return distinct;
 }

@@ -84,18 +84,18 @@ struct CommonFaces {
     return (apex * surface.apex[h] + Vec2(head * surface.length[surface.edge[h]], 0)).norm();
 }
 
-//! A vertex, an edge or a face, and a position on it. It is equal for equal points, whichever of
+//! A vertex, an edge or a face, and a position on it. Keys are equal for equal points, whichever of
 //! its faces a point names.
-struct PlaceOnSurface {
+struct SurfaceKey {
     //! Vertices first, then edges by their lower half-edge, then faces.
     std::uint64_t element = std::numeric_limits<std::uint64_t>::max();
     //! Vertex: 0. Edge: shares of the ends of that half-edge. Face: barycentric coordinates.
     std::array<double, 3> where{};
 
-    auto operator<=>(const PlaceOnSurface&) const = default;
+    auto operator<=>(const SurfaceKey&) const = default;
 };
 
-[[nodiscard]] PlaceOnSurface place_of(const Surface& surface, const SurfacePoint& point);
+[[nodiscard]] SurfaceKey key_of(const Surface& surface, const SurfacePoint& point);
 
 //! The points that do not lie exactly where an earlier one does, ascending. As sites the other
 //! points own nothing, since ties go to the earlier site. Points of two parts of the surface at one

@@ -1,6 +1,6 @@
 // A strip is a list of crossed half-edges. StripBuilder appends to it by turning around the current
-// point, from face to face, if that is a vertex or lies on an edge. A view of a point is its place
-// in one of the faces that have it.
+// point, from face to face, if that is a vertex or lies on an edge. A view of a point is its
+// position in one of the faces that have it.
 #include "agvd/paths/face_strip.h"
 
 #include <cassert>
@@ -40,7 +40,7 @@ public:
         : surface_(surface), strip_{source, source, {}}, here_(source) {}
 
     // Continues to `next` in `face`; invalid: in any face that both share. If the face has it at
-    // several places, the strip goes to the nearest. False if there is no such face.
+    // several points, the strip goes to the nearest. False if there is no such face.
     bool go_to(const SurfacePoint& next, FaceId face) {
         const bool is_found = turn_to([&](const SurfacePoint& view) {
             return face.is_valid() ? view.face == face

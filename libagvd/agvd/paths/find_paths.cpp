@@ -107,9 +107,9 @@ std::optional<FaceStrip> trace(const Surface& surface, const SiteGoal& goal,
         ray.half_edge = is_left ? Surface::next(inside) : Surface::previous(inside);
         const Vec2 tail = is_left ? end : apex, head = is_left ? apex : Vec2(0, 0);
         const Vec2 along = (head - tail).normalized();
-        for (Vec2* place : {&ray.from, &ray.image}) {
-            const Vec2 step = *place - tail;
-            *place = {step.dot(along), along.x() * step.y() - along.y() * step.x()};
+        for (Vec2* moved : {&ray.from, &ray.image}) {
+            const Vec2 step = *moved - tail;
+            *moved = {step.dot(along), along.x() * step.y() - along.y() * step.x()};
         }
     }
     return std::nullopt;
@@ -142,12 +142,12 @@ Way search(const Surface& surface, const SurfacePoint& from, const SurfacePoint&
     };
     std::unordered_map<Index, Reached> reached;
     std::priority_queue<Start, std::vector<Start>, std::greater<>> queue;
-    const Vec3 place = position(surface.mesh.view(), to);
+    const Vec3 target = position(surface.mesh.view(), to);
     const auto reach = [&](Index v, double length, Index before) {
         Reached& state = reached[v];
         if (state.is_done || !(length < state.length)) return;
         state = {length, before, false};
-        queue.push({length + (surface.mesh.positions[v] - place).norm(), v});
+        queue.push({length + (surface.mesh.positions[v] - target).norm(), v});
     };
     for (const Start& corner : corners_around(surface, from)) {
         reach(corner.vertex, corner.length, no_index);

@@ -54,7 +54,7 @@ public:
 private:
     // A vertex of the unfolded strip (or the source, or the target).
     struct Node {
-        Vec2 place;
+        Vec2 position;
         Index parent;  // The node before it on the shortest path from the source.
         Index first;   // The first of the crossings of which it is an end;
         Index last;    // the last one.
@@ -141,8 +141,10 @@ GeodesicPath Straightener::traced(double length, bool is_locally_shortest) const
         const Node& from = nodes_[path_[i - 1]];
         const Node& to = nodes_[path_[i]];
         for (; next < to.first; ++next) {
-            const double left = std::max(side_of(from.place, to.place, ends_[next].left), 0.0);
-            const double right = std::max(-side_of(from.place, to.place, ends_[next].right), 0.0);
+            const double left =
+                std::max(side_of(from.position, to.position, ends_[next].left), 0.0);
+            const double right =
+                std::max(-side_of(from.position, to.position, ends_[next].right), 0.0);
             enter(crossed[next], left + right > 0 ? right / (left + right) : 0.5);
         }
         if (i + 1 == path_.size()) break;
@@ -219,14 +221,14 @@ Vec2 Straightener::apex_of(Index half_edge, const Vec2& tail, const Vec2& head) 
 // removed. A vertex on the straight line counts as a bend, as its other side may be narrower than
 // pi.
 void Straightener::add_to_funnel(Index node) {
-    const Vec2& place = nodes_[node].place;
-    const auto at = [&](Index i) -> const Vec2& { return nodes_[funnel_[i]].place; };
+    const Vec2& point = nodes_[node].position;
+    const auto at = [&](Index i) -> const Vec2& { return nodes_[funnel_[i]].position; };
     if (nodes_[node].is_left) {
         for (; begin_ + 1 < end_; ++begin_) {
             if (begin_ < apex_) {
-                if (!is_left_of(at(begin_ + 1), place, at(begin_))) break;
+                if (!is_left_of(at(begin_ + 1), point, at(begin_))) break;
             } else {
-                if (is_left_of(at(begin_), at(begin_ + 1), place)) break;
+                if (is_left_of(at(begin_), at(begin_ + 1), point)) break;
                 ++apex_;
             }
         }
@@ -237,9 +239,9 @@ void Straightener::add_to_funnel(Index node) {
     for (; begin_ + 1 < end_; --end_) {
         const Index last = end_ - 1;
         if (last > apex_) {
-            if (!is_left_of(at(last - 1), at(last), place)) break;
+            if (!is_left_of(at(last - 1), at(last), point)) break;
         } else {
-            if (is_left_of(at(last), place, at(last - 1))) break;
+            if (is_left_of(at(last), point, at(last - 1))) break;
             --apex_;
         }
     }
@@ -253,7 +255,7 @@ double Straightener::collect_path() {
     path_.push_back(node);
     while (node != 0) {
         const Index parent = nodes_[node].parent;
-        length += (nodes_[node].place - nodes_[parent].place).norm();
+        length += (nodes_[node].position - nodes_[parent].position).norm();
         path_.push_back(parent);
         node = parent;
     }
@@ -302,13 +304,13 @@ Straightener::Detour Straightener::find_detour(Index bend) {
         angle += std::atan2(std::max(corner.y(), 0.0), corner.x());
     };
     const auto add = [&](const Vec2& from, const Vec2& to) {
-        const Vec2 a = from - node.place, b = to - node.place;
+        const Vec2 a = from - node.position, b = to - node.position;
         add_corner({a.dot(b), node.is_left ? cross_product(b, a) : cross_product(a, b)});
     };
     const Ends& first = ends_[node.first];
     const Ends& last = ends_[node.last];
-    add(nodes_[path_[bend - 1]].place, apex_of(in, first.right, first.left));
-    add(apex_of(out, last.left, last.right), nodes_[path_[bend + 1]].place);
+    add(nodes_[path_[bend - 1]].position, apex_of(in, first.right, first.left));
+    add(apex_of(out, last.left, last.right), nodes_[path_[bend + 1]].position);
     const Index goal = node.is_left ? Surface::previous(out) : Surface::next(out);
     Index h = node.is_left ? Surface::next(in) : Surface::previous(in);
     while (angle < std::numbers::pi - angle_tolerance) {

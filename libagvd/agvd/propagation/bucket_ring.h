@@ -132,7 +132,7 @@ private:
     Index nearest_far_ = no_index;             // The first bucket in far_.
     Index current_ = 0;                        // The open bucket.
     Index ring_end_ = ring_size;               // Buckets from here on are far.
-    Index next_ = 0;                           // Place in the open bucket.
+    Index next_ = 0;                           // Index in the open bucket.
     std::size_t num_waiting_ = 0;              // In ring_ and far_.
 };
 

@@ -13,7 +13,7 @@ namespace remesh {
 
 //! How many elements each step of the repair touched.
 struct CleanCounts {
-    Index welded_vertices = 0;   //!< Merged into another vertex at the same place.
+    Index welded_vertices = 0;   //!< Merged into another vertex at the same position.
     Index degenerate_faces = 0;  //!< Dropped: repeated corner, or no area.
     Index absorbed_faces = 0;    //!< Without area, removed by an edge flip: no hole is left.
     Index duplicate_faces = 0;   //!< Dropped: same three corners as an earlier face.
@@ -39,7 +39,7 @@ struct CleanResult {
     //! another order).
     std::vector<Index> face_origin;
     //! #V of the input, if welding moved vertices (else empty): its positions with those that were
-    //! welded at one place.
+    //! welded at one position.
     std::vector<Vec3> welded_positions;
     CleanCounts counts;  //!< What was repaired.
     //! Of the longest slit that was welded, in mesh units. A slit is a chain of boundary edges
@@ -51,11 +51,11 @@ struct CleanResult {
 
 //! `{}` gives the defaults.
 struct CleanOptions {
-    //! Leaves boundary edges at one place open, such as the two sides of a slit.
+    //! Leaves boundary edges at one position open, such as the two sides of a slit.
     bool keep_slits = false;
     //! Mesh units, >= 0: boundary vertices within this distance, and within less than half of each
-    //! edge there, are one place, so that the boundary edges between two places become one. Not
-    //! with keep_slits.
+    //! edge there, are one position, so that the boundary edges between two positions become one.
+    //! Not with keep_slits.
     double weld = 0;
     //! Boundary loops of at most so many edges are closed; 0: none. A loop stays open where no
     //! triangles of an area are found that keep the mesh manifold.
@@ -89,12 +89,11 @@ struct CleanedView {
 };
 
 //! Repairs in this order, without moving anything but what 1. says:
-//! 1. Boundary edges between the same two places are welded: cracks and soups close, while parts
+//! 1. Boundary edges between the same two positions are welded: cracks and soups close, while parts
 //!    that touch at a point, and closed parts that touch anywhere, stay apart. Positions are one
-//!    place if they are equal, or differ by a millionth of the mesh's longest side at most and by a
-//!    hundredth of each edge there; the first one stays. Zero-length edges collapse.
-//!    With keep_slits only the latter happens.
-//!    CleanOptions::weld widens this.
+//!    position if they are equal, or differ by a millionth of the mesh's longest side at most and
+//!    by a hundredth of each edge there; the first one stays. Zero-length edges collapse. With
+//!    keep_slits only the latter happens. CleanOptions::weld widens this.
 //! 2. Faces with a repeated corner and duplicate faces (the first stays) are dropped. Of duplicates
 //!    of opposite orientation two stay where they are the walls of bodies that touch: where most
 //!    edges at the rim of such faces have two faces of each body.

@@ -82,9 +82,10 @@ std::optional<CleanResult> take_clean(const MeshView& mesh, const CleanOptions& 
     const bool is_open = std::ranges::find(is_boundary, true) != is_boundary.end();
     if (is_open && options.fill_holes > 0) return std::nullopt;
     if (!options.keep_slits) {
-        const std::vector<Index> place = find_places(mesh, is_boundary, ticker, options.weld);
-        for (Index v = 0; v < place.size(); ++v) {
-            if (place[v] != no_index && place[v] != v) return std::nullopt;  // Possibly a crack.
+        const std::vector<Index> first =
+            find_common_positions(mesh, is_boundary, ticker, options.weld);
+        for (Index v = 0; v < first.size(); ++v) {
+            if (first[v] != no_index && first[v] != v) return std::nullopt;  // Possibly a crack.
         }
     }
     Soup soup = as_soup(mesh, ticker);

@@ -40,19 +40,19 @@ struct Soup {
 //!        index out of range.
 void check_elements(const MeshView& mesh, Ticker ticker = {});
 
-//! For each wanted vertex the first one at its place; no_index for the others.
+//! For each wanted vertex the first one at its position; no_index for the others.
 //!
-//! Equal positions are one place. So are positions that differ by a millionth of the mesh's longest
-//! side at most, and by a hundredth of each edge there: programs that write coordinates with six or
-//! seven digits leave such gaps. A grid finds them; vertices with less than an eighth of the reach
-//! that most have would crowd its cells, so these have to be equal.
+//! Equal positions are one position. So are positions that differ by a millionth of the mesh's
+//! longest side at most, and by a hundredth of each edge there: programs that write coordinates
+//! with six or seven digits leave such gaps. A grid finds them; vertices with less than an eighth
+//! of the reach that most have would crowd its cells, so these have to be equal.
 //!
 //! \param is_wanted  #V: vertices of the boundary.
 //! \param tolerance  above 0: the limits are this length, if that is more, and half of each edge.
 //! Cost: O(#F + #wanted).
-[[nodiscard]] std::vector<Index> find_places(const MeshView& mesh,
-                                             const std::vector<bool>& is_wanted, Ticker& ticker,
-                                             double tolerance = 0);
+[[nodiscard]] std::vector<Index> find_common_positions(const MeshView& mesh,
+                                                       const std::vector<bool>& is_wanted,
+                                                       Ticker& ticker, double tolerance = 0);
 
 //! Removes the marked faces and returns their number.
 //! \param twin  is updated; null: there is none yet.
@@ -61,8 +61,8 @@ Index drop_faces(Soup& soup, const std::vector<bool>& is_dead, std::vector<Index
 // The passes, in the order in which they run. Those that return bool tell whether they changed a
 // triangle, so that sides must be sorted again.
 
-//! Boundary edges between the same two places (find_places) become one edge.
-//! \param tolerance  see find_places.
+//! Boundary edges between the same two positions (find_common_positions) become one edge.
+//! \param tolerance  see find_common_positions.
 bool weld_cracks(Soup& soup, std::span<const EdgeSide> sides, double tolerance);
 //! Different corners of a face at one position become one vertex.
 bool collapse_zero_edges(Soup& soup);

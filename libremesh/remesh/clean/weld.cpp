@@ -1,4 +1,4 @@
-// Merges vertices at one place: along cracks, and at the ends of zero-length edges.
+// Merges vertices at one position: along cracks, and at the ends of zero-length edges.
 #include <algorithm>
 
 #include "agvd/core/types.h"
@@ -30,10 +30,10 @@ void keep_welded_positions(UnionFind& sets, Soup& soup) {
     }
 }
 
-// The vertex of a boundary edge at one of its two places.
-Index end_at(const Soup& soup, std::span<const Index> place, const EdgeSide& side, Index where) {
+// The vertex of a boundary edge at one of its two positions.
+Index end_at(const Soup& soup, std::span<const Index> position, const EdgeSide& side, Index where) {
     const Index tail = soup.tail(side.half_edge);
-    return place[tail] == where ? tail : soup.head(side.half_edge);
+    return position[tail] == where ? tail : soup.head(side.half_edge);
 }
 
 // The vertices of each part of the mesh: faces that are joined by vertices.
@@ -49,11 +49,11 @@ UnionFind find_parts(Soup& soup) {
 
 // See CleanResult::slit_length. Cracks between parts are no slits, nor are seams of a part that
 // closes by welding, as their sides have ends of their own.
-// \param open  boundary edges, sorted by the places of their ends.
-double longest_slit(Soup& soup, std::span<const EdgeSide> open, std::span<const Index> place) {
+// \param open  boundary edges, sorted by the positions of their ends.
+double longest_slit(Soup& soup, std::span<const EdgeSide> open, std::span<const Index> position) {
     UnionFind parts = find_parts(soup), chains(soup.positions.size());
     std::vector<bool> is_tip(soup.positions.size(), false);
-    std::vector<double> length(soup.positions.size(), 0);  // By place, of edges from it upwards.
+    std::vector<double> length(soup.positions.size(), 0);  // By position, of edges from it upwards.
     for_each_edge(open, [&](std::span<const EdgeSide> edge) {
         soup.ticker.tick();
         const Index low = edge[0].low(), high = edge[0].high();
@@ -65,7 +65,7 @@ double longest_slit(Soup& soup, std::span<const EdgeSide> open, std::span<const 
         (void)chains.unite(low, high);
         length[low] += (soup.positions[high] - soup.positions[low]).norm();
         for (const Index where : {low, high}) {
-            if (end_at(soup, place, edge[0], where) == end_at(soup, place, edge[1], where)) {
+            if (end_at(soup, position, edge[0], where) == end_at(soup, position, edge[1], where)) {
                 is_tip[where] = true;
             }
         }
@@ -93,10 +93,10 @@ bool weld_cracks(Soup& soup, std::span<const EdgeSide> sides, double tolerance) 
 
     std::vector<bool> is_boundary(soup.positions.size(), false);
     for (const EdgeSide& side : open) is_boundary[side.low()] = is_boundary[side.high()] = true;
-    const std::vector<Index> place =
-        find_places({soup.positions, soup.triangles}, is_boundary, soup.ticker, tolerance);
+    const std::vector<Index> position = find_common_positions({soup.positions, soup.triangles},
+                                                              is_boundary, soup.ticker, tolerance);
     for (EdgeSide& side : open) {
-        side.ends = edge_key(place[side.low()], place[side.high()]);
+        side.ends = edge_key(position[side.low()], position[side.high()]);
     }
     open = sort_edge_sides(open, static_cast<Index>(soup.positions.size()), soup.ticker);
 
@@ -107,12 +107,12 @@ bool weld_cracks(Soup& soup, std::span<const EdgeSide> sides, double tolerance) 
         if (edge[0].low() == edge[0].high()) return;
         for (const EdgeSide& side : edge.subspan(1)) {
             for (const Index where : {side.low(), side.high()}) {
-                const Index kept = end_at(soup, place, edge[0], where);
-                num_merged += sets.unite(kept, end_at(soup, place, side, where)) ? 1 : 0;
+                const Index kept = end_at(soup, position, edge[0], where);
+                num_merged += sets.unite(kept, end_at(soup, position, side, where)) ? 1 : 0;
             }
         }
     });
-    if (num_merged > 0) soup.slit_length = longest_slit(soup, open, place);
+    if (num_merged > 0) soup.slit_length = longest_slit(soup, open, position);
     keep_welded_positions(sets, soup);
     return apply(sets, num_merged, soup);
 }

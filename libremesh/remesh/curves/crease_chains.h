@@ -63,16 +63,16 @@ private:
 
 //! The angle between the normals on both sides of each edge, radians in [0, pi]; 0 on the boundary.
 //!
-//! A face lower than `thin` has no reliable normal, as rounding of its corners turns it. It is
-//! joined with the neighbour that fits it best until the patch is not thin. All edges of the patch
-//! get the normal of its vector area. That is the vector area of the patch's outline, so the noise
-//! of the faces inside cancels. Edges inside a patch get 0.
+//! A face lower than `narrow` has no reliable normal, as rounding of its corners turns it. It is
+//! joined with the neighbour that fits it best until the patch is not narrow. All edges of the
+//! patch get the normal of its vector area. That is the vector area of the patch's outline, so the
+//! noise of the faces inside cancels. Edges inside a patch get 0.
 //!
-//! \param thin  mesh units, >= 0: least height over the longest side.
+//! \param narrow  mesh units, >= 0: least height over the longest side.
 //! \return #E.
-//! Cost: O(#F + k log k), k = thin faces.
-[[nodiscard]] std::vector<double> edge_angles(const Surface& surface, double thin, int num_threads,
-                                              Poller& poller);
+//! Cost: O(#F + k log k), k = narrow faces.
+[[nodiscard]] std::vector<double> edge_angles(const Surface& surface, double narrow,
+                                              int num_threads, Poller& poller);
 
 //! For each edge of the set: how much the surface around it turns, radians; 0 for other edges. It
 //! is the root of the sum of angle squared times length over all edges outside the set within

@@ -1,5 +1,5 @@
-// Corners, points and tangents of curves. A place on a curve is a length along it in mesh units;
-// Curve::up_to gives the edge at a place. A vertex is a corner if both the polyline and longer
+// Corners, points and tangents of curves. A position on a curve is a length along it in mesh units;
+// Curve::up_to gives the edge at a position. A vertex is a corner if both the polyline and longer
 // chords turn sharply there, so that noise makes no corners.
 #include "remesh/curves/curve_network.h"
 
@@ -20,8 +20,8 @@ double turn(const Vec3& before, const Vec3& here, const Vec3& after) {
     return std::atan2(in.cross(out).norm(), in.dot(out));
 }
 
-// The edge at a place of the curve, and the share of the edge before that place.
-std::pair<std::size_t, double> find_place(const Curve& curve, double along) {
+// The edge at a position of the curve, and the share of the edge before that position.
+std::pair<std::size_t, double> find_position(const Curve& curve, double along) {
     const double length = curve.length();
     along = curve.is_closed() ? along - std::floor(along / length) * length
                               : std::clamp(along, 0.0, length);
@@ -53,7 +53,7 @@ public:
 
 private:
     [[nodiscard]] Vec3 position(double along) const {
-        const auto [i, share] = find_place(curve_, along);
+        const auto [i, share] = find_position(curve_, along);
         return (1 - share) * at_[i] + share * at_[i + 1];
     }
 
@@ -105,7 +105,7 @@ Index Curve::vertex(const Surface& surface, std::size_t i, std::size_t side) con
 }
 
 SurfacePoint point_on_curve(const Curve& curve, double along, std::size_t side) {
-    auto [i, share] = find_place(curve, along);
+    auto [i, share] = find_position(curve, along);
     if (!curve.sides[side].runs_along) share = 1 - share;
     const Index h = curve.sides[side].half_edges[i];
     SurfacePoint point{FaceId(Surface::face(h)), {0, 0, 0}};
@@ -115,7 +115,7 @@ SurfacePoint point_on_curve(const Curve& curve, double along, std::size_t side) 
 }
 
 Vec3 tangent_of_curve(const Surface& surface, const Curve& curve, double along) {
-    const std::size_t i = find_place(curve, along).first;
+    const std::size_t i = find_position(curve, along).first;
     const auto& p = surface.mesh.positions;
     const CurveSide& side = curve.sides.front();
     const Index h = side.half_edges[i];

@@ -122,10 +122,10 @@ struct CurveNetwork {
 [[nodiscard]] std::vector<std::size_t> corners_of_curve(const Surface& surface, const Curve& curve,
                                                         double spacing);
 
-//! The share of [begin, end] before a place, in [0, 1]; 0 if the interval is empty, such as an edge
-//! that is shorter than the rounding of its curve's length.
-[[nodiscard]] inline double share_before(double place, double begin, double end) {
-    return begin < end ? std::clamp((place - begin) / (end - begin), 0.0, 1.0) : 0;
+//! The share of [begin, end] before a position, in [0, 1]; 0 if the interval is empty, such as an
+//! edge that is shorter than the rounding of its curve's length.
+[[nodiscard]] inline double share_before(double position, double begin, double end) {
+    return begin < end ? std::clamp((position - begin) / (end - begin), 0.0, 1.0) : 0;
 }
 
 //! A point of a curve, given in the face on one side of it.
@@ -135,7 +135,7 @@ struct CurveNetwork {
 //! Cost: O(log n).
 [[nodiscard]] SurfacePoint point_on_curve(const Curve& curve, double along, std::size_t side = 0);
 
-//! The unit tangent of a curve at a place.
+//! The unit tangent of a curve at a position.
 [[nodiscard]] Vec3 tangent_of_curve(const Surface& surface, const Curve& curve, double along);
 
 //! A surface cut along a network of curves.

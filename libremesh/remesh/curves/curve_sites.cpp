@@ -1,6 +1,6 @@
 // Sites lie at even distances on each curve, in a measure that counts spacings: a length counts
-// more where the curve turns much. Notation: `along` is a place in mesh units, `count` the same
-// place in spacings (spacings_along).
+// more where the curve turns much. Notation: `along` is a position in mesh units, `count` the same
+// position in spacings (spacings_along).
 #include "remesh/curves/curve_sites.h"
 
 #include <algorithm>
@@ -18,10 +18,11 @@ namespace {
 constexpr double most_turn = std::numbers::pi / 6;
 constexpr double most_rate = 2;
 
-// The turn of a curve over a length around a place: twice the angle between chords.
+// The turn of a curve over a length around a position: twice the angle between chords.
 double turn_over(const Surface& surface, const Curve& curve, double along, double length) {
-    const auto at = [&](double place) {
-        const double inside = curve.is_closed() ? place : std::clamp(place, 0.0, curve.length());
+    const auto at = [&](double at_length) {
+        const double inside =
+            curve.is_closed() ? at_length : std::clamp(at_length, 0.0, curve.length());
         return position(surface.mesh.view(), point_on_curve(curve, inside));
     };
     const double reach = std::min(length / 2, curve.length() / 4);
@@ -32,7 +33,7 @@ double turn_over(const Surface& surface, const Curve& curve, double along, doubl
 
 // Where a curve has how many spacings behind it; linear in between.
 struct CurveMeasure {
-    std::vector<double> place, count;  // From the beginning to the end of the curve.
+    std::vector<double> position, count;  // From the beginning to the end of the curve.
 };
 
 // With a unit that is not the same everywhere, edges are divided into parts of half a spacing.
@@ -40,7 +41,7 @@ CurveMeasure measure_curve(const Surface& surface, const Curve& curve, double sp
                            const UnitAt& unit_at) {
     if (!unit_at) return {curve.up_to, spacings_along(surface, curve, spacing)};
     CurveMeasure result{{0}, {0}};
-    // Asked for at ascending places; the unit is looked up four times for each spacing.
+    // Asked for at ascending positions; the unit is looked up four times for each spacing.
     double last = 0, until = 0;
     const auto spacing_at = [&](double along) {
         if (last == 0 || along >= until) {
@@ -57,7 +58,7 @@ CurveMeasure measure_curve(const Surface& surface, const Curve& curve, double sp
             const double local = spacing_at((begin + next) / 2);
             const double turn = turn_over(surface, curve, (begin + next) / 2, local);
             const double rate = std::clamp(turn / most_turn, 1.0, most_rate);
-            result.place.push_back(next);
+            result.position.push_back(next);
             result.count.push_back(result.count.back() + rate * (next - begin) / local);
             begin = next;
         }
@@ -65,15 +66,15 @@ CurveMeasure measure_curve(const Surface& surface, const Curve& curve, double sp
     return result;
 }
 
-// The place with `count` spacings before it. On a closed curve it may lie in the second turn.
-double place_at(const CurveMeasure& measure, double count) {
+// The position with `count` spacings before it. On a closed curve it may lie in the second turn.
+double position_at(const CurveMeasure& measure, double count) {
     const double whole = measure.count.back();
-    if (count > whole) return measure.place.back() + place_at(measure, count - whole);
+    if (count > whole) return measure.position.back() + position_at(measure, count - whole);
     const std::vector<double>& spacings = measure.count;
     const auto after = std::upper_bound(spacings.begin() + 1, spacings.end() - 1, count);
     const auto i = static_cast<std::size_t>(after - spacings.begin()) - 1;
     const double share = share_before(count, spacings[i], spacings[i + 1]);
-    return measure.place[i] + share * (measure.place[i + 1] - measure.place[i]);
+    return measure.position[i] + share * (measure.position[i + 1] - measure.position[i]);
 }
 
 // The first site of a closed curve lies off its vertices.
@@ -111,9 +112,9 @@ public:
     explicit SitePlacer(CurveSites& sites) : sites_(sites) { sites_.first_copy.push_back(0); }
 
     // \param sheet  equal for copies that become one vertex even where sheets stay apart.
-    void add_copy(const SurfacePoint& place, Index sheet) {
+    void add_copy(const SurfacePoint& point, Index sheet) {
         sheets_.push_back(sheet);
-        sites_.sites.push_back(place);
+        sites_.sites.push_back(point);
     }
     void end_group(double along) {
         std::vector<Index> order = sheets_;
@@ -214,18 +215,18 @@ Index num_junction_vertices(const CurveNetwork& network, const CurveSites& sites
     return static_cast<Index>(std::unique(vertices.begin(), vertices.end()) - vertices.begin());
 }
 
-std::vector<std::vector<double>> even_places(const Surface& surface, const CurveNetwork& network,
-                                             double spacing, std::span<const Index> intervals,
-                                             const UnitAt& unit_at) {
+std::vector<std::vector<double>> even_positions(const Surface& surface, const CurveNetwork& network,
+                                                double spacing, std::span<const Index> intervals,
+                                                const UnitAt& unit_at) {
     std::vector<std::vector<double>> along;
     for (std::size_t c = 0; c < network.curves.size(); ++c) {
         const Curve& curve = network.curves[c];
-        std::vector<double>& places = along.emplace_back();
+        std::vector<double>& positions = along.emplace_back();
         if (curve.is_locked) continue;
         const CurveMeasure measure = measure_curve(surface, curve, spacing, unit_at);
         for (Index i = curve.is_closed() ? 0 : 1; i < intervals[c]; ++i) {
             const double count = start_of(curve, measure) + measure.count.back() * i / intervals[c];
-            places.push_back(place_at(measure, count));
+            positions.push_back(position_at(measure, count));
         }
     }
     return along;
@@ -254,11 +255,11 @@ CurveSites curve_sites_at(const CurveNetwork& network, const CutSurface& cut,
     result.first_of_curve.push_back(result.num_groups());
     for (std::size_t c = 0; c < network.curves.size(); ++c) {
         const Curve& curve = network.curves[c];
-        for (const double place : along[c]) {
+        for (const double position : along[c]) {
             for (std::size_t side = 0; side < curve.sides.size(); ++side) {
-                placer.add_copy(point_on_curve(curve, place, side), curve.sides[side].sheet);
+                placer.add_copy(point_on_curve(curve, position, side), curve.sides[side].sheet);
             }
-            placer.end_group(place);
+            placer.end_group(position);
         }
         result.first_of_curve.push_back(result.num_groups());
     }

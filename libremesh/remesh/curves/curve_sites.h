@@ -10,13 +10,14 @@
 
 namespace remesh {
 
-//! The places of vertices on the curves: one at each node, the others in order along each curve. At
-//! each place is a *group* of sites of the cut surface: one copy for each wedge or side.
+//! The positions of vertices on the curves: one at each node, the others in order along each curve.
+//! At each position is a *group* of sites of the cut surface: one copy for each wedge or side.
 struct CurveSites {
     std::vector<SurfacePoint> sites;    //!< Of all groups, on the cut surface.
     std::vector<Index> first_copy;      //!< #groups + 1: index into sites.
     std::vector<Index> first_of_curve;  //!< #curves + 1: its first group; nodes come before.
-    //! #groups: place on its curve, mesh units; 0 at nodes. May leave [0, length] on closed curves.
+    //! #groups: position on its curve, mesh units; 0 at nodes. May leave [0, length] on closed
+    //! curves.
     std::vector<double> along;
     //! #sites: the vertex of the result. A group becomes one, at a junction one for each sheet.
     std::vector<Index> vertex;
@@ -68,21 +69,21 @@ using UnitAt = std::function<double(const SurfacePoint&)>;
 //!
 //! \param intervals  #curves, >= 1.
 //! \return #curves: ascending, mesh units; without the ends of the curve.
-[[nodiscard]] std::vector<std::vector<double>> even_places(const Surface& surface,
-                                                           const CurveNetwork& network,
-                                                           double spacing,
-                                                           std::span<const Index> intervals,
-                                                           const UnitAt& unit_at = {});
+[[nodiscard]] std::vector<std::vector<double>> even_positions(const Surface& surface,
+                                                              const CurveNetwork& network,
+                                                              double spacing,
+                                                              std::span<const Index> intervals,
+                                                              const UnitAt& unit_at = {});
 
-//! The number of intervals into which such places divide each curve.
+//! The number of intervals into which such positions divide each curve.
 [[nodiscard]] std::vector<Index> intervals_between(const CurveNetwork& network,
                                                    std::span<const std::vector<double>> along);
 
-//! Sites at such places and at the nodes.
+//! Sites at such positions and at the nodes.
 [[nodiscard]] CurveSites curve_sites_at(const CurveNetwork& network, const CutSurface& cut,
                                         std::span<const std::vector<double>> along);
 
-//! Moves all copies of a group that is not a node to another place of its curve.
+//! Moves all copies of a group that is not a node to another position of its curve.
 //!
 //! \param curve  of the group.
 void move_along(const Curve& curve, Index group, double along, CurveSites& sites);
@@ -127,7 +128,7 @@ template <typename PartOf>
 //! Intervals are not divided if the short curve joins two curves that run side by side: sites do
 //! not widen a narrow strip (58011 loses .01 of its mean quality).
 //!
-//! \param along  #curves: places between the ends of each, ascending; edited in place.
+//! \param along  #curves: positions between the ends of each, ascending; edited in place.
 //! Cost: O(curves + sites).
 void guard_corners(const Surface& surface, const CurveNetwork& network,
                    std::vector<std::vector<double>>& along);

@@ -1,7 +1,7 @@
-// Dihedral angles, and how much the surface turns around creases. Joins thin faces with neighbours
-// into patches that are not thin: a union-find over the sides of thin faces, in order of merit. The
-// angle at an edge is that between the vector areas of the two patches. `thin` is a height in mesh
-// units.
+// Dihedral angles, and how much the surface turns around creases. Joins narrow faces with
+// neighbours into patches that are not narrow: a union-find over the sides of narrow faces, in
+// order of merit. The angle at an edge is that between the vector areas of the two patches.
+// `narrow` is a height in mesh units.
 #include <algorithm>
 #include <cmath>
 #include <queue>
@@ -27,8 +27,8 @@ struct Patches {
     std::vector<Vec3> area;       // #F: twice the vector area; at a root, of its patch.
     std::vector<double> longest;  // #F: longest side; at a root, of its patch.
 
-    [[nodiscard]] bool is_thin(Index root, double thin) const {
-        return area[root].norm() < thin * longest[root];
+    [[nodiscard]] bool is_narrow(Index root, double narrow) const {
+        return area[root].norm() < narrow * longest[root];
     }
     void join(Index a, Index b) {
         if (b < a) std::swap(a, b);  // The root is the lower one.
@@ -58,12 +58,12 @@ Patches single_faces(const Surface& surface, int num_threads, Poller& poller) {
 }
 
 // Ascending.
-std::vector<Index> find_thin_faces(const Surface& surface, const Patches& patches, double thin,
-                                   int num_threads, Poller& poller) {
+std::vector<Index> find_narrow_faces(const Surface& surface, const Patches& patches, double narrow,
+                                     int num_threads, Poller& poller) {
     std::vector<std::vector<Index>> found(num_chunks(surface.num_faces(), edges_per_task));
     const auto find = [&](Index chunk, Index begin, Index end) {
         for (Index f = begin; f < end; ++f) {
-            if (patches.is_thin(f, thin)) found[chunk].push_back(f);
+            if (patches.is_narrow(f, narrow)) found[chunk].push_back(f);
         }
     };
     parallel_chunks(surface.num_faces(), edges_per_task, num_threads, find, poller);
@@ -74,46 +74,48 @@ std::vector<Index> find_thin_faces(const Surface& surface, const Patches& patche
     return faces;
 }
 
-// A side of a thin face, and the merit of joining the face across it. Long sides come first: only
+// A side of a narrow face, and the merit of joining the face across it. Long sides come first: only
 // across them a needle gains height. Sides to faces of the same direction come before others: a
 // needle in a plane belongs to that plane. The needle's own direction may be rounding, so a long
 // side to a face of another direction still counts for a tenth.
-struct Seam {
+struct SharedSide {
     double merit;
     Index edge;
 };
 
-std::vector<Seam> seams_of_thin_faces(const Surface& surface, const Patches& patches, double thin,
-                                      int num_threads, Poller& poller) {
+std::vector<SharedSide> sides_of_narrow_faces(const Surface& surface, const Patches& patches,
+                                              double narrow, int num_threads, Poller& poller) {
     Ticker ticker(poller);
-    std::vector<Seam> seams;
-    for (const Index f : find_thin_faces(surface, patches, thin, num_threads, poller)) {
+    std::vector<SharedSide> sides;
+    for (const Index f : find_narrow_faces(surface, patches, narrow, num_threads, poller)) {
         ticker.tick();
         for (Index h = 3 * f; h < 3 * f + 3; ++h) {
             const Index twin = surface.twin[h];
             if (twin == no_index) continue;
             const Index across = Surface::face(twin);
-            if (across < f && patches.is_thin(across, thin)) continue;  // Added from there.
+            if (across < f && patches.is_narrow(across, narrow)) continue;  // Added from there.
             const double turn = angle_between(patches.area[f], patches.area[across]);
             const double likeness = 0.1 + std::pow((1 + std::cos(turn)) / 2, 8);
-            seams.push_back({surface.length_of(h) * likeness, surface.edge[h]});
+            sides.push_back({surface.length_of(h) * likeness, surface.edge[h]});
         }
     }
-    sort_ticked(seams, ticker, [](const Seam& a, const Seam& b) {
+    sort_ticked(sides, ticker, [](const SharedSide& a, const SharedSide& b) {
         return a.merit != b.merit ? a.merit > b.merit : a.edge < b.edge;
     });
-    return seams;
+    return sides;
 }
 
-void join_thin_faces(const Surface& surface, double thin, int num_threads, Patches& patches,
-                     Poller& poller) {
+void join_narrow_faces(const Surface& surface, double narrow, int num_threads, Patches& patches,
+                       Poller& poller) {
     Ticker ticker(poller);
-    for (const Seam& seam : seams_of_thin_faces(surface, patches, thin, num_threads, poller)) {
+    for (const SharedSide& side :
+         sides_of_narrow_faces(surface, patches, narrow, num_threads, poller)) {
         ticker.tick();
-        const Index h = surface.edge_half[seam.edge];
+        const Index h = surface.edge_half[side.edge];
         const Index a = patches.joined.root(Surface::face(h));
         const Index b = patches.joined.root(Surface::face(surface.twin[h]));
-        if (a != b && (patches.is_thin(a, thin) || patches.is_thin(b, thin))) patches.join(a, b);
+        if (a != b && (patches.is_narrow(a, narrow) || patches.is_narrow(b, narrow)))
+            patches.join(a, b);
     }
 }
 
@@ -194,10 +196,10 @@ private:
 
 }  // namespace
 
-std::vector<double> edge_angles(const Surface& surface, double thin, int num_threads,
+std::vector<double> edge_angles(const Surface& surface, double narrow, int num_threads,
                                 Poller& poller) {
     Patches patches = single_faces(surface, num_threads, poller);
-    join_thin_faces(surface, thin, num_threads, patches, poller);
+    join_narrow_faces(surface, narrow, num_threads, patches, poller);
     std::vector<double> angles(surface.num_edges());
     parallel_chunks(
         surface.num_edges(), edges_per_task, num_threads,

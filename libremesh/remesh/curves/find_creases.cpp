@@ -16,9 +16,9 @@ namespace remesh {
 namespace {
 
 // Faces lower than this have no reliable normal. Rounding to float moves vertices by some 3e-6
-// spacings at 2000 sites. With 3e-3 the creases at two places of a part with fillets depended on
+// spacings at 2000 sites. With 3e-3 the creases at two positions of a part with fillets depended on
 // its triangles.
-constexpr double thin = 1e-3;
+constexpr double narrow = 1e-3;
 // How far around a crease the surface is examined.
 constexpr double reach = 0.5;
 // An edge is noise if surrounding_turn() is above this share of its angle. The median over all
@@ -129,7 +129,7 @@ std::vector<std::uint8_t> find_creases(const Surface& surface, const CreaseOptio
     Ticker ticker(poller);
     const double angle = options.angle * degree;
     const std::vector<double> angles =
-        detail::edge_angles(surface, thin * options.spacing, options.num_threads, poller);
+        detail::edge_angles(surface, narrow * options.spacing, options.num_threads, poller);
     detail::CreaseSet set(surface);
     for (Index e = 0; e < surface.num_edges(); ++e) {
         ticker.tick();

@@ -35,7 +35,8 @@ struct CreaseOptions {
 
 //! Finds the edges of creases.
 //!
-//! 1. Edges above the angle are candidates. A face too thin for a reliable normal takes that of its
+//! 1. Edges above the angle are candidates. A face too narrow for a reliable normal takes that of
+//! its
 //!    neighbours.
 //! 2. The weight of an edge is larger the sharper it is, and smaller if the surface around it
 //!    turns as sharply.
@@ -52,7 +53,7 @@ struct CreaseOptions {
 //! \return #E: 1 for the edges of creases; 0 for boundary edges.
 //! \throw InvalidOption  an option out of range.
 //! \throw Cancelled      the progress callback returned false.
-//! Cost: O(#F + k log k), k = edges above the angle and faces that are too thin.
+//! Cost: O(#F + k log k), k = edges above the angle and faces that are too narrow.
 [[nodiscard]] std::vector<std::uint8_t> find_creases(const Surface& surface,
                                                      const CreaseOptions& options);
 

@@ -41,10 +41,10 @@ public:
     CurveNetwork run(std::span<const std::uint8_t> is_node) {
         CurveNetwork network;
         network.junctions = junctions_.in_result;
-        const std::vector<bool> is_seam = find_seams();
+        const std::vector<bool> is_end = find_ends();
         node_.assign(surface_.num_vertices(), no_index);
         for (Index v = 0; v < surface_.num_vertices(); ++v) {
-            if (is_node[v] == 0 && (degree_[v] == 0 || (degree_[v] == 2 && !is_seam[v]))) continue;
+            if (is_node[v] == 0 && (degree_[v] == 0 || (degree_[v] == 2 && !is_end[v]))) continue;
             node_[v] = static_cast<Index>(network.nodes.size());
             network.nodes.push_back(v);
         }
@@ -66,7 +66,7 @@ public:
 
     [[nodiscard]] Index first_copy(Index vertex) const { return first_copy_[vertex]; }
 
-    // Whether the sides of a closed curve change places once around it.
+    // Whether the sides of a closed curve are exchanged once around it.
     [[nodiscard]] bool is_twisted(const Curve& curve) const {
         return curve.is_closed() &&
                std::any_of(curve.sides.begin(), curve.sides.end(), [&](const CurveSide& side) {
@@ -154,15 +154,15 @@ private:
 
     // Vertices between two edges of the network where the sides of the one do not all continue in
     // the other, or two sides of one sheet do not continue in one sheet.
-    [[nodiscard]] std::vector<bool> find_seams() const {
-        std::vector<bool> is_seam(surface_.num_vertices(), false);
+    [[nodiscard]] std::vector<bool> find_ends() const {
+        std::vector<bool> is_end(surface_.num_vertices(), false);
         for (const std::vector<Index>& copies : junctions_.edges) {
             const Index e = copies.front();
             for (const Index v : {tail(e), head(e)}) {
-                is_seam[v] = is_seam[v] || (degree_[v] == 2 && !goes_on(e, v));
+                is_end[v] = is_end[v] || (degree_[v] == 2 && !goes_on(e, v));
             }
         }
-        return is_seam;
+        return is_end;
     }
     [[nodiscard]] bool goes_on(Index edge, Index at) const {
         Index other = no_index;

@@ -18,7 +18,7 @@ struct GluedMesh {
     std::vector<Index> vertex;          //!< Of each given vertex: the glued one.
     std::vector<Index> representative;  //!< Of each glued vertex: the first given one.
     //! Of each glued vertex: the first given vertex of its group. Equal for vertices of different
-    //! sheets at one place.
+    //! sheets at one position.
     std::vector<Index> first_of_group;
 };
 
@@ -26,7 +26,7 @@ struct GluedMesh {
 //! of another patch, the glued edge would have more than two faces; such an inner edge is flipped
 //! if possible.
 //!
-//! \param group   #V: equal for copies at one place. Two groups are to have at most one edge.
+//! \param group   #V: equal for copies at one position. Two groups are to have at most one edge.
 //! \param vertex  #V: equal for the copies of a group that become one vertex; empty: all of them.
 //! Cost: O(n log n).
 [[nodiscard]] GluedMesh glue(std::span<const Triangle> triangles, std::span<const Index> group,

@@ -1,5 +1,5 @@
 // Looks at the first intervals of all curves at each node. Intervals that are much longer than the
-// shortest one there are divided at places in geometric progression, unless they bound a narrow
+// shortest one there are divided at positions in geometric progression, unless they bound a narrow
 // strip.
 #include "remesh/curves/curve_sites.h"
 
@@ -28,16 +28,16 @@ bool is_much_longer(const CurveEnd& end, const CurveEnd& other) {
 
 // Places that divide a way in geometric progression, with a ratio of at most most_growth. The first
 // is `before` times the ratio; the last, which is not returned, is `way`.
-std::vector<double> growing_places(double before, double way) {
+std::vector<double> growing_positions(double before, double way) {
     const double num_steps = std::ceil(std::log(way / before) / std::log(most_growth));
     const double growth = std::pow(way / before, 1 / num_steps);
-    std::vector<double> places;
-    double place = before;
+    std::vector<double> positions;
+    double position = before;
     for (int i = 1; i < num_steps; ++i) {
-        place *= growth;
-        places.push_back(place);
+        position *= growth;
+        positions.push_back(position);
     }
-    return places;
+    return positions;
 }
 
 class CornerGuard {
@@ -68,8 +68,8 @@ public:
     }
 
 private:
-    [[nodiscard]] Vec3 at(Index c, double place) const {
-        return position(surface_.mesh.view(), point_on_curve(network_.curves[c], place));
+    [[nodiscard]] Vec3 at(Index c, double along) const {
+        return position(surface_.mesh.view(), point_on_curve(network_.curves[c], along));
     }
 
     [[nodiscard]] CurveEnd end_of(Index c, bool is_begin) const {
@@ -110,14 +110,14 @@ private:
     }
 
     void divide(const CurveEnd& end, double before) {
-        std::vector<double>& places = along_[end.curve];
+        std::vector<double>& positions = along_[end.curve];
         // A single interval is divided from both ends, each up to its middle.
         const double way = (end.next != no_index ? 0.5 : 1) * end.length;
         const double length = network_.curves[end.curve].length();
-        for (const double place : growing_places(before, way)) {
-            places.push_back(end.is_begin ? place : length - place);
+        for (const double position : growing_positions(before, way)) {
+            positions.push_back(end.is_begin ? position : length - position);
         }
-        std::sort(places.begin(), places.end());
+        std::sort(positions.begin(), positions.end());
     }
 
     const Surface& surface_;

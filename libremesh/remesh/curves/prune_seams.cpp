@@ -8,9 +8,8 @@
 namespace remesh {
 namespace {
 
-// In spacings. Narrower patches have few vertices that are not on their border: at 1.5, spot's
-// remesh with 500 vertices is 4 % of the diagonal off its surface, at 2.5 as far as without seams,
-// 1 %.
+// In spacings. Narrower patches have few vertices that are not on their border, and the result lies
+// far from the surface there.
 constexpr double least_width = 2.5;
 // Specks go first, so that their borders do not make the charts around them narrow.
 constexpr std::array width_shares = {0.125, 0.25, 0.5, 1.0};

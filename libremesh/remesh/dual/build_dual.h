@@ -62,7 +62,7 @@ struct DelaunayResult {
 //! complex with the same boundary, no vertex gets fewer than three edges (two on the boundary), and
 //! in space no edge around becomes sharper than 60 degrees, or than the sharpest one there before.
 //!
-//! \param points     places of the vertices on the surface.
+//! \param points     the vertices on the surface.
 //! \param positions  the same in space; no two are farther apart than on the surface.
 //! \param triangles  vertex indices. Edges without exactly two sides in opposite directions are
 //!                   left unchanged. The vertices of a triangle lie on one component.
@@ -92,6 +92,6 @@ enum class SiteReason : std::uint8_t {
 [[nodiscard]] const char* to_text(SiteReason reason);
 
 //! Where the site is, for texts: "in cells that are not discs".
-[[nodiscard]] const char* place_text(SiteReason reason);
+[[nodiscard]] const char* where_text(SiteReason reason);
 
 }  // namespace remesh

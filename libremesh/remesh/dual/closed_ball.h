@@ -33,7 +33,7 @@ struct ClosedBallViolation {
 
 //! Moves and new sites. After these fewer cells of inner sites meet the boundary.
 struct BoundaryFixes {
-    std::vector<std::pair<Index, SurfacePoint>> moved;  //!< Site and place, ascending.
+    std::vector<std::pair<Index, SurfacePoint>> moved;  //!< Site and its new point, ascending.
     std::vector<SurfacePoint> added;
 };
 
@@ -57,6 +57,6 @@ struct BoundaryFixes {
 //!
 //! \param count  at most so many.
 //! Cost: O(size of the complex + #sites log #sites).
-[[nodiscard]] std::vector<Index> places_in_largest_cells(const Diagram& diagram, std::size_t count);
+[[nodiscard]] std::vector<Index> points_in_largest_cells(const Diagram& diagram, std::size_t count);
 
 }  // namespace remesh

@@ -129,7 +129,7 @@ private:
 
 struct ReasonTexts {
     const char* key;
-    const char* place;
+    const char* where;
 };
 
 const ReasonTexts& texts_of(SiteReason reason) {
@@ -167,6 +167,6 @@ const char* delaunay_name(Delaunay delaunay) {
 
 const char* to_text(SiteReason reason) { return texts_of(reason).key; }
 
-const char* place_text(SiteReason reason) { return texts_of(reason).place; }
+const char* where_text(SiteReason reason) { return texts_of(reason).where; }
 
 }  // namespace remesh

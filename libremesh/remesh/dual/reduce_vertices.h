@@ -14,10 +14,10 @@
 namespace remesh {
 
 //! Collapses edges of an oriented 2-manifold, shortest first, until `target` vertices are left: one
-//! end is removed, the other keeps its place. Every step meets the link condition ([dey1999]), so
-//! the result is a manifold with the same components, genera and boundary loops. A boundary vertex
-//! is removed only along its loop. Unless the target cannot be reached otherwise, faces keep their
-//! orientation in space and a minimum quality, and the vertices of `keep` stay.
+//! end is removed, the other keeps its position. Every step meets the link condition ([dey1999]),
+//! so the result is a manifold with the same components, genera and boundary loops. A boundary
+//! vertex is removed only along its loop. Unless the target cannot be reached otherwise, faces keep
+//! their orientation in space and a minimum quality, and the vertices of `keep` stay.
 //!
 //! It stops above the target if no edge is left to collapse. Closed components of genus g then have
 //! at most max(4, 26 g - 4) vertices, whatever their number before ([joret2010]).
@@ -35,7 +35,7 @@ namespace remesh {
 //!
 //! \param surface  may be a Delta-complex.
 //! \param faces    ascending: one component of it.
-//! \param points   in these faces, no two at one place.
+//! \param points   in these faces, no two at one position.
 //! Cost: as thin.
 [[nodiscard]] SimplifiedMesh thin_patch(const Surface& surface, std::span<const Index> faces,
                                         std::span<const SurfacePoint> points);

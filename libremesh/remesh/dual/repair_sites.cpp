@@ -50,9 +50,9 @@ BoundaryFixes find_boundary_fixes(const Surface& surface, const Diagram& diagram
         arc[site] = e;
         arc_length[site] = along;
     }
-    std::vector<std::optional<SurfacePoint>> place(sites.size());
+    std::vector<std::optional<SurfacePoint>> moved(sites.size());
     for (Index s = 0; s < sites.size(); ++s) {
-        if (arc[s] != no_index) place[s] = middle(surface, diagram, arc[s]);
+        if (arc[s] != no_index) moved[s] = middle(surface, diagram, arc[s]);
     }
     std::vector<bool> is_corner(surface.num_vertices(), false);
     for (const Index v : corners) is_corner[v] = true;
@@ -69,12 +69,12 @@ BoundaryFixes find_boundary_fixes(const Surface& surface, const Diagram& diagram
         if (is_taken[site]) {
             fixes.added.push_back(corner);
         } else {
-            place[site] = corner;
+            moved[site] = corner;
             is_taken[site] = true;
         }
     }
     for (Index s = 0; s < sites.size(); ++s) {
-        if (place[s]) fixes.moved.emplace_back(s, *place[s]);
+        if (moved[s]) fixes.moved.emplace_back(s, *moved[s]);
     }
     return fixes;
 }
@@ -94,7 +94,7 @@ std::vector<Index> farthest_voronoi_vertices(const Diagram& diagram) {
     return farthest;
 }
 
-std::vector<Index> places_in_largest_cells(const Diagram& diagram, std::size_t count) {
+std::vector<Index> points_in_largest_cells(const Diagram& diagram, std::size_t count) {
     const std::vector<Index> farthest = farthest_voronoi_vertices(diagram);
     std::vector<Index> cells;
     for (Index s = 0; s < farthest.size(); ++s) {
@@ -102,15 +102,15 @@ std::vector<Index> places_in_largest_cells(const Diagram& diagram, std::size_t c
     }
     std::stable_sort(cells.begin(), cells.end(),
                      [&](Index a, Index b) { return diagram.cell_area[a] > diagram.cell_area[b]; });
-    std::vector<Index> places;
+    std::vector<Index> points;
     std::vector<bool> is_taken(diagram.vertices.size(), false);
     for (const Index s : cells) {
-        if (places.size() == count) break;
+        if (points.size() == count) break;
         if (is_taken[farthest[s]]) continue;
         is_taken[farthest[s]] = true;
-        places.push_back(farthest[s]);
+        points.push_back(farthest[s]);
     }
-    return places;
+    return points;
 }
 
 }  // namespace remesh

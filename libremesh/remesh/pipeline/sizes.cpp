@@ -75,7 +75,7 @@ std::vector<double> carry_values(std::span<const double> of_vertex, const FieldB
     std::vector<double> values;
     for (const Index v : on.original) values.push_back(of_vertex[v]);
     for (Index v = input.num_vertices(); v < on.base->surface().num_vertices(); ++v) {
-        const SurfacePoint& place = on.base->place_of_added(v);
+        const SurfacePoint& place = on.base->added_point(v);
         const Triangle& t = input.mesh.triangles[place.face.value()];
         double value = 0;
         for (std::size_t k = 0; k < 3; ++k) value += place.barycentric[k] * values[t[k]];
@@ -96,7 +96,7 @@ std::vector<double> least_of_faces(const CleanedInput& cleaned, const FaceLength
         for (const Index v : input.mesh.triangles[f]) look_at(v, f);
     }
     for (Index v = input.num_vertices(); v < values.size(); ++v) {
-        for_each_view(input, base.place_of_added(v),
+        for_each_view(input, base.added_point(v),
                       [&](const SurfacePoint& view) { look_at(v, view.face.value()); });
     }
     return values;
@@ -168,7 +168,7 @@ std::vector<double> least_lengths_on(const FieldBase& on, std::span<const double
     std::vector<double> least = carry_values(locked, on);
     const Surface& input = on.base->input();
     for (Index v = input.num_vertices(); v < least.size(); ++v) {
-        if (!is_on_boundary(input, on.base->place_of_added(v))) least[v] = 0;
+        if (!is_on_boundary(input, on.base->added_point(v))) least[v] = 0;
     }
     return least;
 }

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "agvd/core/random.h"
-#include "agvd/diagram/build_diagram.h"
+#include "agvd/diagram/diagram.h"
 #include "agvd/mesh/surface_points.h"
 #include "remesh/dual/closed_ball.h"
 #include "remesh/dual/reduce_vertices.h"
@@ -188,7 +188,7 @@ private:
         }
         const std::size_t num_owning = sites_.size() - empty.size();
         if (empty.empty() || num_owning >= options_.num_samples) return;
-        const std::vector<Index> places = places_in_largest_cells(
+        const std::vector<Index> places = points_in_largest_cells(
             dual_.diagram, std::min(empty.size(), options_.num_samples - num_owning));
         for (std::size_t i = 0; i < places.size(); ++i) {
             fixes.moved.emplace_back(empty[i], dual_.diagram.vertices[places[i]]);
@@ -233,8 +233,7 @@ private:
         bool is_changed = false;
         for (Index s = 0; s < given_.size(); ++s) {
             if (!gave_up(given_[s]) || !gave_up(sites_[s])) continue;
-            is_changed =
-                is_changed || place_of(surface_, sites_[s]) != place_of(surface_, given_[s]);
+            is_changed = is_changed || key_of(surface_, sites_[s]) != key_of(surface_, given_[s]);
             sites_[s] = given_[s];
         }
         std::size_t num_left = given_.size();

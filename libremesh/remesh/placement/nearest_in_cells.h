@@ -47,7 +47,7 @@ public:
         }
         if (nearest == no_index) return result;
         if (nearest >= input_.num_vertices()) {
-            result = closest(base_.place_of_added(nearest).face.value(), point);
+            result = closest(base_.added_point(nearest).face.value(), point);
         } else {
             for_each_outgoing(input_, nearest, [&](Index h) {
                 const ClosestPoint here = closest(Surface::face(h), point);

@@ -24,7 +24,7 @@ constexpr double acute = 30 * degree;
 
 // In diagonals of the original.
 constexpr double near = 1e-3, very_near = 2e-4, near_corner = 5e-4;
-constexpr double thin_original = 1e-6, thin_result = 1e-9;
+constexpr double narrow_original = 1e-6, narrow_result = 1e-9;
 
 constexpr Index num_points = 20'000;
 
@@ -32,7 +32,7 @@ double angle_between(const Vec3& a, const Vec3& b) {
     return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
-constexpr int most_steps = 6;  // Over thin faces.
+constexpr int most_steps = 6;  // Over narrow faces.
 
 struct EdgeDihedral {
     Index ends[2];
@@ -42,11 +42,12 @@ struct EdgeDihedral {
     Index num_faces;
 };
 
-// Normals of faces as seen from their edges. A thin face has no reliable normal: it takes the one
+// Normals of faces as seen from their edges. A narrow face has no reliable normal: it takes the one
 // of the face across its longest other side, over a few such steps.
 class FaceNormals {
 public:
-    FaceNormals(const MeshView& mesh, std::span<const EdgeSide> sides, double thin, Ticker& ticker)
+    FaceNormals(const MeshView& mesh, std::span<const EdgeSide> sides, double narrow,
+                Ticker& ticker)
         : across_(sides.size(), no_index), is_forward_(sides.size()), length_(sides.size()) {
         for_each_edge(sides, [&](std::span<const EdgeSide> edge) {
             ticker.tick();
@@ -68,7 +69,7 @@ public:
             const double twice = area.norm();
             const double longest =
                 std::max({length_[3 * f], length_[3 * f + 1], length_[3 * f + 2]});
-            is_thin_.push_back(twice <= thin * longest);
+            is_narrow_.push_back(twice <= narrow * longest);
             normals_.push_back(twice > 0 ? Vec3(area / twice) : Vec3(Vec3::Zero()));
         }
     }
@@ -77,7 +78,7 @@ public:
     // higher; zero if there is none.
     [[nodiscard]] Vec3 normal(Index h) const {
         bool is_up = is_forward_[h];
-        for (int step = 0; is_thin_[h / 3] && step <= most_steps; ++step) {
+        for (int step = 0; is_narrow_[h / 3] && step <= most_steps; ++step) {
             const Index exit = longest_other_side(h);
             if (exit == no_index) break;
             h = across_[exit];
@@ -101,14 +102,14 @@ private:
     std::vector<Index> across_;     // #H: the other side of an edge with two; otherwise no_index.
     std::vector<bool> is_forward_;  // #H.
     std::vector<double> length_;    // #H.
-    std::vector<bool> is_thin_;     // #F.
+    std::vector<bool> is_narrow_;   // #F.
     std::vector<Vec3> normals_;     // #F.
 };
 
-// \param thin  mesh units: a lower face takes the normal of one beside it.
-std::vector<EdgeDihedral> edge_dihedrals(const MeshView& mesh, double thin, Ticker& ticker) {
+// \param narrow  mesh units: a lower face takes the normal of one beside it.
+std::vector<EdgeDihedral> edge_dihedrals(const MeshView& mesh, double narrow, Ticker& ticker) {
     const std::vector<EdgeSide> sides = sorted_edge_sides(mesh.triangles, ticker);
-    const FaceNormals normals(mesh, sides, thin, ticker);
+    const FaceNormals normals(mesh, sides, narrow, ticker);
     std::vector<EdgeDihedral> edges;
     for_each_edge(sides, [&](std::span<const EdgeSide> edge) {
         ticker.tick();
@@ -299,12 +300,12 @@ std::optional<FeatureCoverage> feature_coverage(const MeshView& original, const 
     MeshBox box;
     for (const Vec3& p : before.mesh.positions) box.add(p);
     const double diagonal = box.is_empty() ? 0 : (box.high - box.low).norm();
-    before.all = edge_dihedrals(before.mesh.view(), thin_original * diagonal, ticker);
+    before.all = edge_dihedrals(before.mesh.view(), narrow_original * diagonal, ticker);
     FeatureCoverage coverage{.length = before.sharp_length(), .diagonal = diagonal};
     const Corners corners = corners_of(before, ticker);
     if (coverage.length == 0 && corners.all.empty()) return std::nullopt;
     Edges after{without_copies(result, ticker), {}};
-    after.all = edge_dihedrals(after.mesh.view(), thin_result * diagonal, ticker);
+    after.all = edge_dihedrals(after.mesh.view(), narrow_result * diagonal, ticker);
     coverage.result_length = after.sharp_length();
     if (coverage.length > 0) {
         const Shares shares = shares_near(points_on_sharp(before, coverage.length, ticker), after,

@@ -59,7 +59,7 @@ public:
             split(first, beyond, box);
         });
         ticker.poll();
-        // Starting each search from the previous answer was 7 to 14 times slower on scans.
+        // Faster than to start each search from the previous answer.
         tree_.accelerate_distance_queries();
     }
 

@@ -79,20 +79,20 @@ double mean_edge_length(const MeshView& mesh) {
 struct Wall {
     double thickness = std::numeric_limits<double>::infinity();  // Infinity: there is no wall.
     Index far_face = 0;                                          // On its other side.
-    [[nodiscard]] bool is_thin() const { return std::isfinite(thickness); }
+    [[nodiscard]] bool exists() const { return std::isfinite(thickness); }
 };
 
 // Finds walls of .1 to 1.9 times the depth.
 Wall wall_at_depth(const MeshView& mesh, const ClosestPointTree& tree, Index vertex,
                    const Vec3& outward, double depth) {
-    const Vec3& place = mesh.positions[vertex];
-    const ClosestPoint nearest = tree.query(place - depth * outward);
+    const Vec3& position = mesh.positions[vertex];
+    const ClosestPoint nearest = tree.query(position - depth * outward);
     if (!(std::sqrt(nearest.distance_sq) < clearly_nearer * depth)) return {};
     const Index face = nearest.point.face.value();
     const Triangle& triangle = mesh.triangles[face];
     if (std::find(triangle.begin(), triangle.end(), vertex) != triangle.end()) return {};
     if (area_vector(mesh, triangle).normalized().dot(outward) > most_wall_cosine) return {};
-    return {(place - nearest.position).norm(), face};
+    return {(position - nearest.position).norm(), face};
 }
 
 // Walls thinner than the edges there are long.
@@ -106,7 +106,7 @@ std::vector<Wall> find_walls(const MeshView& mesh, const ClosestPointTree& tree,
         [&](Index, Index begin, Index end) {
             for (Index v = begin; v < end; ++v) {
                 double depth = shapes[v].edge_length / 2;
-                for (int i = 0; i < num_depths && !walls[v].is_thin(); ++i, depth /= 8) {
+                for (int i = 0; i < num_depths && !walls[v].exists(); ++i, depth /= 8) {
                     walls[v] = wall_at_depth(mesh, tree, v, shapes[v].normal, depth);
                 }
             }
@@ -120,19 +120,19 @@ void judge_walls(const MeshView& mesh, const std::vector<VertexShape>& shapes,
                  const std::vector<Wall>& walls, Verdict& verdict) {
     UnionFind joined(shapes.size());
     const auto join = [&](Index a, Index b) {
-        if (walls[a].is_thin() && walls[b].is_thin()) joined.unite(a, b);
+        if (walls[a].exists() && walls[b].exists()) joined.unite(a, b);
     };
     for (const Triangle& triangle : mesh.triangles) {
         for (std::size_t k = 0; k < 3; ++k) join(triangle[k], triangle[(k + 1) % 3]);
     }
     for (Index v = 0; v < walls.size(); ++v) {
-        if (!walls[v].is_thin()) continue;
+        if (!walls[v].exists()) continue;
         for (const Index behind : mesh.triangles[walls[v].far_face]) join(v, behind);
     }
     double most_times = 1;  // As many vertices.
     verdict.thinnest_wall = std::numeric_limits<double>::infinity();
     for (Index v = 0; v < shapes.size(); ++v) {
-        if (!walls[v].is_thin()) continue;
+        if (!walls[v].exists()) continue;
         if (joined.is_root(v)) ++verdict.thin_walls;
         verdict.thinnest_wall = std::min(verdict.thinnest_wall, walls[v].thickness);
         most_times = std::max(most_times, std::pow(shapes[v].edge_length / walls[v].thickness, 2));

@@ -43,11 +43,11 @@ struct Weight {
 struct Grid {
     using Runs = std::array<std::pair<Index, Index>, 9>;
 
-    std::vector<Index> order;            // Place in this order -> point.
-    std::vector<Vec3> position, normal;  // Per place.
-    std::vector<double> unit;            // Per place; empty: 1.
-    std::vector<Index> cell;             // Per place, ascending.
-    std::vector<Runs> around;            // Per cell: the places in the 3 x 3 x 3 cells around.
+    std::vector<Index> order;            // Slot in this order -> point.
+    std::vector<Vec3> position, normal;  // Per slot.
+    std::vector<double> unit;            // Per slot; empty: 1.
+    std::vector<Index> cell;             // Per slot, ascending.
+    std::vector<Runs> around;            // Per cell: the slots in the 3 x 3 x 3 cells around.
 
     // In the mean of both units.
     [[nodiscard]] double distance(Index a, Index b) const {
@@ -55,16 +55,16 @@ struct Grid {
         return unit.empty() ? apart : 2 * apart / (unit[a] + unit[b]);
     }
 
-    // Calls each(place) for the neighbours of a place.
+    // Calls each(slot) for the neighbours of a slot.
     template <typename Each>
-    void for_each_neighbour(Index place, double reach, Ticker& ticker, const Each& each) const {
-        for (const auto& [first, last] : around[cell[place]]) {
+    void for_each_neighbour(Index slot, double reach, Ticker& ticker, const Each& each) const {
+        for (const auto& [first, last] : around[cell[slot]]) {
             ticker.tick(1 + (last - first) / 8);
             for (Index other = first; other < last; ++other) {
-                const Vec3 apart = position[place] - position[other];
-                const double most = unit.empty() ? reach : reach * (unit[place] + unit[other]) / 2;
-                if (other != place && apart.squaredNorm() < most * most &&
-                    normal[place].dot(normal[other]) > least_crowd_cosine) {
+                const Vec3 apart = position[slot] - position[other];
+                const double most = unit.empty() ? reach : reach * (unit[slot] + unit[other]) / 2;
+                if (other != slot && apart.squaredNorm() < most * most &&
+                    normal[slot].dot(normal[other]) > least_crowd_cosine) {
                     each(other);
                 }
             }
@@ -75,7 +75,7 @@ struct Grid {
 constexpr int bits_per_axis = 21;
 constexpr std::uint64_t row = std::uint64_t{1} << bits_per_axis;
 
-// The places in the cells around a cell: nine ranges, as x runs fastest.
+// The slots in the cells around a cell: nine ranges, as x runs fastest.
 // \param keys  cell and point, ascending.
 Grid::Runs runs_around(const std::vector<std::pair<std::uint64_t, Index>>& keys,
                        std::uint64_t cell) {
@@ -113,8 +113,8 @@ Grid build_grid(const Surface& surface, std::span<const ScatteredPoint> points,
     sort_ticked(keys, ticker, std::less<>());
 
     Grid grid;
-    for (Index place = 0; place < keys.size(); ++place) {
-        const auto [cell, i] = keys[place];
+    for (Index slot = 0; slot < keys.size(); ++slot) {
+        const auto [cell, i] = keys[slot];
         ticker.tick();
         if (!unit.empty()) grid.unit.push_back(unit[i]);
         const Triangle& t = surface.mesh.triangles[points[i].point.face.value()];
@@ -122,7 +122,7 @@ Grid build_grid(const Surface& surface, std::span<const ScatteredPoint> points,
         grid.order.push_back(i);
         grid.position.push_back(points[i].position);
         grid.normal.push_back((p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]).normalized());
-        if (place == 0 || cell != keys[place - 1].first) {
+        if (slot == 0 || cell != keys[slot - 1].first) {
             grid.around.push_back(runs_around(keys, cell));
         }
         grid.cell.push_back(static_cast<Index>(grid.around.size() - 1));
@@ -197,24 +197,24 @@ std::vector<SurfacePoint> eliminate(const Surface& surface, std::span<const Scat
     std::vector<double> crowding(num_points, 0);
     const auto measure = [&](Index, Index begin, Index end) {
         Ticker own_ticker(poller);
-        for (Index place = begin; place < end; ++place) {
-            grid.for_each_neighbour(place, weight.reach, own_ticker, [&](Index other) {
-                crowding[place] += weight(grid.distance(place, other));
+        for (Index slot = begin; slot < end; ++slot) {
+            grid.for_each_neighbour(slot, weight.reach, own_ticker, [&](Index other) {
+                crowding[slot] += weight(grid.distance(slot, other));
             });
         }
     };
     parallel_chunks(num_points, grain, num_threads, measure, poller);
-    std::vector<Index> candidates(first_fixed), place_of(points.size());
+    std::vector<Index> candidates(first_fixed), slot_of(points.size());
     std::iota(candidates.begin(), candidates.end(), Index{0});
-    for (Index place = 0; place < place_of.size(); ++place) place_of[grid.order[place]] = place;
-    FallingQueue queue([&](Index point) { return crowding[place_of[point]]; }, candidates);
+    for (Index slot = 0; slot < slot_of.size(); ++slot) slot_of[grid.order[slot]] = slot;
+    FallingQueue queue([&](Index point) { return crowding[slot_of[point]]; }, candidates);
     std::vector<std::uint8_t> is_left(points.size(), 1);
     for (Index left = first_fixed; left > keep; --left) {
         const Index point = queue.pop();
         is_left[point] = 0;
-        const Index place = place_of[point];
-        grid.for_each_neighbour(place, weight.reach, ticker, [&](Index other) {
-            crowding[other] -= weight(grid.distance(place, other));
+        const Index slot = slot_of[point];
+        grid.for_each_neighbour(slot, weight.reach, ticker, [&](Index other) {
+            crowding[other] -= weight(grid.distance(slot, other));
         });
     }
 

@@ -44,8 +44,8 @@ void add_part(const PreparedSurface& prepared, const DistanceBounds& labels, con
         const std::size_t next = (k + 1) % 3, previous = (k + 2) % 3;
         const auto h = 3 * f + static_cast<Index>(k);
         const double cut =
-            meeting_place(labels, t[k], t[next], surface.length_of(h)) *
-            meeting_place(labels, t[k], t[previous], surface.length_of(Surface::previous(h)));
+            meeting_share(labels, t[k], t[next], surface.length_of(h)) *
+            meeting_share(labels, t[k], t[previous], surface.length_of(Surface::previous(h)));
         add(site[k], cut);
         add(site[next], 1 - cut);
     });
@@ -53,7 +53,7 @@ void add_part(const PreparedSurface& prepared, const DistanceBounds& labels, con
 
 }  // namespace
 
-double meeting_place(const DistanceBounds& labels, Index u, Index v, double length) {
+double meeting_share(const DistanceBounds& labels, Index u, Index v, double length) {
     const double ahead = static_cast<double>(labels.distance[v]) - labels.distance[u];
     return std::clamp((length + ahead) / (2 * length), 0.0, 1.0);
 }

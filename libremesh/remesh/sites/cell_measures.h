@@ -94,6 +94,6 @@ struct CellMeasures {
                                          int num_threads, const Progress& progress = {});
 
 //! Where the labels meet on the way from u to v, in [0, 1].
-[[nodiscard]] double meeting_place(const DistanceBounds& labels, Index u, Index v, double length);
+[[nodiscard]] double meeting_share(const DistanceBounds& labels, Index u, Index v, double length);
 
 }  // namespace remesh::detail

@@ -69,7 +69,7 @@ struct CurvatureCells {
     std::vector<Vec3> origin = {};  // By cell: where that lies.
 
     std::vector<double> run() {
-        place_points();
+        spread_points();
         spread();
         std::vector<PatchSums> own(origin.size());
         for (Index f = 0; f < base.input().num_faces(); ++f) add_face(f, own);
@@ -85,7 +85,7 @@ struct CurvatureCells {
     }
 
     // The vertices around which the cells lie.
-    void place_points() {
+    void spread_points() {
         for (const SurfacePoint& point : uniform_points(base.input(), num_cells, cell_seed)) {
             ticker.tick();
             const Index v = nearest_corner(base, point);

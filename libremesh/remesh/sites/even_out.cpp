@@ -27,8 +27,8 @@ constexpr std::array sites_per_region{400.0, 100.0, 25.0, 6.0};
 constexpr Index vertices_per_region = 8;
 // Standard deviations of random points that are tolerated: for all regions together, and for one.
 constexpr double most_deviation = 4, most_deviation_of_one = 5;
-// Sites nearer than this count as being at one place; in mean distances.
-constexpr double same_place = 1e-3;
+// Sites nearer than this count as being at one position; in mean distances.
+constexpr double same_position = 1e-3;
 // Any value works.
 constexpr std::uint64_t seed = 0x5eed;
 
@@ -158,9 +158,9 @@ private:
         if (sizes != nullptr) set_areas(components_, area_of_face_);
     }
 
-    // Of several sites at one place, all but one wait for a region.
+    // Of several sites at one position, all but one wait for a region.
     void find_surplus() {
-        const double cell = same_place * std::sqrt(area_ / static_cast<double>(sites_.size()));
+        const double cell = same_position * std::sqrt(area_ / static_cast<double>(sites_.size()));
         std::unordered_set<Vec3, PositionHash> taken;
         for (const bool moves : {false, true}) {
             for (Index i = 0; i < sites_.size(); ++i) {

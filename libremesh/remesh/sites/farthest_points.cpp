@@ -80,7 +80,7 @@ public:
         const auto unit_at = unit_on(faces_, options.sizes);
         for (Index v = 0; unit_at && v < base_.surface().num_vertices(); ++v) {
             unit_.push_back(
-                unit_at(v < input_.num_vertices() ? point_at(input_, v) : base_.place_of_added(v)));
+                unit_at(v < input_.num_vertices() ? point_at(input_, v) : base_.added_point(v)));
         }
     }
 

@@ -1,6 +1,6 @@
 // Finds the network, puts each site near one of its edges onto that edge, and tests for each curve
 // whether its sites carry it. Dropping a crease changes the network, so this is repeated until
-// nothing is dropped. A place is a length along a curve, in mesh units.
+// nothing is dropped. A position is a length along a curve, in mesh units.
 #include <algorithm>
 
 #include "agvd/mesh/closest_point.h"
@@ -12,31 +12,31 @@ namespace {
 
 constexpr double longest_gap = 4;  // In spacings.
 
-// The place of a site on the edges of a network.
-struct EdgePlace {
+// Where a site lies on the edges of a network.
+struct NearestEdge {
     Index edge = no_index;       // no_index: on no edge.
     double share = 0;            // Of the edge, from the tail of its half-edge.
     Index vertex = no_index;     // The nearer end of the edge.
     double vertex_distance = 0;  // From that vertex to the site.
 };
 
-EdgePlace find_edge_place(const Surface& surface, const std::vector<std::uint8_t>& is_network,
-                          const SurfacePoint& site, double tolerance) {
+NearestEdge find_nearest_edge(const Surface& surface, const std::vector<std::uint8_t>& is_network,
+                              const SurfacePoint& site, double tolerance) {
     const auto& p = surface.mesh.positions;
     const Vec3 at = position(surface.mesh.view(), site);
-    EdgePlace place;
+    NearestEdge on_edge;
     double nearest = tolerance;
     const auto look_at = [&](Index e) {
         if (is_network[e] == 0) return;
         const Index tail = surface.tail(surface.edge_half[e]);
         const Index head = surface.head(surface.edge_half[e]);
         const double apart = distance_to_segment(at, p[tail], p[head]);
-        if (apart > nearest || (apart == nearest && place.edge != no_index)) return;
+        if (apart > nearest || (apart == nearest && on_edge.edge != no_index)) return;
         nearest = apart;
         const Vec3 along = p[head] - p[tail];
         const double share = (at - p[tail]).dot(along) / along.squaredNorm();
         const Index end = share < 0.5 ? tail : head;
-        place = {e, std::clamp(share, 0.0, 1.0), end, (at - p[end]).norm()};
+        on_edge = {e, std::clamp(share, 0.0, 1.0), end, (at - p[end]).norm()};
     };
     for (const Index v : surface.mesh.triangles[site.face.value()]) {
         for_each_outgoing(surface, v, [&](Index h) {
@@ -44,10 +44,10 @@ EdgePlace find_edge_place(const Surface& surface, const std::vector<std::uint8_t
             look_at(surface.edge[Surface::previous(h)]);
         });
     }
-    return place;
+    return on_edge;
 }
 
-using Stop = std::pair<double, Index>;  // Place on its curve, site.
+using Stop = std::pair<double, Index>;  // Position on its curve, site.
 
 struct OnCurve {
     Index curve = no_index;
@@ -64,7 +64,7 @@ struct Carrier {
     std::vector<std::vector<Stop>> stops = {};     // By curve: sites between its ends, ascending.
     std::vector<Index> at_node = {};               // By node: its site, or no_index.
     std::vector<std::uint8_t> is_on_network = {};  // #sites
-    std::vector<EdgePlace> places = {};            // #sites
+    std::vector<NearestEdge> nearest = {};         // #sites
 
     // Drops creases until all that are left are carried. \return the number dropped.
     Index drop_uncarried() {
@@ -91,22 +91,22 @@ struct Carrier {
     // Finds the network and the sites on it.
     void find() {
         network = find_network(surface, is_crease, spacing);
-        find_places();
+        find_common_positions();
         const std::vector<OnCurve> on_curve = curves_of_edges();
         is_on_network.assign(sites.size(), 0);
         stops.assign(network.curves.size(), {});
         take_nodes();
         for (Index s = 0; s < sites.size(); ++s) {
-            if (is_on_network[s] != 0 || places[s].edge == no_index) continue;
-            const auto [c, i] = on_curve[places[s].edge];
+            if (is_on_network[s] != 0 || nearest[s].edge == no_index) continue;
+            const auto [c, i] = on_curve[nearest[s].edge];
             const Curve& curve = network.curves[c];
-            const double place = along(curve, i, places[s]);
-            const double from_end = std::min(place, curve.length() - place);
+            const double position = along(curve, i, nearest[s]);
+            const double from_end = std::min(position, curve.length() - position);
             const bool is_at_node = !curve.is_closed() && from_end < site_rounding * spacing;
-            if (!is_at_node) stops[c].emplace_back(place, s);
-            // A site at the place of a node is left out, as the node has a site already.
+            if (!is_at_node) stops[c].emplace_back(position, s);
+            // A site at a node is left out, as the node has a site already.
             is_on_network[s] =
-                !is_at_node || places[s].vertex_distance < site_rounding * spacing ? 1 : 0;
+                !is_at_node || nearest[s].vertex_distance < site_rounding * spacing ? 1 : 0;
         }
         for (std::vector<Stop>& of_curve : stops) {
             std::sort(of_curve.begin(), of_curve.end());
@@ -119,14 +119,14 @@ struct Carrier {
 
     // Repeated for each network: a site at a vertex lies on several edges, and is put onto the
     // first of these that belongs to the network.
-    void find_places() {
+    void find_common_positions() {
         std::vector<std::uint8_t> is_network = is_crease;
         for (Index e = 0; e < surface.num_edges(); ++e) {
             if (surface.twin[surface.edge_half[e]] == no_index) is_network[e] = 1;
         }
-        places.clear();
+        nearest.clear();
         for (const SurfacePoint& site : sites) {
-            places.push_back(find_edge_place(surface, is_network, site, tolerance));
+            nearest.push_back(find_nearest_edge(surface, is_network, site, tolerance));
         }
     }
 
@@ -145,13 +145,13 @@ struct Carrier {
     void take_nodes() {
         at_node.assign(network.nodes.size(), no_index);
         for (Index s = 0; s < sites.size(); ++s) {
-            const EdgePlace& place = places[s];
-            if (place.edge == no_index || place.vertex_distance > tolerance) continue;
+            const NearestEdge& on_edge = nearest[s];
+            if (on_edge.edge == no_index || on_edge.vertex_distance > tolerance) continue;
             const auto node =
-                std::lower_bound(network.nodes.begin(), network.nodes.end(), place.vertex);
-            if (node == network.nodes.end() || *node != place.vertex) continue;
+                std::lower_bound(network.nodes.begin(), network.nodes.end(), on_edge.vertex);
+            if (node == network.nodes.end() || *node != on_edge.vertex) continue;
             Index& taken = at_node[static_cast<std::size_t>(node - network.nodes.begin())];
-            if (taken == no_index || place.vertex_distance < places[taken].vertex_distance) {
+            if (taken == no_index || on_edge.vertex_distance < nearest[taken].vertex_distance) {
                 taken = s;
             }
         }
@@ -160,13 +160,15 @@ struct Carrier {
         }
     }
 
-    // The place of a site on its curve. At a vertex it is the same for both edges there; at the
+    // The position of a site on its curve. At a vertex it is the same for both edges there; at the
     // first vertex of a closed curve it is 0.
-    [[nodiscard]] double along(const Curve& curve, std::size_t i, const EdgePlace& place) const {
+    [[nodiscard]] double along(const Curve& curve, std::size_t i,
+                               const NearestEdge& on_edge) const {
         const Index before = curve.vertex(surface, i);
-        double share = place.share;
-        if (surface.tail(surface.edge_half[place.edge]) != before) share = 1 - share;
-        if (place.vertex_distance < site_rounding * spacing) share = place.vertex == before ? 0 : 1;
+        double share = on_edge.share;
+        if (surface.tail(surface.edge_half[on_edge.edge]) != before) share = 1 - share;
+        if (on_edge.vertex_distance < site_rounding * spacing)
+            share = on_edge.vertex == before ? 0 : 1;
         const double result = curve.up_to[i] + share * (curve.up_to[i + 1] - curve.up_to[i]);
         return curve.is_closed() && result == curve.length() ? 0 : result;
     }
@@ -210,8 +212,8 @@ GivenNetwork plan_given_network(const Surface& surface, std::vector<std::uint8_t
     std::vector<Index> of_group = carrier.at_node;
     for (const std::vector<Stop>& of_curve : carrier.stops) {
         std::vector<double>& along = plan.along.emplace_back();
-        for (const auto& [place, site] : of_curve) {
-            along.push_back(place);
+        for (const auto& [position, site] : of_curve) {
+            along.push_back(position);
             of_group.push_back(site);
         }
     }

@@ -14,7 +14,7 @@
 
 #include "agvd/core/parallel.h"
 #include "agvd/core/progress.h"
-#include "agvd/diagram/build_diagram.h"
+#include "agvd/diagram/diagram.h"
 #include "agvd/mesh/surface_points.h"
 #include "agvd/mesh/topology.h"
 #include "agvd/propagation/propagate.h"
@@ -133,7 +133,7 @@ void Levels::look(Relaxation& relaxation, const DistanceBounds& labels,
     const auto num_sites = static_cast<Index>(relaxation.sites().size());
     if (!gives_cells(num_sites)) return;
     if (has_boundary_ && options_.boundary == Boundary::Keep) {
-        relaxation.move_to_boundary(boundary_places(prepared_.base, labels, num_sites, corners));
+        relaxation.move_to_boundary(boundary_points(prepared_.base, labels, num_sites, corners));
     }
     const CellMeasures cells =
         measure_cells(prepared_, labels, num_sites, options_.num_threads, progress_);

@@ -11,9 +11,9 @@ namespace remesh::detail {
 //! Moves sites from crowded regions to sparse ones, which would take relaxation long: a Lloyd step
 //! evens out neighbours only, and unevenness over w cells takes some w^2 steps. The surface is
 //! divided into regions of similar size, large ones first. If the sites are spread over these less
-//! evenly than random points, random sites of crowded regions move to random places of the others.
-//! Sites at the place of another one, which relaxation cannot separate, move first. Starts as even
-//! as random ones do not change.
+//! evenly than random points, random sites of crowded regions move to random points of the others.
+//! Sites at the position of another one, which relaxation cannot separate, move first. Starts as
+//! even as random ones do not change.
 //!
 //! Sites on the boundary stay. A component keeps its number of sites unless that is further from
 //! its share than chance explains.

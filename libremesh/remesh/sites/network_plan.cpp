@@ -30,17 +30,17 @@ struct SpacingSearch {
     std::vector<Patch> patches = {};
     bool has_guards = true;
 
-    [[nodiscard]] std::vector<std::vector<double>> places_at(double spacing) const {
+    [[nodiscard]] std::vector<std::vector<double>> positions_at(double spacing) const {
         std::vector<std::vector<double>> along =
-            even_places(surface, network, spacing,
-                        curve_intervals(surface, network, spacing, unit_at), unit_at);
+            even_positions(surface, network, spacing,
+                           curve_intervals(surface, network, spacing, unit_at), unit_at);
         if (has_guards) guard_corners(surface, network, along);
         return along;
     }
 
     [[nodiscard]] double num_sites_at(double spacing) const {
         auto count = static_cast<double>(
-            num_curve_vertices(network, intervals_between(network, places_at(spacing))));
+            num_curve_vertices(network, intervals_between(network, positions_at(spacing))));
         for (const Patch& p : patches) {
             count += std::max(detail::inner_sites(p.area, p.boundary_length, spacing), 0.0);
         }
@@ -73,7 +73,7 @@ void divide(const Surface& surface, const std::vector<std::uint8_t>& is_crease, 
             {component.area(), detail::sized_boundary_length(plan.cut.surface, component, sizes)});
     }
     plan.spacing = search.run(num_vertices);
-    plan.along = search.places_at(plan.spacing);
+    plan.along = search.positions_at(plan.spacing);
     plan.intervals = intervals_between(plan.network, plan.along);
     plan.length = length_of(surface, is_crease);
 }

@@ -12,7 +12,7 @@ namespace remesh {
 struct NetworkPlan {
     CurveNetwork network;
     CutSurface cut;                          //!< The surface, cut along the network.
-    std::vector<std::vector<double>> along;  //!< By curve: places of its sites, mesh units.
+    std::vector<std::vector<double>> along;  //!< By curve: positions of its sites, mesh units.
     std::vector<Index> intervals;            //!< By curve: number of intervals between them.
     JunctionSet junctions;                   //!< The given ones; none if the sites are too few.
     LockedElements locked;                   //!< The given ones; none if the sites are too few.
@@ -77,7 +77,7 @@ struct GivenNetwork : GivenSites {
     Index dropped_curves = 0;  //!< Creases that the sites do not carry.
 };
 
-//! In spacings: nearer places are the same up to the decimals of a file or single precision.
+//! In spacings: nearer points are the same up to the decimals of a file or single precision.
 inline constexpr double site_rounding = 1e-5;
 
 struct GivenNetworkOptions {
@@ -89,14 +89,14 @@ struct GivenNetworkOptions {
 };
 
 //! A site on an edge or vertex of the network, up to the tolerance, becomes a vertex of the
-//! network. Of several sites at one place only the first does; the others are left out. Sites carry
-//! a curve if one lies at each end, as many lie between as a triangulation needs, and no gap is
-//! above four spacings. Creases that are not carried are dropped. All creases are dropped if part
-//! of the boundary is not carried, since cells distinguish creases from the boundary by their sites
-//! alone.
+//! network. Of several sites at one position only the first does; the others are left out. Sites
+//! carry a curve if one lies at each end, as many lie between as a triangulation needs, and no gap
+//! is above four spacings. Creases that are not carried are dropped. All creases are dropped if
+//! part of the boundary is not carried, since cells distinguish creases from the boundary by their
+//! sites alone.
 //!
 //! \param is_crease  #E: 1 for the edges of creases.
-//! \param sites      on the surface, no two at one place.
+//! \param sites      on the surface, no two at one position.
 //! \throw Cancelled  the progress callback returned false.
 //! Cost: O(n) for each round in which creases are dropped; at most one round for each crease.
 [[nodiscard]] GivenNetwork plan_given_network(const Surface& surface,

@@ -59,13 +59,13 @@ struct Refinement {
 
     // The fine site in the middle of an interval; no_index if there is none.
     [[nodiscard]] Index middle(const ChainEdge& edge) const {
-        const Index begin = fine_place(edge.curve, edge.interval);
-        if (fine_place(edge.curve, edge.interval + 1) - begin < 2) return no_index;
+        const Index begin = fine_index(edge.curve, edge.interval);
+        if (fine_index(edge.curve, edge.interval + 1) - begin < 2) return no_index;
         return fine.first_copy[fine_site(edge.curve, begin + 1)] + edge.side;
     }
 
     // The index of the k-th vertex of the coarse curve among the vertices of the fine one.
-    [[nodiscard]] Index fine_place(Index curve, Index k) const {
+    [[nodiscard]] Index fine_index(Index curve, Index k) const {
         const std::vector<Index>& first = coarse.first_of_curve;
         const std::uint64_t intervals = plan.intervals[curve];
         return static_cast<Index>(k * intervals /
@@ -75,17 +75,17 @@ struct Refinement {
     [[nodiscard]] Index num_before(Index curve) const {
         return plan.network.curves[curve].is_closed() ? 0 : 1;
     }
-    // The fine group at such a place.
-    [[nodiscard]] Index fine_site(Index curve, Index place) const {
-        return fine.first_of_curve[curve] + place - num_before(curve);
+    // The fine group of such an index.
+    [[nodiscard]] Index fine_site(Index curve, Index index) const {
+        return fine.first_of_curve[curve] + index - num_before(curve);
     }
     [[nodiscard]] Index fine_group(Index group) const {
         if (group < coarse.num_nodes()) return group;
         const auto curve = static_cast<Index>(
             std::upper_bound(coarse.first_of_curve.begin(), coarse.first_of_curve.end(), group) -
             coarse.first_of_curve.begin() - 1);
-        const Index place = group - coarse.first_of_curve[curve] + num_before(curve);
-        return fine_site(curve, fine_place(curve, place));
+        const Index index = group - coarse.first_of_curve[curve] + num_before(curve);
+        return fine_site(curve, fine_index(curve, index));
     }
 };
 
@@ -285,8 +285,8 @@ private:
         const std::vector<Index> intervals = coarse_intervals(plan_);
         const CurveSites coarse =
             curve_sites_at(plan_.network, plan_.cut,
-                           even_places(plan_.cut.surface, plan_.network, plan_.spacing, intervals,
-                                       length_function(options_.sizes)));
+                           even_positions(plan_.cut.surface, plan_.network, plan_.spacing,
+                                          intervals, length_function(options_.sizes)));
         const double euler = euler_of(plan_.cut.surface);
         const double wanted =
             (num_inner_ - static_cast<double>(coarse.sites.size()) + 3 * euler) / 4 + 1;

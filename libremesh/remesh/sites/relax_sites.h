@@ -57,8 +57,8 @@ struct RelaxResult {
 
 //! Lloyd's method with momentum: sites move towards the centroids of their cells, along the
 //! surface. Sites on the boundary (barycentric coordinates of exactly 0) stay on it; sites at
-//! boundary vertices do not move. The start may be as uneven as all sites at one place: sites that
-//! are spread less evenly than random points, at any scale, are redistributed first.
+//! boundary vertices do not move. The start may be as uneven as all sites at one position: sites
+//! that are spread less evenly than random points, at any scale, are redistributed first.
 //!
 //! Sites that are too few for their triangulation to resemble the surface are not relaxed.
 //! \param surface  prepared for the spacing of the sites.

@@ -69,7 +69,7 @@ Relaxation::Relaxation(const Surface& surface, TriangulatedSites start,
     for (Index i = 0; i < sites_.size(); ++i) {
         locate(i);
         ticker_.tick();
-        // The vertex is a corner of the boundary, or as good a place as any on its loop.
+        // The vertex is a corner of the boundary, or as good a point as any on its loop.
         if (boundary_[i] != no_index && vertex_of(surface_, sites_[i])) is_fixed_[i] = 1;
     }
     take_triangles(std::move(start.triangles));
@@ -112,17 +112,17 @@ void Relaxation::mend(const std::vector<Triangle>& triangles) {
     find_turned(mesh_, at_, facing_, turned_);
 }
 
-void Relaxation::move_to_boundary(std::span<const std::optional<SurfacePoint>> places) {
+void Relaxation::move_to_boundary(std::span<const std::optional<SurfacePoint>> points) {
     std::vector<std::uint8_t> is_at_rim = is_stuck_;  // Or one triangle away from the rim.
     for (Index h = 0; h < mesh_.twin.size(); ++h) {
         if (mesh_.twin[h] == no_index) is_at_rim[mesh_.tail(SiteMesh::previous(h))] = 1;
     }
     bool has_moved = false;
-    for (Index i = 0; i < places.size(); ++i) {
-        if (!places[i] || is_fixed_[i] != 0) continue;
-        const bool is_corner = vertex_of(surface_, *places[i]).has_value();
+    for (Index i = 0; i < points.size(); ++i) {
+        if (!points[i] || is_fixed_[i] != 0) continue;
+        const bool is_corner = vertex_of(surface_, *points[i]).has_value();
         if (boundary_[i] != no_index ? !is_corner : is_at_rim[i] == 0) continue;
-        sites_[i] = *places[i];
+        sites_[i] = *points[i];
         move_[i].setZero();
         locate(i);
         is_fixed_[i] = is_corner ? 1 : 0;

@@ -48,7 +48,7 @@ private:
 //! triangulation, which flips keep Delaunay. Sites walk on the surface itself.
 //!
 //! A triangulation misses what its triangles cut off, such as the tip of an ear, and sites would
-//! leave such places. So cells weigh more if they hold more of the surface than of the
+//! leave such regions. So cells weigh more if they hold more of the surface than of the
 //! triangulation, or if they are bent.
 class Relaxation {
 public:
@@ -82,12 +82,12 @@ public:
     //! Replaces the triangles if the new ones have fewer flaws.
     void mend(const std::vector<Triangle>& triangles);
 
-    //! Moves sites at the rim of the triangulation to their places on the boundary. Sites already
-    //! on the boundary move only if their place is a vertex. Sites at a vertex stay there from then
+    //! Moves sites at the rim of the triangulation to their points on the boundary. Sites already
+    //! on the boundary move only if their point is a vertex. Sites at a vertex stay there from then
     //! on. Drops triangles along the boundary that have become degenerate.
     //!
-    //! \param places  #sites; empty for sites without one.
-    void move_to_boundary(std::span<const std::optional<SurfacePoint>> places);
+    //! \param points  #sites; empty for sites without one.
+    void move_to_boundary(std::span<const std::optional<SurfacePoint>> points);
 
     //! Cost: O(#sites) and the faces crossed.
     void step();

@@ -16,7 +16,7 @@ namespace {
 
 // Candidates per site for elimination; more gain little ([yuksel2015] Sec. 3).
 constexpr Index candidates_per_site = 5;
-// Few sites need a better choice, as their places must keep the topology of a small part.
+// Few sites need a better choice, as their positions must keep the topology of a small part.
 constexpr Index least_candidates = 60;
 constexpr Index most_samples = no_index / candidates_per_site;
 
@@ -73,10 +73,10 @@ std::vector<SurfacePoint> sample_boundary(const Surface& surface,
 // `count` points strictly inside faces of a component, besides those on its rim; fewer if it is too
 // small for that many.
 // \param done  the fraction that progress reports.
-std::vector<SurfacePoint> place_inside(const Surface& surface, const Component& component,
-                                       const std::vector<SurfacePoint>& rim, Index count,
-                                       double spacing, std::uint64_t stream,
-                                       const SamplingOptions& given, double done) {
+std::vector<SurfacePoint> sample_inside(const Surface& surface, const Component& component,
+                                        const std::vector<SurfacePoint>& rim, Index count,
+                                        double spacing, std::uint64_t stream,
+                                        const SamplingOptions& given, double done) {
     SamplingOptions options = given;
     options.progress = within(given.progress, done, done);
     if (options.init == Init::Farthest) {
@@ -103,38 +103,38 @@ std::vector<SurfacePoint> place_inside(const Surface& surface, const Component& 
                              options.num_threads, options.progress, unit);
 }
 
-// Places at even distances in the unit from `begin` on, before `end`.
-std::vector<double> even_places(const Curve& curve, double begin, double end, double fewest,
-                                double spacing, const UnitAt& unit_at) {
+// Positions at even distances in the unit from `begin` on, before `end`.
+std::vector<double> even_positions(const Curve& curve, double begin, double end, double fewest,
+                                   double spacing, const UnitAt& unit_at) {
     const auto intervals_of = [&](double length) {
         return static_cast<Index>(std::max(fewest, std::round(length / spacing)));
     };
-    std::vector<double> places;
+    std::vector<double> positions;
     if (!unit_at) {
         const Index intervals = intervals_of(end - begin);
         for (Index k = 0; k < intervals; ++k) {
-            places.push_back(begin + (end - begin) * k / intervals);
+            positions.push_back(begin + (end - begin) * k / intervals);
         }
-        return places;
+        return positions;
     }
     // Steps of half a spacing at most, and their sums.
-    std::vector<double> place{begin}, count{0};
-    while (place.back() < end) {
-        const double from = place.back();
+    std::vector<double> position{begin}, count{0};
+    while (position.back() < end) {
+        const double from = position.back();
         const double step = spacing * unit_at(point_on_curve(curve, from)) / 2;
         const double to = end - from < 1.5 * step ? end : from + step;
         count.push_back(count.back() +
                         (to - from) / unit_at(point_on_curve(curve, (from + to) / 2)));
-        place.push_back(to);
+        position.push_back(to);
     }
     const Index intervals = intervals_of(count.back());
     for (Index k = 0, i = 0; k < intervals; ++k) {
         const double wanted = count.back() * k / intervals;
-        while (i + 2 < place.size() && count[i + 1] < wanted) ++i;
+        while (i + 2 < position.size() && count[i + 1] < wanted) ++i;
         const double share = (wanted - count[i]) / (count[i + 1] - count[i]);
-        places.push_back(place[i] + share * (place[i + 1] - place[i]));
+        positions.push_back(position[i] + share * (position[i + 1] - position[i]));
     }
-    return places;
+    return positions;
 }
 
 }  // namespace
@@ -195,7 +195,7 @@ std::vector<SurfacePoint> sample_sites(const Surface& surface, const SamplingOpt
         const Index inner = quota[i] - static_cast<Index>(rim.size());
         const double done = static_cast<double>(sites.size()) / options.num_samples;
         const auto points =
-            place_inside(surface, components[i], rim, inner, spacing, i, options, done);
+            sample_inside(surface, components[i], rim, inner, spacing, i, options, done);
         if (points.size() < inner) {
             throw ConstraintUnmet(
                 "the component of face " + std::to_string(components[i].faces[0]) +
@@ -227,7 +227,7 @@ std::vector<SurfacePoint> sample_inner_sites(const Surface& surface,
         if (quota[i] == 0) continue;
         const double done = static_cast<double>(sites.size()) / count;
         const auto points =
-            place_inside(surface, components[i], rim_of[i], quota[i], spacing, i, options, done);
+            sample_inside(surface, components[i], rim_of[i], quota[i], spacing, i, options, done);
         sites.insert(sites.end(), points.begin(), points.end());
     }
     return sites;
@@ -246,7 +246,7 @@ std::vector<SurfacePoint> detail::sample_loop(const Surface& surface,
                                               const std::vector<Index>& loop, double corner_spacing,
                                               double spacing, const UnitAt& unit_at) {
     const Curve curve = curve_of_loop(surface, loop);
-    std::vector<double> ends;  // Places on the loop where its pieces begin.
+    std::vector<double> ends;  // Positions on the loop where its pieces begin.
     for (const std::size_t i : corners_of_curve(surface, curve, corner_spacing)) {
         ends.push_back(curve.up_to[i]);
     }
@@ -257,8 +257,8 @@ std::vector<SurfacePoint> detail::sample_loop(const Surface& surface,
     for (std::size_t i = 0; i < ends.size(); ++i) {
         const double begin = ends[i];
         const double end = i + 1 < ends.size() ? ends[i + 1] : ends[0] + curve.length();
-        for (const double place : even_places(curve, begin, end, fewest, spacing, unit_at)) {
-            sites.push_back(point_on_curve(curve, place));
+        for (const double position : even_positions(curve, begin, end, fewest, spacing, unit_at)) {
+            sites.push_back(point_on_curve(curve, position));
         }
     }
     return sites;

@@ -45,7 +45,7 @@ namespace detail {
                                                     double corner_spacing, double spacing,
                                                     const UnitAt& unit_at = {});
 
-//! The place in a list of sums, each with its part, of a part drawn by size.
+//! The index in a list of sums, each with its part, of a part drawn by size.
 //! \param pick  uniform in [0, 1).
 [[nodiscard]] inline std::size_t pick_by_sums(std::span<const double> sums, double pick) {
     const auto found = std::upper_bound(sums.begin(), sums.end() - 1, pick * sums.back());

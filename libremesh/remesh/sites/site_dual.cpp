@@ -19,7 +19,7 @@ namespace {
 // Least distance of middles from the ends of their edge, and from the edge, as shares of it.
 constexpr double end_margin = 1e-3;
 constexpr double side_margin = 1e-6;
-// Distance of places on the boundary from a vertex, as a share of the edge.
+// Distance of points on the boundary from a vertex, as a share of the edge.
 constexpr double off_vertex = 0.25;
 
 // A point on half-edge h, or just inside its face.
@@ -197,7 +197,7 @@ SiteDual label_dual(const IntrinsicTriangulation& base, const DistanceBounds& la
         if (i > 0 && crossings[i - 1].pair == c.pair) continue;
         const Index h = c.half_edge;
         const double along = std::clamp(
-            meeting_place(labels, surface.tail(h), surface.head(h), surface.length_of(h)),
+            meeting_share(labels, surface.tail(h), surface.head(h), surface.length_of(h)),
             end_margin, 1 - end_margin);
         const bool is_inside = keeps_inside || surface.twin[h] != no_index;
         result.middles.push_back({static_cast<Index>(c.pair >> 32), static_cast<Index>(c.pair),
@@ -207,7 +207,7 @@ SiteDual label_dual(const IntrinsicTriangulation& base, const DistanceBounds& la
     return result;
 }
 
-std::vector<std::optional<SurfacePoint>> boundary_places(const IntrinsicTriangulation& base,
+std::vector<std::optional<SurfacePoint>> boundary_points(const IntrinsicTriangulation& base,
                                                          const DistanceBounds& labels,
                                                          Index num_sites,
                                                          std::span<const Index> corners) {
@@ -219,10 +219,10 @@ std::vector<std::optional<SurfacePoint>> boundary_places(const IntrinsicTriangul
         Index& best = nearest[site];
         if (best == no_index || labels.distance[v] < labels.distance[best]) best = v;
     }
-    std::vector<std::optional<SurfacePoint>> places(num_sites);
+    std::vector<std::optional<SurfacePoint>> points(num_sites);
     for (Index s = 0; s < num_sites; ++s) {
         if (nearest[s] != no_index) {
-            places[s] = base.to_input(point_on(surface.outgoing[nearest[s]], off_vertex, 0));
+            points[s] = base.to_input(point_on(surface.outgoing[nearest[s]], off_vertex, 0));
         }
     }
     std::vector<bool> has_corner(num_sites, false);
@@ -230,9 +230,9 @@ std::vector<std::optional<SurfacePoint>> boundary_places(const IntrinsicTriangul
         const Index site = labels.site[v];
         if (site == no_index || has_corner[site]) continue;
         has_corner[site] = true;
-        places[site] = point_at(base.input(), v);
+        points[site] = point_at(base.input(), v);
     }
-    return places;
+    return points;
 }
 
 std::optional<TriangulatedSites> subdivide(const Surface& surface,

@@ -47,13 +47,13 @@ struct SiteDual {
 [[nodiscard]] SiteDual label_dual(const IntrinsicTriangulation& base, const DistanceBounds& labels,
                                   bool keeps_inside = false);
 
-//! For each site the corner that it labels; otherwise the place on the boundary that is nearest by
+//! For each site the corner that it labels; otherwise the point on the boundary that is nearest by
 //! its labels, off the vertices, so that the site can move along. Empty for sites that label no
 //! boundary vertex.
 //!
 //! \param corners  boundary vertices. If a site labels several, the first one counts.
 //! Cost: O(#V + #sites).
-[[nodiscard]] std::vector<std::optional<SurfacePoint>> boundary_places(
+[[nodiscard]] std::vector<std::optional<SurfacePoint>> boundary_points(
     const IntrinsicTriangulation& base, const DistanceBounds& labels, Index num_sites,
     std::span<const Index> corners);
 

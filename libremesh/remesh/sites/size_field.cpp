@@ -23,7 +23,7 @@ Index face_of_input(const IntrinsicTriangulation& base, Index face) {
     const Surface& input = base.input();
     const Index corner = base.surface().mesh.triangles[face][0];
     return corner < input.num_vertices() ? Surface::face(input.outgoing[corner])
-                                         : base.place_of_added(corner).face.value();
+                                         : base.added_point(corner).face.value();
 }
 
 SizeField::SizeField(std::shared_ptr<const IntrinsicTriangulation> base, std::vector<double> length)
@@ -48,7 +48,7 @@ SizeField::SizeField(std::shared_ptr<const IntrinsicTriangulation> base, std::ve
         }
     }
     for (Index v = input.num_vertices(); v < surface.num_vertices(); ++v) {
-        double& least = least_[base_->place_of_added(v).face.value()];
+        double& least = least_[base_->added_point(v).face.value()];
         least = std::min(least, length_[v]);
     }
 }

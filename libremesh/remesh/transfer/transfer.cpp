@@ -208,7 +208,7 @@ private:
 
 void check(std::span<const SurfacePoint> points, const MeshView& result) {
     if (points.size() == result.positions.size()) return;
-    throw InvalidOption("there are " + std::to_string(points.size()) + " places for " +
+    throw InvalidOption("there are " + std::to_string(points.size()) + " points for " +
                         std::to_string(result.positions.size()) + " vertices; give one for each");
 }
 

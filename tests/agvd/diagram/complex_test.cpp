@@ -10,7 +10,7 @@
 #include <cstdlib>
 #include <numbers>
 
-#include "agvd/diagram/build_diagram.h"
+#include "agvd/diagram/diagram.h"
 #include "agvd/mesh/surface_points.h"
 #include "agvd/propagation/propagate.h"
 #include "support/checks.h"

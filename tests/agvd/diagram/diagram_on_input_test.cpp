@@ -1,4 +1,3 @@
-#include "agvd/diagram/build_diagram.h"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "agvd/core/random.h"
-#include "agvd/diagram/build_diagram.h"
 #include "agvd/diagram/diagram.h"
 #include "agvd/propagation/propagate.h"
 #include "support/checks.h"

@@ -26,12 +26,12 @@ protected:
 TEST_F(SitesInARow, OfTwoPointsThatWithTheSitesCounterClockwiseCounts) {
     const Vec2 above(0, 3.2), below(0, -1);
     for (const bool is_thorough : {false, true}) {
-        const VertexPlace lower = find_voronoi_vertex(
+        const VertexCandidate lower = find_voronoi_vertex(
             triangle_, {IntervalStart{above, 2}, {below, 1}, {below, 0}}, is_thorough);
         EXPECT_NEAR((lower.position - Vec2(0, -0.75)).norm(), 0, 1e-9);
         EXPECT_NEAR(lower.distance, 1.25, 1e-9);
         EXPECT_EQ(lower.violation, 0);
-        const VertexPlace upper = find_voronoi_vertex(
+        const VertexCandidate upper = find_voronoi_vertex(
             triangle_, {IntervalStart{above, 0}, {below, 1}, {below, 2}}, is_thorough);
         EXPECT_NEAR((upper.position - Vec2(0, 0.75)).norm(), 0, 1e-9);
         EXPECT_NEAR(upper.distance, 1.25, 1e-9);
@@ -41,7 +41,7 @@ TEST_F(SitesInARow, OfTwoPointsThatWithTheSitesCounterClockwiseCounts) {
 TEST_F(SitesInARow, ANearerSiteIsAViolation) {
     const std::array nearer{point_relay({0, 1}, 0, 3)};
     triangle_.groups.push_back({3, nearer});
-    const VertexPlace place =
+    const VertexCandidate place =
         find_voronoi_vertex(triangle_, {IntervalStart{{-1, 1}, 0}, {{0, 1}, 1}, {{1, 1}, 2}}, true);
     EXPECT_NEAR((place.position - Vec2(0, 0.75)).norm(), 0, 1e-9);
     EXPECT_NEAR(place.violation, 1, 1e-9);  // 1.25 away from three sites, 0.25 from the fourth.

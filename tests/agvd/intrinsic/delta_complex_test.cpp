@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <numeric>
 
-#include "agvd/diagram/build_diagram.h"
+#include "agvd/diagram/diagram.h"
 #include "agvd/diagram/face_relays.h"
 #include "agvd/intrinsic/intrinsic_triangulation.h"
 #include "agvd/mesh/surface.h"

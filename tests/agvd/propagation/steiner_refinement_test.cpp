@@ -5,7 +5,7 @@
 #include <cstring>
 #include <string>
 
-#include "agvd/diagram/build_diagram.h"
+#include "agvd/diagram/diagram.h"
 #include "agvd/propagation/propagate.h"
 #include "support/checks.h"
 #include "support/points.h"

@@ -33,7 +33,7 @@ struct Placed {
         cut = remesh::cut_surface(surface, flags);
         intervals = remesh::curve_intervals(surface, network, spacing);
         sites = remesh::curve_sites_at(
-            network, cut, remesh::even_places(cut.surface, network, spacing, intervals));
+            network, cut, remesh::even_positions(cut.surface, network, spacing, intervals));
         chain = remesh::chain_edges(network, cut, sites);
     }
 

@@ -24,8 +24,8 @@ struct Box {
 
     // Divided evenly, and then guarded.
     [[nodiscard]] std::pair<Places, Places> at_spacing(double spacing) const {
-        const Places even = remesh::even_places(surface, network, spacing,
-                                                remesh::curve_intervals(surface, network, spacing));
+        const Places even = remesh::even_positions(
+            surface, network, spacing, remesh::curve_intervals(surface, network, spacing));
         Places guarded = even;
         remesh::guard_corners(surface, network, guarded);
         return {even, guarded};
@@ -91,7 +91,7 @@ TEST(GuardCorners, IntervalsGrowFromAShortCurveOn) {
         remesh::find_network(surface, flag_sharp_edges(surface), .001);
     ASSERT_EQ(network.curves.size(), 15u);
     const Places even =
-        remesh::even_places(surface, network, .5, remesh::curve_intervals(surface, network, .5));
+        remesh::even_positions(surface, network, .5, remesh::curve_intervals(surface, network, .5));
     Places guarded = even;
     remesh::guard_corners(surface, network, guarded);
     int num_guarded = 0;

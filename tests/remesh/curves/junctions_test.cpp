@@ -175,7 +175,7 @@ TEST(JunctionCurves, SitesHaveACopyOnEachSideAndAVertexOnEachSheet) {
         const remesh::CutSurface cut = remesh::cut_surface(mesh.surface, is_cut);
         const auto intervals = remesh::curve_intervals(mesh.surface, mesh.network, .3);
         const auto sites = remesh::curve_sites_at(
-            mesh.network, cut, remesh::even_places(cut.surface, mesh.network, .3, intervals));
+            mesh.network, cut, remesh::even_positions(cut.surface, mesh.network, .3, intervals));
         EXPECT_EQ(num_result_vertices(mesh.network, sites),
                   num_curve_vertices(mesh.network, intervals));
         Index num_there = 0, num_groups = 0;

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <set>
 
-#include "agvd/diagram/build_diagram.h"
+#include "agvd/diagram/diagram.h"
 #include "agvd/mesh/surface_points.h"
 #include "agvd/propagation/propagate.h"
 #include "support/shapes.h"
@@ -210,12 +210,12 @@ TEST(ClosedBall, EdgesOfNoLengthAreNoArcs) {
 
 TEST(SiteReason, EachHasATextOfItsOwn) {
     std::vector<std::string> texts;
-    std::set<std::string> places;
+    std::set<std::string> where;
     for (int i = 0; i <= static_cast<int>(SiteReason::SelfIntersection); ++i) {
         texts.emplace_back(to_text(static_cast<SiteReason>(i)));
-        places.emplace(place_text(static_cast<SiteReason>(i)));
+        where.emplace(where_text(static_cast<SiteReason>(i)));
     }
-    EXPECT_EQ(places.size(), 10u);
+    EXPECT_EQ(where.size(), 10u);
     EXPECT_EQ(texts.size(), 10u);
     EXPECT_TRUE(std::is_sorted(texts.begin(), texts.end()));
     EXPECT_EQ(std::adjacent_find(texts.begin(), texts.end()), texts.end());

@@ -7,7 +7,7 @@
 #include <map>
 #include <set>
 
-#include "agvd/diagram/build_diagram.h"
+#include "agvd/diagram/diagram.h"
 #include "agvd/mesh/surface_points.h"
 #include "agvd/mesh/topology.h"
 #include "agvd/propagation/propagate.h"

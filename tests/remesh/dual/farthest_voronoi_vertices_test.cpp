@@ -32,7 +32,7 @@ TEST(FarthestVoronoiVertices, AreTheFirstOfThoseFarthestFromTheSite) {
 
 TEST(FarthestVoronoiVertices, OfTheLargestCellsComeFirstAndOnce) {
     const agvd::Diagram diagram = five_cells();
-    EXPECT_EQ(remesh::places_in_largest_cells(diagram, 9), (std::vector<Index>{1, 2}));
-    EXPECT_EQ(remesh::places_in_largest_cells(diagram, 1), (std::vector<Index>{1}));
-    EXPECT_TRUE(remesh::places_in_largest_cells(diagram, 0).empty());
+    EXPECT_EQ(remesh::points_in_largest_cells(diagram, 9), (std::vector<Index>{1, 2}));
+    EXPECT_EQ(remesh::points_in_largest_cells(diagram, 1), (std::vector<Index>{1}));
+    EXPECT_TRUE(remesh::points_in_largest_cells(diagram, 0).empty());
 }

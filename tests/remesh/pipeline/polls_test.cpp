@@ -4,7 +4,7 @@
 
 #include <map>
 
-#include "agvd/diagram/build_diagram.h"
+#include "agvd/diagram/diagram.h"
 #include "agvd/intrinsic/intrinsic_triangulation.h"
 #include "agvd/propagation/propagate.h"
 #include "paper/compare_diagrams.h"

@@ -6,7 +6,7 @@
 #include <memory>
 #include <numbers>
 
-#include "agvd/diagram/build_diagram.h"
+#include "agvd/diagram/diagram.h"
 #include "agvd/mesh/closest_point.h"
 #include "agvd/mesh/surface_points.h"
 #include "agvd/propagation/propagate.h"

@@ -10,7 +10,7 @@
 #include <numeric>
 
 #include "agvd/core/random.h"
-#include "agvd/diagram/build_diagram.h"
+#include "agvd/diagram/diagram.h"
 #include "agvd/mesh/surface_points.h"
 #include "agvd/mesh/topology.h"
 #include "agvd/propagation/propagate.h"

@@ -24,7 +24,7 @@ struct SteinerNode {
     //! The half-edge, in the face that the path came through, on which the node lies (a vertex: at
     //! whose tail it lies); no_index for a vertex that is a site.
     Index from = no_index;
-    //! The place of the path's previous node on the boundary of that face: see FaceRing.
+    //! The slot of the path's previous node on the boundary of that face: see FaceRing.
     std::uint16_t parent_slot = 0;
     Index queued_in = no_index;  //!< Used by the queue; `settled` once the node is served.
 

@@ -54,7 +54,7 @@ void for_each_inner_relay(const Surface& surface, std::span<const PlacedSite> pl
 }
 
 // Calls each(relay) for the relays of a block. Calls load(face) for the faces of relays a few
-// places ahead, which are seldom in the cache.
+// entries ahead, which are seldom in the cache.
 template <typename Load, typename Each>
 void for_each_relay(const std::vector<Relay>& block, const Load& load, const Each& each) {
     constexpr std::size_t ahead = 12;
@@ -148,7 +148,7 @@ private:
             if (face.site != FaceRelays::several) continue;
             const Index begin = relays_end;
             relays_end += face.count;
-            face.count = begin;  // From here on the place of its next relay.
+            face.count = begin;  // From here on the index of its next relay.
             result_.mixed_faces[end] = f;
             result_.relay_ranges[end++] = {begin, relays_end};
         }

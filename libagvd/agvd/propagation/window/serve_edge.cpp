@@ -50,11 +50,11 @@ Index gather(WindowFront& front, Index waiting, Index envelope) {
     }
     for (Index run = waiting; run != no_index; run = store.next(run)) {
         for (const Window& window : store[run]) {
-            Index place = order.extend(1);
-            for (; place > 0 && window.begin < order[place - 1]->begin; --place) {
-                order[place] = order[place - 1];
+            Index slot = order.extend(1);
+            for (; slot > 0 && window.begin < order[slot - 1]->begin; --slot) {
+                order[slot] = order[slot - 1];
             }
-            order[place] = &window;
+            order[slot] = &window;
         }
     }
     const Index all = store.take(order.size());
@@ -100,7 +100,7 @@ Index settle(WindowFront& front, Index run, Index count) {
     return run;
 }
 
-// Inserts the windows of a run from place i on into the envelope that the first `kept` are: they
+// Inserts the windows of a run from index i on into the envelope that the first `kept` are: they
 // do not come in order.
 Index insert_rest(WindowFront& front, Index run, Index kept, Index i, const WindowFace& face) {
     const std::span<Window> windows = front.store[run];

@@ -231,10 +231,10 @@ void close_or_watch(WindowFront& front, Index record) {
     const Corners& corners = front.corners;
     const Corner& next = corners[Surface::next(edge.half_edge)];
     const Corner& previous = corners[Surface::previous(edge.half_edge)];
-    __builtin_prefetch(&front.vertices.place[previous.tail]);
+    __builtin_prefetch(&front.vertices.record_of[previous.tail]);
     __builtin_prefetch(&front.bounds[previous.tail]);
-    if (next.twin != no_index) __builtin_prefetch(&front.edges.place[next.twin]);
-    if (previous.twin != no_index) __builtin_prefetch(&front.edges.place[previous.twin]);
+    if (next.twin != no_index) __builtin_prefetch(&front.edges.record_of[next.twin]);
+    if (previous.twin != no_index) __builtin_prefetch(&front.edges.record_of[previous.twin]);
 }
 
 // False if the cap was passed; what the front then holds means nothing.

@@ -32,15 +32,17 @@ struct VertexRecord {
 
 //! Records of the vertices that a run has come to.
 struct VertexTable {
-    std::vector<Index> place;  //!< #V: the record of a vertex, if that record names the vertex.
+    std::vector<Index> record_of;  //!< #V: the record of a vertex, if that record names the vertex.
     RunArray<VertexRecord> records;
 
     //! no_index: the run has not come there.
     [[nodiscard]] Index find(Index vertex) const {
-        const Index record = place[vertex];
+        const Index record = record_of[vertex];
         return record < records.size() && records[record].vertex == vertex ? record : no_index;
     }
-    Index add(const VertexRecord& record) { return place[record.vertex] = records.push(record); }
+    Index add(const VertexRecord& record) {
+        return record_of[record.vertex] = records.push(record);
+    }
     //! \param distance  of any path on the surface.
     void lower_bound(Index record, double distance) {
         VertexRecord& v = records[record];
@@ -72,20 +74,20 @@ struct EdgeRecord {
 
 //! Records of the half-edges that a run has come to.
 struct EdgeTable {
-    std::vector<Index> place;  //!< #H: the record of a half-edge, if it names the half-edge.
+    std::vector<Index> record_of;  //!< #H: the record of a half-edge, if it names the half-edge.
     RunArray<EdgeRecord> records;
     Index num_arrivals = 0;       //!< Exceeds the number of records if some were used again.
     Index first_free = no_index;  //!< List of free records.
 
     //! no_index: the run has not come there, or has given the record back.
     [[nodiscard]] Index find(Index half_edge) const {
-        const Index record = place[half_edge];
+        const Index record = record_of[half_edge];
         return record < records.size() && records[record].half_edge == half_edge ? record
                                                                                  : no_index;
     }
     Index add(const HalfEdgeEnds& ends) {
         const EdgeRecord record{ends.half_edge, ends.tail, ends.head, num_arrivals++};
-        Index& at = place[ends.half_edge];
+        Index& at = record_of[ends.half_edge];
         if (first_free == no_index) return at = records.push(record);
         at = first_free;
         first_free = std::exchange(records[at], record).next;
@@ -189,8 +191,8 @@ struct WindowFront {
           small_run(most_kept),
           queue(buckets_per_edge / its_corners.mean_length()),
           ticker(ticker_of_thread) {
-        vertices.place.assign(surface.num_vertices(), 0);
-        edges.place.assign(surface.twin.size(), 0);
+        vertices.record_of.assign(surface.num_vertices(), 0);
+        edges.record_of.assign(surface.twin.size(), 0);
         reset(WindowQueue::Order::Buckets);
     }
     //! Prepares the next run. Keeps the memory.
@@ -209,7 +211,7 @@ struct WindowFront {
         relative_error = 0;
     }
     [[nodiscard]] std::size_t bytes() const {
-        return (vertices.place.capacity() + edges.place.capacity()) * sizeof(Index) +
+        return (vertices.record_of.capacity() + edges.record_of.capacity()) * sizeof(Index) +
                vertices.records.bytes() + edges.records.bytes() + pseudo_sources.records.bytes() +
                store.bytes() + queue.bytes();
     }
@@ -250,8 +252,8 @@ private:
 inline void watch(WindowFront& front, Index record, Index bucket) {
     WatchList& watched = front.watched;
     const Index next = watched.num_closed + 1;
-    const Index place = std::clamp(bucket, next, next + WatchList::most_ahead - 1);
-    Index& list = watched.first[place % watched.first.size()];
+    const Index slot = std::clamp(bucket, next, next + WatchList::most_ahead - 1);
+    Index& list = watched.first[slot % watched.first.size()];
     front.edges.records[record].next = std::exchange(list, record);
 }
 

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double share_of_size = 1e-6;
 constexpr double share_of_edge = 1e-2;
-// With a tolerance: below half, so that the ends of an edge are never at one place with a third
+// With a tolerance: below half, so that the ends of an edge are never at one position with a third
 // vertex.
 constexpr double share_with_tolerance = 0.49;
 // Vertices with a smaller share of the median's reach have to be equal: a cell could hold any
@@ -72,26 +72,26 @@ double median(std::vector<double> values) {
 
 }  // namespace
 
-std::vector<Index> find_places(const MeshView& mesh, const std::vector<bool>& is_wanted,
-                               Ticker& ticker, double tolerance) {
-    std::vector<Index> place = first_at_position(mesh.positions, is_wanted, ticker);
+std::vector<Index> find_common_positions(const MeshView& mesh, const std::vector<bool>& is_wanted,
+                                         Ticker& ticker, double tolerance) {
+    std::vector<Index> first = first_at_position(mesh.positions, is_wanted, ticker);
     const std::vector<double> reach =
-        find_reaches(mesh, place, tolerance > 0 ? share_with_tolerance : share_of_edge, ticker);
+        find_reaches(mesh, first, tolerance > 0 ? share_with_tolerance : share_of_edge, ticker);
     std::vector<double> finite;
     for (const double r : reach) {
         if (r < infinity) finite.push_back(r);
     }
-    if (finite.empty()) return place;
+    if (finite.empty()) return first;
     const MeshBox box = box_of(mesh);
     const double limit = std::max(tolerance, share_of_size * box.longest_side());
     const double most = std::min(median(std::move(finite)), limit);
-    if (!(most > 0)) return place;
+    if (!(most > 0)) return first;
 
-    UnionFind sets(place.size());
-    PointGrid grid(box.low, cell_size * most, place.size());
-    for (Index v = 0; v < place.size(); ++v) {
+    UnionFind sets(first.size());
+    PointGrid grid(box.low, cell_size * most, first.size());
+    for (Index v = 0; v < first.size(); ++v) {
         ticker.tick();
-        if (place[v] != v || reach[v] < least_reach * most) continue;
+        if (first[v] != v || reach[v] < least_reach * most) continue;
         const Vec3& p = mesh.positions[v];
         grid.visit_near(p, most, [&](Index other) {
             const double radius = std::min({reach[v], reach[other], most});
@@ -99,10 +99,10 @@ std::vector<Index> find_places(const MeshView& mesh, const std::vector<bool>& is
         });
         grid.add(p, v);
     }
-    for (Index& v : place) {
+    for (Index& v : first) {
         if (v != no_index) v = sets.root(v);
     }
-    return place;
+    return first;
 }
 
 }  // namespace remesh::detail
