@@ -225,7 +225,7 @@ TEST(Layering, BreachesAreSeen) {
     EXPECT_EQ(complaint("agvd/propagation/steiner/steiner_refinement.cpp",
                         "#include \"agvd/propagation/engines.h\""),
               "");
-    EXPECT_NE(complaint("remesh/pipeline/remesh.cpp", "#include \"remesh/meshfile/read_mesh.h\""),
+    EXPECT_NE(complaint("remesh/pipeline/remesh.cpp", "#include \"remesh/meshfile/mesh_file.h\""),
               "");
     EXPECT_NE(complaint("agvd/mesh/surface.cpp", "#include \"surface.h\""), "");
     EXPECT_NE(complaint("agvd/mesh/surface.cpp", "#include \"../core/types.h\""), "");

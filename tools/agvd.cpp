@@ -11,7 +11,7 @@
 #include "remesh/clean/carry.h"
 #include "remesh/meshfile/atomic_file.h"
 #include "remesh/meshfile/diagram_file.h"
-#include "remesh/meshfile/read_mesh.h"
+#include "remesh/meshfile/mesh_file.h"
 #include "remesh/sites/prepared_surface.h"
 #include "report/report.h"
 #include "shortfalls.h"

@@ -11,8 +11,8 @@
 
 #include "help.h"
 #include "mesh_paths.h"
-#include "remesh/meshfile/read_sites.h"
-#include "remesh/meshfile/write_mesh.h"
+#include "remesh/meshfile/diagram_file.h"
+#include "remesh/meshfile/mesh_file.h"
 
 namespace cli {
 namespace {

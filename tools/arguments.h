@@ -13,8 +13,8 @@
 #include "agvd/propagation/propagate.h"
 #include "cli.h"
 #include "remesh/clean/clean_input.h"
-#include "remesh/meshfile/read_mesh.h"
-#include "remesh/sites/sample_sites.h"
+#include "remesh/meshfile/mesh_file.h"
+#include "remesh/sites/sites.h"
 
 namespace CLI {
 class Option;

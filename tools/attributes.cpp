@@ -5,7 +5,7 @@
 
 #include "declined.h"
 #include "help.h"
-#include "remesh/meshfile/write_mesh.h"
+#include "remesh/meshfile/mesh_file.h"
 #include "remesh/transfer/transfer.h"
 
 namespace cli {

@@ -8,7 +8,7 @@
 
 #include "cli.h"
 #include "remesh/meshfile/atomic_file.h"
-#include "remesh/meshfile/read_mesh.h"
+#include "remesh/meshfile/mesh_file.h"
 #include "report/report.h"
 
 namespace cli {

@@ -9,7 +9,7 @@
 
 #include "mesh_paths.h"
 #include "remesh/meshfile/atomic_file.h"
-#include "remesh/meshfile/write_mesh.h"
+#include "remesh/meshfile/mesh_file.h"
 
 namespace cli {
 namespace {

@@ -3,7 +3,7 @@
 #include <map>
 #include <set>
 
-#include "remesh/meshfile/write_mesh.h"
+#include "remesh/meshfile/mesh_file.h"
 
 namespace cli {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "remesh/meshfile/read_mesh.h"
+#include "remesh/meshfile/mesh_file.h"
 
 namespace cli {
 

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "remesh/pipeline/remesh_options.h"
+#include "remesh/pipeline/remesh.h"
 
 namespace remesh {
 

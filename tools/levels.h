@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "arguments.h"
-#include "remesh/pipeline/remesh_options.h"
+#include "remesh/pipeline/remesh.h"
 #include "sizing_arguments.h"
 
 namespace cli {

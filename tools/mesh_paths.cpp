@@ -3,7 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include "agvd/core/error.h"
-#include "remesh/meshfile/write_mesh.h"
+#include "remesh/meshfile/mesh_file.h"
 
 namespace cli {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "remesh/meshfile/read_mesh.h"
+#include "remesh/meshfile/mesh_file.h"
 
 namespace CLI {
 class App;

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "cli.h"
-#include "remesh/meshfile/read_mesh.h"
+#include "remesh/meshfile/mesh_file.h"
 
 namespace cli {
 

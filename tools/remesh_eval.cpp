@@ -5,8 +5,7 @@
 #include "cli.h"
 #include "help.h"
 #include "mesh_paths.h"
-#include "remesh/meshfile/read_mesh.h"
-#include "remesh/meshfile/write_mesh.h"
+#include "remesh/meshfile/mesh_file.h"
 #include "report/report.h"
 
 namespace fs = std::filesystem;

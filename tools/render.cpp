@@ -10,7 +10,7 @@
 #include <sstream>
 
 #include "cli.h"
-#include "remesh/meshfile/read_mesh.h"
+#include "remesh/meshfile/mesh_file.h"
 #include "render/canvas.h"
 #include "render/network_lines.h"
 

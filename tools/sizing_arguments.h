@@ -6,8 +6,8 @@
 #include <string>
 
 #include "arguments.h"
-#include "remesh/meshfile/read_mesh.h"
-#include "remesh/pipeline/remesh_options.h"
+#include "remesh/meshfile/mesh_file.h"
+#include "remesh/pipeline/remesh.h"
 #include "remesh/sites/sizing.h"
 
 namespace CLI {

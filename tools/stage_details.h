@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "remesh/pipeline/remesh_result.h"
+#include "remesh/pipeline/remesh.h"
 
 namespace cli {
 

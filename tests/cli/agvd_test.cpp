@@ -4,7 +4,7 @@
 
 #include "agvd/diagram/diagram.h"
 #include "remesh/meshfile/diagram_file.h"
-#include "remesh/meshfile/read_mesh.h"
+#include "remesh/meshfile/mesh_file.h"
 #include "support/dirty_shapes.h"
 #include "support/scratch.h"
 #include "support/shapes.h"

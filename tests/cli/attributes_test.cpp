@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "remesh/meshfile/mesh_file.h"
 #include "remesh/meshfile/packed.h"
-#include "remesh/meshfile/read_mesh.h"
 #include "remesh/meshfile/xml_reader.h"
 #include "support/scratch.h"
 #include "support/shapes.h"

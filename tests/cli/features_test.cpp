@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "remesh/meshfile/read_mesh.h"
+#include "remesh/meshfile/mesh_file.h"
 #include "support/crease_checks.h"
 #include "support/junction_shapes.h"
 #include "support/parts.h"

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/remesh_program.h"
-#include "remesh/meshfile/read_mesh.h"
+#include "remesh/meshfile/mesh_file.h"
 #include "support/shapes.h"
 
 namespace fs = std::filesystem;

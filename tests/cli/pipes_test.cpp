@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "remesh/meshfile/read_mesh.h"
+#include "remesh/meshfile/mesh_file.h"
 #include "support/scratch.h"
 #include "support/shapes.h"
 

@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "cli/remesh_program.h"
-#include "remesh/meshfile/read_mesh.h"
+#include "remesh/meshfile/mesh_file.h"
 #include "support/shapes.h"
 
 namespace {

@@ -3,7 +3,7 @@
 
 #include "agvd/mesh/topology.h"
 #include "cli/remesh_program.h"
-#include "remesh/meshfile/read_mesh.h"
+#include "remesh/meshfile/mesh_file.h"
 #include "remesh/meshfile/xml_reader.h"
 #include "support/dirty_shapes.h"
 #include "support/shapes.h"

@@ -1,4 +1,3 @@
-#include <remesh/meshfile/read_mesh.h>
-#include <remesh/meshfile/write_mesh.h>
+#include <remesh/meshfile/mesh_file.h>
 
 int main(int, char** argv) { remesh::write_mesh(argv[2], remesh::read_mesh(argv[1]).mesh.view()); }

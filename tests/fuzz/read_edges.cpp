@@ -1,5 +1,5 @@
 // The reader of files that name edges.
-#include "remesh/meshfile/read_sites.h"
+#include "remesh/meshfile/diagram_file.h"
 
 #include "agvd/core/error.h"
 #include "memory_file.h"

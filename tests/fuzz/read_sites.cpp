@@ -1,5 +1,5 @@
 // The reader of sites files, for a grid of 18 faces with one vertex that is in none.
-#include "remesh/meshfile/read_sites.h"
+#include "remesh/meshfile/diagram_file.h"
 
 #include <cmath>
 

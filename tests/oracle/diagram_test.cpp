@@ -8,7 +8,7 @@
 #include "agvd/mesh/surface_points.h"
 #include "agvd/propagation/propagate.h"
 #include "paper/compare.h"
-#include "remesh/meshfile/read_mesh.h"
+#include "remesh/meshfile/mesh_file.h"
 #include "support/files.h"
 #include "support/points.h"
 #include "support/shapes.h"

@@ -18,7 +18,7 @@
 #include "agvd/propagation/propagate.h"
 #include "paper/oracle.h"
 #include "remesh/clean/clean_input.h"
-#include "remesh/meshfile/read_mesh.h"
+#include "remesh/meshfile/mesh_file.h"
 #include "support/arbiter.h"
 #include "support/checks.h"
 #include "support/dice.h"

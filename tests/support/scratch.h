@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "agvd/mesh/mesh.h"
-#include "remesh/meshfile/write_mesh.h"
+#include "remesh/meshfile/mesh_file.h"
 #include "support/process.h"
 
 class Scratch : public testing::Test {

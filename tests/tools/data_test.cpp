@@ -13,8 +13,7 @@
 #include "make_data/data_files.h"
 #include "make_data/formula.h"
 #include "make_data/planar.h"
-#include "remesh/meshfile/read_mesh.h"
-#include "remesh/meshfile/write_mesh.h"
+#include "remesh/meshfile/mesh_file.h"
 #include "support/shapes.h"
 
 namespace {

@@ -5,7 +5,7 @@
 #include <regex>
 
 #include "agvd/core/error.h"
-#include "remesh/meshfile/read_mesh.h"
+#include "remesh/meshfile/mesh_file.h"
 #include "remesh/pipeline/remesh.h"
 #include "remesh/quality/evaluate.h"
 #include "report/report.h"

@@ -6,8 +6,7 @@
 
 #include "cli.h"
 #include "make_data/data_files.h"
-#include "remesh/meshfile/read_mesh.h"
-#include "remesh/meshfile/write_mesh.h"
+#include "remesh/meshfile/mesh_file.h"
 #include "support/damages.h"
 #include "support/delta_shapes.h"
 #include "support/junction_shapes.h"

@@ -2,7 +2,7 @@
 #include <map>
 #include <set>
 
-#include "remesh/meshfile/read_mesh.h"
+#include "remesh/meshfile/mesh_file.h"
 #include "support/damages.h"
 #include "support/scratch.h"
 #include "support/shapes.h"

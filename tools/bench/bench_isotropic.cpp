@@ -9,8 +9,7 @@
 #include "cli.h"
 #include "remesh/clean/clean_input.h"
 #include "remesh/meshfile/face_graph.h"
-#include "remesh/meshfile/read_mesh.h"
-#include "remesh/meshfile/write_mesh.h"
+#include "remesh/meshfile/mesh_file.h"
 
 namespace {
 

@@ -8,7 +8,7 @@
 #include "bench/report.h"
 #include "bench/timing.h"
 #include "cli.h"
-#include "remesh/meshfile/read_mesh.h"
+#include "remesh/meshfile/mesh_file.h"
 #include "remesh/pipeline/remesh.h"
 #include "remesh/quality/evaluate.h"
 

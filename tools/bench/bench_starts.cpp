@@ -11,7 +11,7 @@
 #include "bench/report.h"
 #include "cli.h"
 #include "remesh/sites/prepared_surface.h"
-#include "remesh/sites/relax_sites.h"
+#include "remesh/sites/sites.h"
 
 namespace {
 

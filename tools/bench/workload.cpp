@@ -5,8 +5,8 @@
 #include "agvd/core/error.h"
 #include "agvd/core/random.h"
 #include "bench/torus.h"
-#include "remesh/meshfile/read_mesh.h"
-#include "remesh/sites/sample_sites.h"
+#include "remesh/meshfile/mesh_file.h"
+#include "remesh/sites/sites.h"
 
 namespace bench {
 namespace {

@@ -1,6 +1,6 @@
 #include "make_data/data_files.h"
 
-#include "remesh/meshfile/write_mesh.h"
+#include "remesh/meshfile/mesh_file.h"
 
 namespace make_data {
 

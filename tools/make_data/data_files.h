@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "agvd/mesh/mesh.h"
-#include "remesh/meshfile/read_mesh.h"
+#include "remesh/meshfile/mesh_file.h"
 
 namespace make_data {
 

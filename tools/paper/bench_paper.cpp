@@ -12,7 +12,7 @@
 #include "paper/paper_columns.h"
 #include "paper/paper_plots.h"
 #include "remesh/clean/clean_input.h"
-#include "remesh/meshfile/read_mesh.h"
+#include "remesh/meshfile/mesh_file.h"
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include <ctime>
 #include <iostream>
 
-#include "remesh/meshfile/read_mesh.h"
+#include "remesh/meshfile/mesh_file.h"
 #include "remesh/pipeline/remesh.h"
 #include "remesh/transfer/transfer.h"
 #include "report/report.h"

@@ -4,7 +4,7 @@
 
 #include "remesh/clean/clean_input.h"
 #include "remesh/curves/find_creases.h"
-#include "remesh/meshfile/read_mesh.h"
+#include "remesh/meshfile/mesh_file.h"
 #include "remesh/sites/network_plan.h"
 #include "remesh/sites/prepared_surface.h"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "paper/compare_diagrams.h"
-#include "remesh/meshfile/read_mesh.h"
+#include "remesh/meshfile/mesh_file.h"
 #include "remesh/pipeline/remesh.h"
 #include "remesh/quality/evaluate.h"
 

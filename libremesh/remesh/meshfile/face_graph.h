@@ -7,7 +7,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "remesh/meshfile/read_mesh.h"
+#include "remesh/meshfile/mesh_file.h"
 
 namespace remesh {
 namespace detail {

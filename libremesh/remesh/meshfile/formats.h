@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "remesh/meshfile/read_mesh.h"
+#include "remesh/meshfile/mesh_file.h"
 #include "remesh/meshfile/source_file.h"
 
 namespace remesh {

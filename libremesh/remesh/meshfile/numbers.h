@@ -8,7 +8,7 @@
 #include <cstring>
 #include <limits>
 
-#include "remesh/meshfile/read_mesh.h"
+#include "remesh/meshfile/mesh_file.h"
 
 namespace remesh {
 

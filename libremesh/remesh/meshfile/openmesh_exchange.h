@@ -8,7 +8,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "remesh/meshfile/read_mesh.h"
+#include "remesh/meshfile/mesh_file.h"
 
 namespace remesh {
 

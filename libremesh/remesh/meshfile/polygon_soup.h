@@ -2,7 +2,7 @@
 //! Vertices, polygons, strips and volume cells as in the file. Private to the readers.
 #pragma once
 
-#include "remesh/meshfile/read_mesh.h"
+#include "remesh/meshfile/mesh_file.h"
 #include "remesh/meshfile/source_file.h"
 
 namespace remesh {

@@ -1,5 +1,5 @@
 
-#include "remesh/meshfile/read_sites.h"
+#include "remesh/meshfile/diagram_file.h"
 
 #include <algorithm>
 #include <cmath>

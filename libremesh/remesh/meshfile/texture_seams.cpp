@@ -1,7 +1,7 @@
 #include <limits>
 
 #include "agvd/mesh/any_mesh.h"
-#include "remesh/meshfile/read_mesh.h"
+#include "remesh/meshfile/mesh_file.h"
 #include "remesh/meshfile/text.h"
 
 namespace remesh {

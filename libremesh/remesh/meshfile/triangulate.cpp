@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "remesh/meshfile/read_mesh.h"
+#include "remesh/meshfile/mesh_file.h"
 
 namespace remesh {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <bit>
 
-#include "remesh/meshfile/read_mesh.h"
+#include "remesh/meshfile/mesh_file.h"
 #include "remesh/meshfile/source_file.h"
 
 namespace remesh {

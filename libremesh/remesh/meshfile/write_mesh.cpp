@@ -1,6 +1,6 @@
 // How far positions move where a format stores them in single precision, as STL does. Coordinates
 // far from the origin, such as those of maps, lose the digits that tell their vertices apart.
-#include "remesh/meshfile/write_mesh.h"
+#include "remesh/meshfile/mesh_file.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -4,7 +4,7 @@
 
 #include "agvd/mesh/surface.h"
 #include "remesh/curves/curve_network.h"
-#include "remesh/pipeline/remesh_options.h"
+#include "remesh/pipeline/remesh.h"
 
 namespace remesh::detail {
 

@@ -5,8 +5,7 @@
 #include <algorithm>
 
 #include "agvd/mesh/any_mesh.h"
-#include "remesh/pipeline/remesh_options.h"
-#include "remesh/pipeline/remesh_result.h"
+#include "remesh/pipeline/remesh.h"
 
 namespace remesh::detail {
 

@@ -1,4 +1,4 @@
-#include "remesh/pipeline/remesh_options.h"
+#include "remesh/pipeline/remesh.h"
 
 #include <array>
 

@@ -4,8 +4,7 @@
 
 #include <chrono>
 
-#include "remesh/pipeline/remesh_options.h"
-#include "remesh/pipeline/remesh_result.h"
+#include "remesh/pipeline/remesh.h"
 
 namespace remesh::detail {
 

@@ -12,7 +12,7 @@
 #include "remesh/curves/glue.h"
 #include "remesh/sites/cell_measures.h"
 #include "remesh/sites/prepared_surface.h"
-#include "remesh/sites/sample_sites.h"
+#include "remesh/sites/sites.h"
 
 namespace remesh {
 

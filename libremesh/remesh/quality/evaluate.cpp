@@ -10,7 +10,7 @@
 #include "remesh/clean/soup.h"
 #include "remesh/curves/find_creases.h"
 #include "remesh/sites/prepared_surface.h"
-#include "remesh/sites/sample_sites.h"
+#include "remesh/sites/sites.h"
 
 namespace remesh {
 namespace {

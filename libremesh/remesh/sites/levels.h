@@ -3,8 +3,8 @@
 //! measurements of the surface between them.
 #pragma once
 
-#include "remesh/sites/relax_sites.h"
 #include "remesh/sites/relaxation.h"
+#include "remesh/sites/sites.h"
 
 namespace remesh::detail {
 

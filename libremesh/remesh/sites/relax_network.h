@@ -4,7 +4,7 @@
 
 #include "remesh/sites/network_plan.h"
 #include "remesh/sites/prepared_surface.h"
-#include "remesh/sites/relax_sites.h"
+#include "remesh/sites/sites.h"
 
 namespace remesh {
 

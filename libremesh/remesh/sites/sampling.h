@@ -12,7 +12,7 @@
 #include "agvd/mesh/topology.h"
 #include "agvd/propagation/distance_bounds.h"
 #include "remesh/curves/curve_sites.h"
-#include "remesh/sites/sample_sites.h"
+#include "remesh/sites/sites.h"
 
 namespace remesh {
 

@@ -12,7 +12,7 @@
 #include "agvd/core/progress.h"
 #include "agvd/mesh/any_mesh.h"
 #include "agvd/mesh/closest_point.h"
-#include "remesh/meshfile/read_mesh.h"
+#include "remesh/meshfile/mesh_file.h"
 
 namespace remesh::detail {
 

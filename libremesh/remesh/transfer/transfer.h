@@ -10,7 +10,7 @@
 
 #include "agvd/core/progress.h"
 #include "agvd/mesh/mesh.h"
-#include "remesh/meshfile/read_mesh.h"
+#include "remesh/meshfile/mesh_file.h"
 
 namespace remesh {
 

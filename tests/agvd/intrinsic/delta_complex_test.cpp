@@ -14,7 +14,7 @@
 #include "agvd/propagation/propagate.h"
 #include "remesh/clean/clean_input.h"
 #include "remesh/dual/build_dual.h"
-#include "remesh/meshfile/read_mesh.h"
+#include "remesh/meshfile/mesh_file.h"
 #include "support/arbiter.h"
 #include "support/checks.h"
 #include "support/delta_shapes.h"

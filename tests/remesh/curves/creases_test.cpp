@@ -7,7 +7,7 @@
 #include "remesh/clean/clean_input.h"
 #include "remesh/curves/crease_chains.h"
 #include "remesh/curves/find_creases.h"
-#include "remesh/meshfile/read_mesh.h"
+#include "remesh/meshfile/mesh_file.h"
 #include "support/files.h"
 #include "support/parts.h"
 #include "support/shapes.h"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "remesh/meshfile/write_mesh.h"
+#include "remesh/meshfile/mesh_file.h"
 #include "remesh/transfer/transfer.h"
 #include "support/read_text.h"
 #include "support/shapes.h"

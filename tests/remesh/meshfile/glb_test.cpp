@@ -4,8 +4,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
-#include "remesh/meshfile/read_mesh.h"
-#include "remesh/meshfile/write_mesh.h"
+#include "remesh/meshfile/mesh_file.h"
 #include "support/read_text.h"
 #include "support/scratch.h"
 #include "support/shapes.h"

@@ -4,8 +4,7 @@
 
 #include "agvd/core/error.h"
 #include "agvd/core/progress.h"
-#include "remesh/meshfile/read_mesh.h"
-#include "remesh/meshfile/write_mesh.h"
+#include "remesh/meshfile/mesh_file.h"
 #include "support/files.h"
 #include "support/shapes.h"
 

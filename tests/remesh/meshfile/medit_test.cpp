@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "remesh/meshfile/write_mesh.h"
+#include "remesh/meshfile/mesh_file.h"
 #include "support/read_text.h"
 #include "support/shapes.h"
 

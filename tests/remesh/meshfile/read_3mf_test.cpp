@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
+#include "remesh/meshfile/mesh_file.h"
 #include "remesh/meshfile/packed.h"
-#include "remesh/meshfile/write_mesh.h"
 #include "remesh/meshfile/xml_reader.h"
 #include "support/read_text.h"
 #include "support/shapes.h"

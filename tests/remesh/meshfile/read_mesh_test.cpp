@@ -1,12 +1,10 @@
-#include "remesh/meshfile/read_mesh.h"
+#include "remesh/meshfile/mesh_file.h"
 
 #include <gtest/gtest.h>
 
 #include "agvd/mesh/topology.h"
 #include "remesh/meshfile/diagram_file.h"
 #include "remesh/meshfile/numbers.h"
-#include "remesh/meshfile/read_sites.h"
-#include "remesh/meshfile/write_mesh.h"
 #include "support/files.h"
 #include "support/read_text.h"
 #include "support/shapes.h"

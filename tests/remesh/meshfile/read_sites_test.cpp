@@ -1,4 +1,4 @@
-#include "remesh/meshfile/read_sites.h"
+#include "remesh/meshfile/diagram_file.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "agvd/core/error.h"
-#include "remesh/meshfile/write_mesh.h"
+#include "remesh/meshfile/mesh_file.h"
 #include "support/shapes.h"
 
 using agvd::Vec3;

@@ -1,4 +1,4 @@
-#include "remesh/meshfile/read_mesh.h"
+#include "remesh/meshfile/mesh_file.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include <cstring>
 
 #include "agvd/mesh/topology.h"
-#include "remesh/meshfile/write_mesh.h"
+#include "remesh/meshfile/mesh_file.h"
 #include "support/read_text.h"
 #include "support/shapes.h"
 

@@ -4,7 +4,7 @@
 #include <cstring>
 
 #include "agvd/core/progress.h"
-#include "remesh/meshfile/write_mesh.h"
+#include "remesh/meshfile/mesh_file.h"
 #include "remesh/meshfile/xml_reader.h"
 #include "support/read_text.h"
 #include "support/shapes.h"

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "agvd/core/error.h"
+#include "remesh/meshfile/mesh_file.h"
 #include "remesh/meshfile/packed.h"
-#include "remesh/meshfile/read_mesh.h"
 #include "remesh/meshfile/vtk_data.h"
 #include "remesh/meshfile/xml_reader.h"
 #include "support/scratch.h"

@@ -1,4 +1,4 @@
-#include "remesh/meshfile/write_mesh.h"
+#include "remesh/meshfile/mesh_file.h"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -8,7 +8,6 @@
 
 #include "agvd/core/error.h"
 #include "remesh/meshfile/atomic_file.h"
-#include "remesh/meshfile/read_mesh.h"
 #include "support/files.h"
 #include "support/shapes.h"
 

@@ -11,11 +11,11 @@
 
 #include "agvd/mesh/closest_point.h"
 #include "agvd/mesh/surface_points.h"
-#include "remesh/meshfile/read_mesh.h"
+#include "remesh/meshfile/mesh_file.h"
 #include "remesh/pipeline/remesh.h"
 #include "remesh/placement/placement.h"
 #include "remesh/quality/evaluate.h"
-#include "remesh/sites/sample_sites.h"
+#include "remesh/sites/sites.h"
 #include "support/crease_checks.h"
 #include "support/dice.h"
 #include "support/files.h"

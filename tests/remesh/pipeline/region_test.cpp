@@ -12,7 +12,7 @@
 
 #include "agvd/core/error.h"
 #include "agvd/mesh/topology.h"
-#include "remesh/meshfile/read_mesh.h"
+#include "remesh/meshfile/mesh_file.h"
 #include "remesh/pipeline/remesh.h"
 #include "remesh/quality/evaluate.h"
 #include "support/dice.h"

@@ -7,7 +7,7 @@
 #include <set>
 #include <thread>
 
-#include "remesh/meshfile/read_mesh.h"
+#include "remesh/meshfile/mesh_file.h"
 #include "remesh/pipeline/remesh.h"
 #include "support/dirty_shapes.h"
 #include "support/files.h"

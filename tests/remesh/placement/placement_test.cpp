@@ -14,7 +14,7 @@
 #include "remesh/placement/placement.h"
 #include "remesh/quality/evaluate.h"
 #include "remesh/sites/prepared_surface.h"
-#include "remesh/sites/relax_sites.h"
+#include "remesh/sites/sites.h"
 #include "support/shapes.h"
 
 using namespace agvd;

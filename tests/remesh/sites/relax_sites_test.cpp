@@ -1,5 +1,5 @@
 // What relaxation promises, on surfaces of all kinds.
-#include "remesh/sites/relax_sites.h"
+#include "remesh/sites/sites.h"
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@
 #include "agvd/mesh/topology.h"
 #include "agvd/propagation/propagate.h"
 #include "remesh/dual/closed_ball.h"
-#include "remesh/meshfile/read_mesh.h"
+#include "remesh/meshfile/mesh_file.h"
 #include "remesh/sites/levels.h"
 #include "remesh/sites/prepared_surface.h"
 #include "remesh/sites/relaxation.h"

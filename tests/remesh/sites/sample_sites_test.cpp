@@ -1,4 +1,4 @@
-#include "remesh/sites/sample_sites.h"
+#include "remesh/sites/sites.h"
 
 #include <gtest/gtest.h>
 

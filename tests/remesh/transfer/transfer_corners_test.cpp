@@ -13,7 +13,7 @@
 
 #include "agvd/core/error.h"
 #include "agvd/core/random.h"
-#include "remesh/meshfile/read_mesh.h"
+#include "remesh/meshfile/mesh_file.h"
 #include "remesh/pipeline/remesh.h"
 #include "support/dirty_shapes.h"
 #include "support/shapes.h"

@@ -9,7 +9,7 @@
 
 #include "agvd/core/error.h"
 #include "agvd/mesh/mesh.h"
-#include "remesh/meshfile/read_mesh.h"
+#include "remesh/meshfile/mesh_file.h"
 #include "remesh/pipeline/remesh.h"
 #include "support/files.h"
 #include "support/shapes.h"

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "agvd/mesh/mesh.h"
-#include "remesh/meshfile/read_mesh.h"
+#include "remesh/meshfile/mesh_file.h"
 
 namespace python {
 

@@ -8,8 +8,7 @@
 #include "binding/python_progress.h"
 #include "declined.h"
 #include "remesh/meshfile/atomic_file.h"
-#include "remesh/meshfile/read_mesh.h"
-#include "remesh/meshfile/write_mesh.h"
+#include "remesh/meshfile/mesh_file.h"
 
 namespace python {
 namespace {

@@ -7,7 +7,7 @@
 #include "binding/given_surface.h"
 #include "binding/option_names.h"
 #include "remesh/sites/prepared_surface.h"
-#include "remesh/sites/relax_sites.h"
+#include "remesh/sites/sites.h"
 #include "report/report_common.h"
 
 namespace python {

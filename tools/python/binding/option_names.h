@@ -4,7 +4,7 @@
 
 #include "agvd/propagation/propagate.h"
 #include "binding/choose.h"
-#include "remesh/sites/sample_sites.h"
+#include "remesh/sites/sites.h"
 
 namespace python {
 
