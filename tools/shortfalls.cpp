@@ -51,11 +51,11 @@ std::string describe_crossings(const remesh::RemeshResult& result, const std::st
     if (fresh == 0) {
         const bool has_sites = result.added_because.contains(remesh::SiteReason::SelfIntersection);
         return text + "; they are where the input intersects itself, and " + more + " give more" +
-               (has_sites ? "" : ", so that no sites were added there") + "; mend the input";
+               (has_sites ? "" : ", so that no sites were added there") + "; repair the input";
     }
     return text + "; " + std::to_string(fresh) +
            " are not where the input intersects itself: for these use " + more +
-           ", for the others mend the input";
+           ", for the others repair the input";
 }
 
 // \throw agvd::ConstraintUnmet  with --strict.

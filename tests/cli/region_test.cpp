@@ -90,7 +90,7 @@ TEST_F(RemeshRegion, MarkedFacesOnlyAreRemeshed) {
     EXPECT_GT(num_nan, 100);
     const nlohmann::json report = nlohmann::json::parse(outcome.out);
     EXPECT_EQ(report["kept"]["kept_faces"], kept.size());
-    EXPECT_EQ(report["kept"]["seam_edges"].get<int>() > 20, true);
+    EXPECT_EQ(report["kept"]["rim_edges"].get<int>() > 20, true);
     EXPECT_EQ(report["options"]["region"], true);
 }
 

@@ -147,7 +147,7 @@ TEST_F(Remesh, WhereTheInputIntersectsItselfMoreSamplesAreNoAdvice) {
     const auto told = remesh({in, at("out.off"), "-n", "400", "-q"});
     EXPECT_EQ(told.exit_code, 0) << told.err;
     EXPECT_NE(told.err.find("where the input intersects itself, and more --samples give more, so "
-                            "that no sites were added there; mend the input\n"),
+                            "that no sites were added there; repair the input\n"),
               std::string::npos)
         << told.err;
     EXPECT_EQ(told.err.find("use more"), std::string::npos) << told.err;
@@ -156,7 +156,7 @@ TEST_F(Remesh, WhereTheInputIntersectsItselfMoreSamplesAreNoAdvice) {
     const agvd::TriangleMesh spheres =
         shapes::join(shapes::sphere(2), shapes::moved(shapes::sphere(2), {1.2, 0.1, 0}));
     const auto tried = remesh({put("few.off", spheres), at("out.off"), "-n", "400", "-q"});
-    EXPECT_NE(tried.err.find("more --samples give more; mend the input\n"), std::string::npos)
+    EXPECT_NE(tried.err.find("more --samples give more; repair the input\n"), std::string::npos)
         << tried.err;
     // Two shells run through each other besides.
     agvd::TriangleMesh inner = shapes::sphere(2);
@@ -168,7 +168,7 @@ TEST_F(Remesh, WhereTheInputIntersectsItselfMoreSamplesAreNoAdvice) {
                 at("out.off"), "-n", "60", "-q"});
     EXPECT_EQ(both.exit_code, 0) << both.err;
     EXPECT_NE(both.err.find(" are not where the input intersects itself: for these use more "
-                            "--samples, for the others mend the input\n"),
+                            "--samples, for the others repair the input\n"),
               std::string::npos)
         << both.err;
 }

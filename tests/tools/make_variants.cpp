@@ -151,6 +151,6 @@ int main(int argc, char** argv) {
     app.add_option("SEED", arguments.seed, "Of all choices")->required();
     app.add_option("MESH", arguments.meshes,
                    "Meshes to damage besides the generated ones; larger ones than 150 000 faces "
-                   "are passed over");
+                   "are skipped");
     return cli::run(app, argc, argv, [&] { make_variants(arguments); });
 }

@@ -25,7 +25,7 @@ remesh::RemeshResult example_result() {
     result.sites_moved = 12;
     result.sites_removed = 13;
     result.sites_dropped = 6;
-    result.components_thinned = 14;
+    result.components_simplified = 14;
     result.unfitted_vertices = 15;
     result.self_intersections = 17;
     result.input_self_intersections = 16;
@@ -37,7 +37,7 @@ remesh::RemeshResult example_result() {
                        .dropped_length = 2.75,
                        .uncarried_curves = 24,
                        .samples_for_all = 25,
-                       .thinned_patches = 26,
+                       .simplified_patches = 26,
                        .gave_up = true,
                        .seam_length = 1.25,
                        .dropped_seam_length = 0.75};
@@ -152,7 +152,7 @@ TEST(RemeshReport, GivesEveryFieldOfTheResult) {
                                         {"dropped_crease_length_mesh_units", 2.75},
                                         {"curves_off_given_sites", 24},
                                         {"samples_for_all", 25},
-                                        {"thinned_patches", 26},
+                                        {"simplified_patches", 26},
                                         {"gave_up", true},
                                         {"texture_seam_length_mesh_units", 1.25},
                                         {"dropped_texture_seam_length_mesh_units", 0.75}}));

@@ -42,7 +42,7 @@ remesh::RemeshResult some_result() {
     result.sites_moved = 10;
     result.sites_removed = 13;
     result.sites_dropped = 14;
-    result.components_thinned = 15;
+    result.components_simplified = 15;
     result.added_because = {{remesh::SiteReason::NoDisc, 16},
                             {remesh::SiteReason::SelfIntersection, 17}};
     result.delaunay.failing_before = 18;

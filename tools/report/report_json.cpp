@@ -146,7 +146,7 @@ Json to_json(const FeatureCounts& counts) {
             {"dropped_crease_length_mesh_units", counts.dropped_length},
             {"curves_off_given_sites", counts.uncarried_curves},
             {"samples_for_all", counts.samples_for_all},
-            {"thinned_patches", counts.thinned_patches},
+            {"simplified_patches", counts.simplified_patches},
             {"gave_up", counts.gave_up},
             {"texture_seam_length_mesh_units", counts.seam_length},
             {"dropped_texture_seam_length_mesh_units", counts.dropped_seam_length}};
@@ -166,7 +166,7 @@ Json to_json(const KeptPart& kept) {
     if (kept.faces.empty()) return {};
     return {{"kept_vertices", kept.vertices.size()},
             {"kept_faces", kept.faces.size()},
-            {"seam_edges", kept.seam_edges}};
+            {"rim_edges", kept.rim_edges}};
 }
 
 Json to_json(const Sizing& sizing) {
@@ -313,7 +313,7 @@ std::string to_json(const RemeshResult& result, const RunInfo& info) {
     for (const auto& [reason, count] : result.added_because) reasons[to_text(reason)] = count;
     object["sites_moved"] = result.sites_moved;
     object["sites_removed"] = result.sites_removed;
-    object["components_from_faces"] = result.components_thinned;
+    object["components_from_faces"] = result.components_simplified;
     object["sites_dropped"] = result.sites_dropped;
     object["features"] = to_json(result.features);
     object["junctions"] = to_json(result.junctions);

@@ -92,8 +92,8 @@ std::string describe(const FeatureCounts& features) {
     add_length(features.seam_length, "texture seams kept");
     add_length(features.dropped_seam_length,
                "texture seams left out as too short or too close to each other");
-    if (features.thinned_patches > 0) {
-        text += "; " + counted(features.thinned_patches, "patch") +
+    if (features.simplified_patches > 0) {
+        text += "; " + counted(features.simplified_patches, "patch") +
                 " between them thinned to the sites, because cells failed there";
     }
     return text;
@@ -104,7 +104,7 @@ std::string describe(const KeptPart& kept, std::size_t num_faces) {
     if (kept.faces.empty()) return "";
     return "\nregion: " + counted(num_faces - kept.faces.size(), "face") + " of the result, " +
            counted(kept.faces.size(), "face") + " stayed as they were; " +
-           counted(kept.seam_edges, "edge") + " between them";
+           counted(kept.rim_edges, "edge") + " between them";
 }
 
 // Empty for manifolds.
@@ -213,8 +213,8 @@ std::string describe_repair(const RemeshResult& result) {
     for (const auto& [reason, count] : result.added_because) {
         text += "\n  " + counted(count, "site") + " added " + where_text(reason);
     }
-    if (result.components_thinned > 0) {
-        text += "\n" + counted(result.components_thinned, "component") +
+    if (result.components_simplified > 0) {
+        text += "\n" + counted(result.components_simplified, "component") +
                 " thinned to the sites, because cells failed there";
     }
     return text;

@@ -40,7 +40,7 @@ template <typename Scalar>
     if (!(corner >= 0) || !(static_cast<double>(corner) < static_cast<double>(no_index))) {
         throw InvalidInput("face " + std::to_string(face) + " names vertex " +
                            std::to_string(corner) +
-                           ", which is no index; vertices are counted from 0");
+                           ", which is not the index of a vertex; vertices are counted from 0");
     }
     return static_cast<Index>(corner);
 }
@@ -78,7 +78,7 @@ struct NumberIn<Element> {
 
 //! A range of numbers, or of std::array, C arrays or vectors of three, as a matrix of three
 //! columns.
-//! \throw InvalidInput  the number of numbers is no multiple of three.
+//! \throw InvalidInput  the number of numbers is not a multiple of three.
 template <std::ranges::contiguous_range Range>
 [[nodiscard]] auto rows_of(const Range& range, const char* name) {
     using Element = std::ranges::range_value_t<Range>;
@@ -89,7 +89,7 @@ template <std::ranges::contiguous_range Range>
     const auto size = static_cast<std::size_t>(std::ranges::size(range));
     if (size % step != 0) {
         throw InvalidInput("the array of " + std::string(name) + " has " + std::to_string(size) +
-                           " numbers, which is no multiple of 3");
+                           " numbers, which is not a multiple of 3");
     }
     return RowsOfThree<Number>(reinterpret_cast<const Number*>(std::ranges::data(range)),
                                static_cast<Eigen::Index>(size / step), 3);
@@ -141,7 +141,7 @@ template <typename V, typename F>
 //! A mesh of two arrays: std::vector, std::span, std::array, ... of numbers (x0 y0 z0 x1 ...), or
 //! of structures of three that have [] (std::array, C arrays, most libraries' vectors). Doubles and
 //! 32-bit integers are not copied.
-//! \throw InvalidInput  a number of numbers is no multiple of three, or a corner that is copied is
+//! \throw InvalidInput  a number of numbers is not a multiple of three, or a corner that is copied is
 //!        no index.
 //! Cost: O(1) for what is not copied, else O(n).
 template <std::ranges::contiguous_range Positions, std::ranges::contiguous_range Triangles>

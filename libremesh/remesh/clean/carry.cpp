@@ -193,7 +193,7 @@ std::vector<std::uint8_t> carry_edges(std::span<const std::array<Index, 2>> edge
         if (face.area < 0) {
             throw InvalidInput("the feature edge between vertices " + std::to_string(ends.first) +
                                " and " + std::to_string(ends.second) +
-                               " is no edge of the mesh; name the two ends of an edge, "
+                               " is not an edge of the mesh; name the two ends of an edge, "
                                "counted from 0");
         }
         if (face.area > 0) middles.push_back(face.middle);

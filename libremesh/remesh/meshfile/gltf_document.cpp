@@ -54,7 +54,7 @@ GltfDocument::GltfDocument(SourceFile& file) : file_(file), file_size_(file.byte
     json_ = nlohmann::json::parse(begin, begin + text_.size, is_flat, false);
     if (!json_.is_object()) {
         fail(
-            "this is no glTF file, as it neither begins with 'glTF' nor is a JSON object; check "
+            "this is not a glTF file, as it neither begins with 'glTF' nor is a JSON object; check "
             "its extension");
     }
     const auto asset = json_.find("asset");
@@ -126,7 +126,7 @@ std::string GltfDocument::resource(const std::string& uri) const {
             const auto bytes = ByteSource(text, true).take(num_digits * 3 / 4, buffer, ticker);
             if (bytes) return std::string(*bytes);
         }
-        fail("the data in a URI are no base64");
+        fail("the data in a URI are not base64");
     }
     const std::filesystem::path path = without_escapes(uri);
     if (path.empty() || path.is_absolute() || uri.find("://") != std::string::npos) {
@@ -179,7 +179,7 @@ const nlohmann::json& GltfDocument::list(const nlohmann::json& object, const cha
     static const nlohmann::json empty = nlohmann::json::array();
     const auto found = object.find(key);
     if (found == object.end()) return empty;
-    if (!found->is_array()) fail(key, " is no list");
+    if (!found->is_array()) fail(key, " is not a list");
     return *found;
 }
 
@@ -187,7 +187,7 @@ std::optional<std::uint64_t> GltfDocument::number(const nlohmann::json& object,
                                                   const char* key) const {
     const auto found = object.find(key);
     if (found == object.end()) return std::nullopt;
-    if (!found->is_number_unsigned()) fail(key, " is no whole number from 0");
+    if (!found->is_number_unsigned()) fail(key, " is not a whole number from 0");
     return found->get<std::uint64_t>();
 }
 
@@ -198,7 +198,7 @@ std::optional<std::vector<double>> GltfDocument::numbers(const nlohmann::json& o
     std::vector<double> values;
     for (const nlohmann::json& value : all) {
         values.push_back(value.is_number() ? value.get<double>() : std::nan(""));
-        if (!std::isfinite(values.back())) fail(key, " has a value that is no number");
+        if (!std::isfinite(values.back())) fail(key, " has a value that is not a number");
     }
     if (values.size() != count) {
         fail(key, " does not have ", count, " numbers");

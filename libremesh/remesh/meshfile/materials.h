@@ -18,7 +18,7 @@ public:
     //! \param index    the element's; those before may have had no colour.
     //! \param numbers  what stands behind the element: none, or three or four if it has a colour.
     void take(std::size_t index, std::span<const double> numbers);
-    //! Some word is no number.
+    //! Some word is not a number.
     void spoil() { is_broken_ = true; }
 
     //! Adds red, green, blue, and alpha if there is one. They are declined unless all elements have

@@ -17,7 +17,7 @@ namespace {
 
 constexpr const char* ref_name = "ref";
 
-// A list of the file. Those that are passed over have some numbers for each element.
+// A list of the file. Those that are skipped have some numbers for each element.
 struct MeditList {
     enum class Kind { Vertices, Faces, Volumes, PassedOver };
     std::string_view keyword;
@@ -138,7 +138,7 @@ private:
         }
         const std::uint64_t count = read_count();
         if (keyword.starts_with("Required") && count > 0) {
-            warnings_.push_back(std::string(keyword) + " are passed over");
+            warnings_.push_back(std::string(keyword) + " are skipped");
         }
         for (std::uint64_t i = 0; i < count; ++i) {
             switch (list->kind) {
@@ -273,7 +273,7 @@ private:
         if (num_missing > 0) {
             warnings_.push_back(std::to_string(num_missing) +
                                 " edges, corners or required vertices that are in no face are "
-                                "passed over");
+                                "skipped");
         }
         if (!all.empty() && result.feature_edges.size() >= all.size()) {
             warnings_.emplace_back("its edges are those of all faces, so none is a feature edge");

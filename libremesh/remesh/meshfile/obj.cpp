@@ -32,7 +32,7 @@ std::string name_on(TextScanner& scan) {
 // Colours, labels and texture coordinates.
 class ObjAttributes {
 public:
-    // \param is_wanted  false: everything is passed over.
+    // \param is_wanted  false: everything is skipped.
     explicit ObjAttributes(bool is_wanted) : is_wanted_(is_wanted) {}
 
     // The words behind a vertex's coordinates: three are a colour, one is a weight.
@@ -56,7 +56,7 @@ public:
         std::array<double, 2> numbers{};
         bool is_broken = false;
         for (double& number : numbers) {
-            if (!scan.has_word()) break;  // Joined lines are passed over, wanted or not.
+            if (!scan.has_word()) break;  // Joined lines are skipped, wanted or not.
             const std::optional<double> read = scan.number_or_other("a number");
             is_broken = is_broken || !read;
             number = read.value_or(0);

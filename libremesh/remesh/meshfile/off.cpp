@@ -55,7 +55,7 @@ PlyHeader binary_counts(const SourceFile& file, std::size_t at) {
 }
 
 // The layout is that of a binary PLY: numbers of vertices, then lists of corners, each with a list
-// of the parts of a colour, which are passed over.
+// of the parts of a colour, which are skipped.
 MeshFile read_binary_off(SourceFile& file, std::size_t at, const Extras& extras) {
     file.is_binary = true;
     at = std::min(at + (file.bytes.compare(at, 2, "\r\n") == 0 ? 2 : 1), file.bytes.size());

@@ -280,7 +280,7 @@ void read_faces(Values& values, const PlyElement& element, const SourceFile& fil
     std::move(others).finish(attributes);
 }
 
-// What was passed over may have been read at the wrong place: faces then lack corners, and numbers
+// What was skipped may have been read at the wrong place: faces then lack corners, and numbers
 // are next to zero.
 bool looks_misread(const MeshFile& file) {
     constexpr double least = std::numeric_limits<float>::min();

@@ -39,7 +39,7 @@ PlyProperty read_property(TextScanner& scan, const SourceFile& file) {
     if (is_list) {
         size_type = read_type(scan, file);
         if (!is_integer(*size_type)) {
-            file.fail_damaged(start, "the length of a list has a type that is no integer type");
+            file.fail_damaged(start, "the length of a list has a type that is not an integer type");
         }
     }
     const PlyType type = read_type(scan, file);
@@ -120,10 +120,10 @@ PlyHeader read_ply_header(const SourceFile& file) {
         }
     }
     if (num_unknown > 0) {
-        header.warning = joined(
-            file.place(first_unknown), num_unknown,
-            num_unknown == 1 ? " line of the header begins with no keyword and is passed over"
-                             : " lines of the header begin with no keyword and are passed over");
+        header.warning =
+            joined(file.place(first_unknown), num_unknown,
+                   num_unknown == 1 ? " line of the header begins with no keyword and is skipped"
+                                    : " lines of the header begin with no keyword and are skipped");
     }
     if (!has_format) file.fail_damaged(0, "the header has no 'format'");
     if (scan.has_word()) scan.fail_damaged("data follow on the line of 'end_header'");

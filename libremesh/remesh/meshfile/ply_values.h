@@ -33,7 +33,7 @@ struct PlyHeader {
     std::optional<std::endian> byte_order;  //!< None: ascii.
     std::vector<PlyElement> elements = {};  //!< In the order of the data.
     std::size_t size = 0;                   //!< Bytes up to the first datum.
-    std::string warning = {};               //!< Lines that were passed over, leniently.
+    std::string warning = {};               //!< Lines that were skipped, leniently.
 };
 
 //! \throw IoError  by line: no PLY, an unknown type or format, an element without a name, ...
@@ -81,11 +81,11 @@ public:
         scan_.skip_line();
     }
     [[nodiscard]] std::size_t offset() const { return scan_.offset(); }
-    //! What was passed over; empty: nothing.
+    //! What was skipped; empty: nothing.
     [[nodiscard]] std::string warning() const {
         if (num_longer_ == 0) return {};
         return file_.place(first_longer_) + std::to_string(num_longer_) +
-               " lines have more values than the header announces; these are passed over";
+               " lines have more values than the header announces; these are skipped";
     }
 
 private:

@@ -271,7 +271,7 @@ std::string VolumeSurface::warning(std::size_t num_added) const {
     if (kinds_.empty()) return {};
     const std::string cells =
         file_.path.string() + ": " + detail::counted(num_cells(), "volume cell");
-    return num_added == 0 ? cells + ": passed over, as the file has faces of its own"
+    return num_added == 0 ? cells + ": skipped, as the file has faces of its own"
                           : cells + ": their surface is read, the " + std::to_string(num_added) +
                                 " faces that belong to one of them only";
 }

@@ -116,7 +116,7 @@ private:
     void read_root(const XmlTag& tag) {
         if (tag.name != "model" || tag.space != core_space) {
             fail(tag, "the part begins with the element ", in_quotes(tag.name),
-                 ", which is no model of 3MF");
+                 ", which is not a model of 3MF");
         }
         model_.unit = tag.find("unit").value_or(model_.unit);
         constexpr std::array units = {"micron", "millimeter", "centimeter",
@@ -347,10 +347,10 @@ public:
         const std::string begin = file_.path.string() + ": ";
         if (num_others_ > 0) {
             add_warning(result, begin, num_others_,
-                        " objects that are no surfaces of the model (such as supports) are passed "
+                        " objects that are not surfaces of the model (such as supports) are passed "
                         "over");
         }
-        if (has_lattice_) add_warning(result, begin, "beams of lattices are passed over");
+        if (has_lattice_) add_warning(result, begin, "beams of lattices are skipped");
         return result;
     }
 
@@ -375,7 +375,7 @@ private:
         if (!parser.target.empty()) return part_name(parser.target);
         relations.fail_malformed(
             relations.bytes.size(),
-            "no part is called the model; this is no 3MF file: check its extension");
+            "no part is called the model; this is not a 3MF file: check its extension");
     }
 
     const Part& load(const std::string& name) {

@@ -37,7 +37,7 @@ public:
         result.attributes.unit = "meter";
         if (num_others_ > 0) {
             add_warning(result, file_.path.string(), ": ", num_others_,
-                        " primitives of points or lines are passed over");
+                        " primitives of points or lines are skipped");
         }
         return result;
     }
@@ -53,7 +53,8 @@ private:
         std::vector<bool> is_seen(gltf_.list(gltf_.root(), "nodes").size(), false);
         const auto push = [&](const nlohmann::json& nodes, const Transform& parent) {
             for (std::size_t i = nodes.size(); i-- > 0;) {
-                if (!nodes[i].is_number_unsigned()) gltf_.fail("a node is no whole number from 0");
+                if (!nodes[i].is_number_unsigned())
+                    gltf_.fail("a node is not a whole number from 0");
                 open.push_back({nodes[i].get<std::uint64_t>(), parent});
             }
         };
@@ -95,7 +96,7 @@ private:
         std::map<std::uint64_t, std::size_t> first_vertex, first_coordinates;
         for (const nlohmann::json& primitive :
              gltf_.list(gltf_.at("meshes", index), "primitives")) {
-            if (!primitive.is_object()) gltf_.fail("a primitive is no object");
+            if (!primitive.is_object()) gltf_.fail("a primitive is not an object");
             const std::uint64_t mode = gltf_.number(primitive, "mode").value_or(mode_triangles);
             if (mode < mode_triangles || mode > mode_fan) {
                 ++num_others_;
@@ -221,7 +222,7 @@ private:
             return;
         }
         if (mode == mode_triangles && indices.num_rows % 3 != 0) {
-            gltf_.fail("the number of corners of a primitive is no multiple of three");
+            gltf_.fail("the number of corners of a primitive is not a multiple of three");
         }
         const bool is_fan = mode == mode_fan;
         for (std::uint64_t i = is_fan ? 1 : 0; i + (is_fan ? 1 : 2) < indices.num_rows;

@@ -83,7 +83,7 @@ public:
         if (num_others_ == 0) return;
         add_warning(result, file_.path.string(), ": ", num_others_,
                     " cells that are neither faces nor linear volumes (vertices, lines, curved "
-                    "cells) are passed over");
+                    "cells) are skipped");
     }
 
     [[nodiscard]] const std::vector<std::size_t>& cell_of_polygon() const {
@@ -149,7 +149,8 @@ private:
         if (value == std::floor(value) && std::abs(value) < 1e15) {
             return static_cast<std::int64_t>(value);
         }
-        file_.fail_damaged(offset(), "cell ", num_cells_, " has a corner that is no whole number");
+        file_.fail_damaged(offset(), "cell ", num_cells_,
+                           " has a corner that is not a whole number");
     }
     [[nodiscard]] std::size_t offset() const { return cells_->corners.offset; }
 

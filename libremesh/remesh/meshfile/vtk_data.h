@@ -34,7 +34,7 @@ struct VtkArray {
     std::size_t offset = 0;           //!< Where it begins in the file.
 };
 
-//! Types of cells by VTK's numbers; all others are passed over.
+//! Types of cells by VTK's numbers; all others are skipped.
 enum class VtkCell : std::uint8_t {
     Vertices = 2,
     Lines = 4,
@@ -84,7 +84,7 @@ struct VtkData {
 constexpr std::size_t most_vtk_components = 64;
 
 //! The mesh of all faces; where there are none, the surface of the volume cells, with a warning.
-//! Other cells are passed over with a warning.
+//! Other cells are skipped with a warning.
 //! \throw IoError  counts do not fit.  \throw InvalidInput  no face is left, an index is
 //!        out of range, a coordinate is not finite.
 [[nodiscard]] MeshFile make_mesh(VtkData data, const SourceFile& file);

@@ -235,7 +235,7 @@ private:
 
     std::string_view take(const VtkXmlArray& array, ByteSource& source, std::uint64_t size) {
         const auto bytes = source.take(size, buffer_, ticker_);
-        if (!bytes) fail(array, "the file ends within it, or it is no base64");
+        if (!bytes) fail(array, "the file ends within it, or it is not base64");
         return *bytes;
     }
 
@@ -261,7 +261,7 @@ private:
         }
         const std::size_t size = result.type->size;
         if (bytes.size() % size != 0) {
-            fail(array, "its ", bytes.size(), " bytes are no whole number of ", array["type"]);
+            fail(array, "its ", bytes.size(), " bytes are not a whole number of ", array["type"]);
         }
         result.values.reserve(bytes.size() / size);
         for (std::size_t at = 0; at < bytes.size(); at += size) {

@@ -61,7 +61,7 @@ private:
                     file_.bytes.size(),
                     "the XML ends too early; the file is truncated: export it again");
             default:
-                file_.fail_malformed(place(), "this is no well-formed XML (",
+                file_.fail_malformed(place(), "this is not well-formed XML (",
                                      ::XML_ErrorString(::XML_GetErrorCode(parser_.get())),
                                      "); check the file's extension, or export it again");
         }

@@ -49,7 +49,7 @@ protected:
 //! Whether this build reads XML.
 [[nodiscard]] bool knows_xml();
 
-//! Text between tags is checked and passed over: it stands in the file's bytes.
+//! Text between tags is checked and skipped: it stands in the file's bytes.
 //! \throw IoError  the text is not well-formed, has a document type (entities may be huge), a
 //!        tag of megabytes, or this build cannot read XML.
 //! \throw Cancelled  as the ticker of the file says.

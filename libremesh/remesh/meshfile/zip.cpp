@@ -27,7 +27,7 @@ ZipArchive::ZipArchive(SourceFile& file) : file_(file) {
     const std::string_view bytes = file.bytes;
     if (!bytes.starts_with("PK")) {
         file_.fail_malformed(
-            0, "this is no ZIP file, as it does not begin with 'PK'; check its extension");
+            0, "this is not a ZIP file, as it does not begin with 'PK'; check its extension");
     }
     const std::size_t first = bytes.size() - std::min(bytes.size(), end_size + longest_comment);
     const std::size_t found = bytes.substr(first).rfind(end_mark);

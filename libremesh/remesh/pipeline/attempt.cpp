@@ -74,15 +74,15 @@ std::vector<SurfacePoint> run_attempt(CleanedInput& cleaned, const FoundCurves& 
         result.mesh = std::move(built.mesh);
         if (const auto& crossings = built.self_intersections) {
             result.self_intersections = crossings->all;
-            result.new_self_intersections = crossings->fresh;
+            result.new_self_intersections = crossings->added;
         }
         // The surface is needed again if the edges are not as long as asked for, or as parts are
         // thin.
         const auto& count = options.sizing.count;
         if (std::holds_alternative<MeanEdge>(count) || std::holds_alternative<MaxError>(count) ||
-            !built.thin_places.empty())
+            !built.narrow_points.empty())
             give_back(std::move(domain), cleaned, options.num_threads);
-        return std::move(built.thin_places);
+        return std::move(built.narrow_points);
     } catch (const TooFewSamples&) {
         give_back(std::move(domain), cleaned, options.num_threads);
         throw;

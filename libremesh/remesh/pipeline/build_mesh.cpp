@@ -13,7 +13,7 @@ namespace remesh::detail {
 namespace {
 
 // Most rounds that add sites at self-intersections.
-constexpr int max_mends = 4;
+constexpr int most_rounds = 4;
 // As a multiple of the input's pairs. Up to this, further rounds can come down to their number.
 constexpr std::size_t few_more = 2;
 
@@ -64,22 +64,22 @@ public:
 
     BuiltMesh run(WorkLimit& work) {
         const Index base_faces = domain_.base().num_faces();
-        for (int mends = 0;; ++mends) {
+        for (int round = 0;; ++round) {
             work.add(base_faces);
             Candidate candidate = build_candidate();
             if (candidate.is_failed) {
-                if (mends == 0) fail(candidate);
+                if (round == 0) fail(candidate);
                 break;
             }
-            if (mends == 0 || is_better(candidate)) keep(candidate);
+            if (round == 0 || is_better(candidate)) keep(candidate);
             const std::optional<CrossingFaces>& crossings = candidate.crossings;
-            if (!crossings || mends == max_mends || work.num_left(base_faces) == 0 ||
+            if (!crossings || round == most_rounds || work.num_left(base_faces) == 0 ||
                 is_hopeless(crossings->all.size(), context_) ||
-                !add_sites_at(pairs_to_mend(*crossings), candidate.dual)) {
+                !add_sites_at(pairs_to_part(*crossings), candidate.dual)) {
                 break;
             }
         }
-        mend_best();
+        improve_best();
         return std::move(best_);
     }
 
@@ -100,7 +100,8 @@ private:
         }
         candidate.flips = flip_edges(dual);
         drop_points(dual.diagram);
-        candidate.placed = place_dual(domain_, placed_.curves, dual, places_of(dual), context_);
+        candidate.placed =
+            place_dual(domain_, placed_.curves, dual, points_of_vertices(dual), context_);
         candidate.crossings =
             unfit_crossings(finder_, placed_.curves, candidate.placed, context_.result);
         return candidate;
@@ -108,10 +109,10 @@ private:
 
     ValidDual build_cells() {
         ValidDual dual =
-            build_valid_dual(domain_, placed_, layout_, on_base_, is_thinned_, context_);
+            build_valid_dual(domain_, placed_, layout_, on_base_, is_simplified_, context_);
         if (domain_.plan) {
             RemeshResult& result = context_.result;
-            result.features.thinned_patches = std::exchange(result.components_thinned, 0);
+            result.features.simplified_patches = std::exchange(result.components_simplified, 0);
         }
         return dual;
     }
@@ -135,25 +136,25 @@ private:
     }
 
     // Where the vertices of the dual lie on the cleaned surface.
-    [[nodiscard]] std::vector<SurfacePoint> places_of(const ValidDual& dual) const {
-        std::vector<SurfacePoint> places;
-        places.reserve(dual.site.size());
+    [[nodiscard]] std::vector<SurfacePoint> points_of_vertices(const ValidDual& dual) const {
+        std::vector<SurfacePoint> points;
+        points.reserve(dual.site.size());
         for (Index v = 0; v < dual.site.size(); ++v) {
             const Index site = dual.site[v];
             // Not moved or added by repair.
             const bool is_placed =
                 site < first_on_base_.size() && dual.points[v] == first_on_base_[site];
-            places.push_back(is_placed ? placed_.sites[site]
+            points.push_back(is_placed ? placed_.sites[site]
                                        : domain_.prepared.base.to_input(dual.points[v]));
         }
-        return places;
+        return points;
     }
 
     [[nodiscard]] std::vector<Vec3> positions_of_vertices(const ValidDual& dual) const {
         std::vector<Vec3> positions;
         positions.reserve(dual.site.size());
-        for (const SurfacePoint& place : places_of(dual)) {
-            positions.push_back(position(domain_.whole->mesh.view(), place));
+        for (const SurfacePoint& point : points_of_vertices(dual)) {
+            positions.push_back(position(domain_.whole->mesh.view(), point));
         }
         return positions;
     }
@@ -163,7 +164,7 @@ private:
     // \return how many were removed.
     Index reduce(ValidDual& dual) const {
         const bool adds = context_.options.vertex_count == VertexCount::Add;
-        if (adds && context_.result.components_thinned == 0) return 0;
+        if (adds && context_.result.components_simplified == 0) return 0;
         const auto num_vertices = static_cast<Index>(dual.points.size());
         const Index target = adds ? static_cast<Index>(on_base_.size()) : *target_;
         if (num_vertices <= target) return 0;
@@ -210,7 +211,7 @@ private:
     void keep(Candidate& candidate) {
         const PlacedDual& placed = candidate.placed;
         if (best_.mesh.triangles.empty()) {
-            best_.thin_places = domain_.prepared.base.to_input(candidate.dual.thin_places);
+            best_.narrow_points = domain_.prepared.base.to_input(candidate.dual.narrow_points);
         }
         best_.num_wanted = *target_ - placed_.num_other_copies(domain_);
         best_.mesh = whole_mesh(*domain_.whole, placed);
@@ -225,10 +226,10 @@ private:
         if (candidate.crossings) best_.self_intersections = candidate.crossings->counts();
         context_.result.sites_removed = candidate.num_removed;
         context_.result.delaunay = candidate.flips;
-        mendable_.reset();
+        improvable_.reset();
         if (domain_.plan || !is_relaxed(context_.options)) return;
-        mendable_ = find_mendable(domain_, candidate.dual, std::move(candidate.placed.mesh),
-                                  is_thinned_, context_.options);
+        improvable_ = find_improvable(domain_, candidate.dual, std::move(candidate.placed.mesh),
+                                      is_simplified_, context_.options);
     }
 
     // Sorts the vertices in the caller's order of the sites, vertices that repair added last.
@@ -252,41 +253,41 @@ private:
     }
 
     // None if there are no more than in the input.
-    [[nodiscard]] FacePairs pairs_to_mend(const CrossingFaces& crossings) const {
+    [[nodiscard]] FacePairs pairs_to_part(const CrossingFaces& crossings) const {
         const std::size_t in_input = context_.result.input_self_intersections;
         if (crossings.all.size() <= in_input) return {};
-        return crossings.all.size() <= few_more * in_input ? crossings.all : crossings.fresh;
+        return crossings.all.size() <= few_more * in_input ? crossings.all : crossings.added;
     }
 
     // Adds a site at the farthest Voronoi vertex of the cell of each corner of these faces, and
-    // marks the sites of the cells as wanted. False if there is no such place.
+    // marks the sites of the cells as wanted. False if there is no such vertex.
     bool add_sites_at(const FacePairs& crossings, const ValidDual& dual) {
         const std::vector<Index> farthest = farthest_voronoi_vertices(dual.diagram);
-        std::vector<Index> places;  // Vertices of the diagram.
+        std::vector<Index> points;  // Vertices of the diagram.
         is_wanted_.resize(on_base_.size(), false);
         for_each_corner(crossings, dual.triangles, [&](Index v) {
             const Index site = dual.site[v];
             if (site == no_index || farthest[site] == no_index) return;
-            places.push_back(farthest[site]);
+            points.push_back(farthest[site]);
             is_wanted_[site] = true;
         });
-        if (places.empty()) return false;
-        std::sort(places.begin(), places.end());
-        places.erase(std::unique(places.begin(), places.end()), places.end());
-        for (const Index v : places) on_base_.push_back(dual.diagram.vertices[v]);
+        if (points.empty()) return false;
+        std::sort(points.begin(), points.end());
+        points.erase(std::unique(points.begin(), points.end()), points.end());
+        for (const Index v : points) on_base_.push_back(dual.diagram.vertices[v]);
         is_wanted_.resize(on_base_.size(), true);
-        const auto count = static_cast<Index>(places.size());
+        const auto count = static_cast<Index>(points.size());
         context_.result.sites_added += count;
         context_.result.added_because[SiteReason::SelfIntersection] += count;
         return true;
     }
 
-    void mend_best() {
-        if (!mendable_) return;
-        if (!mend(domain_, finder_, *mendable_, best_.self_intersections, context_)) return;
-        const PlacedDual mended{std::move(mendable_->mesh), {}};
-        best_.mesh = whole_mesh(*domain_.whole, mended);
-        best_.sites = mended.mesh.points;
+    void improve_best() {
+        if (!improvable_) return;
+        if (!improve(domain_, finder_, *improvable_, best_.self_intersections, context_)) return;
+        const PlacedDual improved{std::move(improvable_->mesh), {}};
+        best_.mesh = whole_mesh(*domain_.whole, improved);
+        best_.sites = improved.mesh.points;
     }
 
     Domain& domain_;
@@ -296,11 +297,11 @@ private:
     std::optional<SurfaceLayout> layout_;
     std::vector<SurfacePoint> on_base_;  // The sites: the placed ones, and those added by repair.
     const std::vector<SurfacePoint> first_on_base_;  // The placed ones.
-    std::vector<bool> is_wanted_;   // By site: its vertex is removed last; may be shorter.
-    std::vector<bool> is_thinned_;  // By component.
-    std::optional<Index> target_;   // Vertices of the dual.
+    std::vector<bool> is_wanted_;      // By site: its vertex is removed last; may be shorter.
+    std::vector<bool> is_simplified_;  // By component.
+    std::optional<Index> target_;      // Vertices of the dual.
     BuiltMesh best_;
-    std::optional<MendableMesh> mendable_;  // Of best_.
+    std::optional<ImprovableMesh> improvable_;  // Of best_.
 };
 
 }  // namespace

@@ -2,7 +2,7 @@
 //! From sites to a mesh: cells, dual, the exact count, flips to Delaunay, positions.
 #pragma once
 
-#include "remesh/pipeline/mendable_mesh.h"
+#include "remesh/pipeline/improvable_mesh.h"
 #include "remesh/pipeline/work_limit.h"
 
 namespace remesh::detail {
@@ -16,11 +16,11 @@ struct BuiltMesh {
     std::vector<Index> first_of_group;  //!< #V: see GluedMesh; empty without junctions.
     Index num_wanted = 0;               //!< Vertices that were asked for.
     std::optional<CrossingCounts> self_intersections;  //!< Unset without CGAL.
-    std::vector<SurfacePoint> thin_places;             //!< On the cleaned surface: see ValidDual.
+    std::vector<SurfacePoint> narrow_points;           //!< On the cleaned surface: see ValidDual.
 };
 
 //! Builds the mesh of the sites. While it self-intersects more often than the input, and where that
-//! does not, builds it again with more sites there. Mends thin triangles of the best mesh.
+//! does not, builds it again with more sites there. Improves narrow triangles of the best mesh.
 //! \param domain  its layout is consumed.
 //! \param work    counts the rounds. A round that adds sites has to fit into it.
 //! \throw TooFewSamples, or NetworkFailed if there is a plan.

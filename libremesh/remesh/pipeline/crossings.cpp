@@ -61,7 +61,7 @@ void unfit(Index v, const CurveSites& curves, PlacedDual& placed) {
 
 }  // namespace
 
-Corners crossing_place(const Corners& a, const Corners& b) {
+Corners crossing_triangle(const Corners& a, const Corners& b) {
     std::vector<Vec3> of_a = segment_in_plane(a, b), of_b = segment_in_plane(b, a);
     if (of_a.empty()) std::swap(of_a, of_b);
     // In one plane, or apart by rounding.
@@ -72,26 +72,26 @@ Corners crossing_place(const Corners& a, const Corners& b) {
     return {ends[0], ends[1], ends[1]};
 }
 
-TriangleMesh crossing_places(const MeshView& mesh, const FacePairs& pairs) {
-    TriangleMesh places;
+TriangleMesh crossing_triangles(const MeshView& mesh, const FacePairs& pairs) {
+    TriangleMesh triangles;
     for (const auto& [f, g] : pairs) {
-        const auto first = static_cast<Index>(places.positions.size());
-        const Corners place = crossing_place(corners_of(mesh, f), corners_of(mesh, g));
-        places.positions.insert(places.positions.end(), place.begin(), place.end());
-        places.triangles.push_back({first, first + 1, first + 2});
+        const auto first = static_cast<Index>(triangles.positions.size());
+        const Corners triangle = crossing_triangle(corners_of(mesh, f), corners_of(mesh, g));
+        triangles.positions.insert(triangles.positions.end(), triangle.begin(), triangle.end());
+        triangles.triangles.push_back({first, first + 1, first + 2});
     }
-    return places;
+    return triangles;
 }
 
-FacePairs pairs_elsewhere(const ClosestPointTree& places, const MeshView& mesh,
+FacePairs pairs_elsewhere(const ClosestPointTree& triangles, const MeshView& mesh,
                           const FacePairs& pairs) {
     FacePairs elsewhere;
     for (const auto& [f, g] : pairs) {
         const Corners a = corners_of(mesh, f), b = corners_of(mesh, g);
-        const Corners place = crossing_place(a, b);
+        const Corners triangle = crossing_triangle(a, b);
         const double reach = std::max(longest_edge_of(a), longest_edge_of(b));
-        const Vec3 middle = (place[0] + place[1]) / 2;
-        if (!places.is_within(middle, reach)) elsewhere.emplace_back(f, g);
+        const Vec3 middle = (triangle[0] + triangle[1]) / 2;
+        if (!triangles.is_within(middle, reach)) elsewhere.emplace_back(f, g);
     }
     return elsewhere;
 }
@@ -104,12 +104,12 @@ std::optional<FacePairs> CrossingFinder::find(const PlacedDual& placed) {
     return all;
 }
 
-CrossingFaces CrossingFinder::tell_fresh(const PlacedDual& placed, FacePairs all) {
+CrossingFaces CrossingFinder::tell_added(const PlacedDual& placed, FacePairs all) {
     const StageClock clock(Stage::Check, context_.result);
     CrossingFaces found{std::move(all), {}};
     if (found.all.size() <= context_.result.input_self_intersections) return found;
-    found.fresh = input_places_
-                      ? pairs_elsewhere(*input_places_, welded_mesh(domain_, placed), found.all)
+    found.added = input_crossings_
+                      ? pairs_elsewhere(*input_crossings_, welded_mesh(domain_, placed), found.all)
                       : found.all;
     return found;
 }
@@ -126,8 +126,8 @@ void CrossingFinder::find_in_input() {
     const MeshView mesh{input.positions, welded.empty() ? input.triangles : welded};
     const FacePairs pairs = find_in(mesh, context_.options).value();
     if (!pairs.empty()) {
-        input_places_.emplace(crossing_places(mesh, pairs),
-                              progress_of(Stage::Check, context_.options));
+        input_crossings_.emplace(crossing_triangles(mesh, pairs),
+                                 progress_of(Stage::Check, context_.options));
     }
     context_.result.input_self_intersections = static_cast<Index>(pairs.size());
     has_searched_input_ = true;
@@ -154,7 +154,7 @@ std::optional<CrossingFaces> unfit_crossings(CrossingFinder& finder, const Curve
         crossings = finder.find(placed);
     }
     if (!crossings) return std::nullopt;
-    return finder.tell_fresh(placed, *std::move(crossings));
+    return finder.tell_added(placed, *std::move(crossings));
 }
 
 std::optional<Index> count_crossings_at(const MeshView& mesh,

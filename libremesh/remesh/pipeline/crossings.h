@@ -13,10 +13,10 @@ using FacePairs = std::vector<std::pair<Index, Index>>;
 struct CrossingFaces {
     FacePairs all;
     //! Of these the ones that do not follow from the input's; empty if it has as many.
-    FacePairs fresh;
+    FacePairs added;
 
     [[nodiscard]] CrossingCounts counts() const {
-        return {static_cast<Index>(all.size()), static_cast<Index>(fresh.size())};
+        return {static_cast<Index>(all.size()), static_cast<Index>(added.size())};
     }
 };
 
@@ -34,15 +34,15 @@ void for_each_corner(const FacePairs& pairs, const std::vector<Triangle>& triang
 //! A triangle, mostly a segment with its second end twice, that holds all points which two
 //! intersecting triangles have in common: of the two segments in the plane of the other the shorter
 //! one, or the triangle of smaller area if they lie in one plane.
-[[nodiscard]] std::array<Vec3, 3> crossing_place(const std::array<Vec3, 3>& a,
-                                                 const std::array<Vec3, 3>& b);
+[[nodiscard]] std::array<Vec3, 3> crossing_triangle(const std::array<Vec3, 3>& a,
+                                                    const std::array<Vec3, 3>& b);
 
-//! The places of intersecting pairs of faces as triangles.
-[[nodiscard]] TriangleMesh crossing_places(const MeshView& mesh, const FacePairs& pairs);
+//! Where the segments in which faces intersect lie: intersecting pairs of faces as triangles.
+[[nodiscard]] TriangleMesh crossing_triangles(const MeshView& mesh, const FacePairs& pairs);
 
-//! The pairs of faces that intersect farther from all these places than the longest edge of the
-//! two. Cost: O(log #places) for each pair near a place.
-[[nodiscard]] FacePairs pairs_elsewhere(const ClosestPointTree& places, const MeshView& mesh,
+//! The pairs of faces that intersect farther from all these triangles than the longest edge of the
+//! two. Cost: O(log #triangles) for each pair near one.
+[[nodiscard]] FacePairs pairs_elsewhere(const ClosestPointTree& triangles, const MeshView& mesh,
                                         const FacePairs& pairs);
 
 //! Finds self-intersections, and those of the input as soon as a result has any.
@@ -56,8 +56,8 @@ public:
     //! \return unset without CGAL.
     //! Cost: that of find_self_intersections.
     [[nodiscard]] std::optional<FacePairs> find(const PlacedDual& placed);
-    //! Tells which of them are fresh.
-    [[nodiscard]] CrossingFaces tell_fresh(const PlacedDual& placed, FacePairs all);
+    //! Tells which of them are added.
+    [[nodiscard]] CrossingFaces tell_added(const PlacedDual& placed, FacePairs all);
 
 private:
     void find_in_input();
@@ -65,7 +65,7 @@ private:
     const Domain& domain_;
     const StageContext& context_;
     bool has_searched_input_ = false;
-    std::optional<ClosestPointTree> input_places_;  // Unset: there are none.
+    std::optional<ClosestPointTree> input_crossings_;  // Unset: there are none.
 };
 
 //! Whether a result has so many more intersecting pairs of faces than the input that more sites

@@ -1,4 +1,4 @@
-// A place is a position: the number of its first vertex.
+// A position is known by the number of its first vertex.
 #include <algorithm>
 #include <utility>
 
@@ -17,9 +17,9 @@ public:
           cleaning_(cleaning),
           poller_(cleaning.progress),
           ticker_(poller_),
-          place_(first_at_position(mesh.positions, ticker_)),
+          position_(first_at_position(mesh.positions, ticker_)),
           is_inside_(is_marked.begin(), is_marked.end()),
-          is_outer_place_(mesh.positions.size(), false) {
+          is_outer_position_(mesh.positions.size(), false) {
         check_elements(mesh, ticker_);
         find_flat_faces();
     }
@@ -45,32 +45,32 @@ private:
                 "than 0");
         }
         static_cast<MeshPart&>(region) = take_faces(mesh_, std::move(faces), ticker_);
-        find_seam(region);
+        find_rim(region);
         return region;
     }
 
     [[nodiscard]] bool has_area(Index face) const {
         return smallest_doubled_area(mesh_.positions, mesh_.triangles[face]) > 0;
     }
-    [[nodiscard]] Triangle places_of(Index face) const {
+    [[nodiscard]] Triangle positions_of(Index face) const {
         const auto& [a, b, c] = mesh_.triangles[face];
-        return {place_[a], place_[b], place_[c]};
+        return {position_[a], position_[b], position_[c]};
     }
 
-    // Calls each(key) for the edges of a face, between places.
+    // Calls each(key) for the edges of a face, between positions.
     template <typename Each>
-    void for_each_edge_of(const Triangle& places, const Each& each) const {
+    void for_each_edge_of(const Triangle& positions, const Each& each) const {
         for (std::size_t k = 0; k < 3; ++k) {
-            each(edge_key(places[k], places[(k + 1) % 3]));
+            each(edge_key(positions[k], positions[(k + 1) % 3]));
         }
     }
 
     void find_flat_faces() {
         for (Index f = 0; f < is_inside_.size(); ++f) {
             ticker_.tick();
-            const Triangle t = places_of(f);
+            const Triangle t = positions_of(f);
             if (is_inside_[f] == 0) {
-                for (const Index p : t) is_outer_place_[p] = true;
+                for (const Index p : t) is_outer_position_[p] = true;
             } else if (!has_area(f)) {
                 for (const Index p : t) flat_.emplace_back(edge_key(p, p), f);
                 for_each_edge_of(t, [&](std::uint64_t edge) { flat_.emplace_back(edge, f); });
@@ -79,26 +79,27 @@ private:
         std::sort(flat_.begin(), flat_.end());
     }
 
-    // Vertices (edge_key(v, v)) and edges of the seam that cleaning the region loses.
+    // Vertices (edge_key(v, v)) and edges of the rim that cleaning the region loses.
     [[nodiscard]] std::vector<std::uint64_t> find_torn(const Region& region) {
         const CleanResult clean = clean_input(region.mesh.view(), cleaning_);
-        const auto place_of = [&](Index v) { return place_[region.vertices[v]]; };
+        const auto position_of = [&](Index v) { return position_[region.vertices[v]]; };
         std::vector<std::uint64_t> left;
         for (const auto& [a, b, c] : clean.mesh.triangles) {
             ticker_.tick();
             const std::vector<Index>& origin = clean.vertex_origin;
-            const Triangle t{place_of(origin[a]), place_of(origin[b]), place_of(origin[c])};
+            const Triangle t{position_of(origin[a]), position_of(origin[b]),
+                             position_of(origin[c])};
             for (const Index p : t) left.push_back(edge_key(p, p));
             for_each_edge_of(t, [&](std::uint64_t edge) { left.push_back(edge); });
         }
         std::sort(left.begin(), left.end());
         std::vector<std::uint64_t> torn;
         const auto require = [&](Index a, Index b) {
-            const std::uint64_t edge = edge_key(place_of(a), place_of(b));
+            const std::uint64_t edge = edge_key(position_of(a), position_of(b));
             if (!std::binary_search(left.begin(), left.end(), edge)) torn.push_back(edge);
         };
-        for (const SeamVertex& seam : region.seam) require(seam.vertex, seam.vertex);
-        for (const auto& [a, b] : region.seam_edges) require(a, b);
+        for (const RimVertex& rim : region.rim) require(rim.vertex, rim.vertex);
+        for (const auto& [a, b] : region.rim_edges) require(a, b);
         return torn;
     }
 
@@ -115,35 +116,40 @@ private:
                 if (is_inside_[here->second] == 0) continue;
                 is_inside_[here->second] = 0;
                 is_changed = true;
-                const Triangle t = places_of(here->second);
-                for (const Index p : t) is_outer_place_[p] = true;
+                const Triangle t = positions_of(here->second);
+                for (const Index p : t) is_outer_position_[p] = true;
                 for_each_edge_of(t, [&](std::uint64_t other) { edges.push_back(other); });
             }
         }
         return is_changed;
     }
 
-    void find_seam(Region& region) {
+    void find_rim(Region& region) {
         const std::vector<Index>& number = region.number;
-        std::vector<Index> inner(mesh_.positions.size(), no_index);  // By place: a vertex inside.
+        std::vector<Index> inner(mesh_.positions.size(),
+                                 no_index);  // By position: a vertex inside.
         for (const Index v : region.vertices) {
-            if (inner[place_[v]] == no_index) inner[place_[v]] = v;
+            if (inner[position_[v]] == no_index) inner[position_[v]] = v;
         }
-        std::vector<Index> shared(mesh_.positions.size(), no_index);  // By place.
-        const auto share = [&](Index v) { shared[place_[v]] = std::min(shared[place_[v]], v); };
-        const auto is_on_seam = [&](Index p) { return is_outer_place_[p] && inner[p] != no_index; };
-        std::vector<EdgeSide> sides;  // Of edges between places of the seam.
+        std::vector<Index> shared(mesh_.positions.size(), no_index);  // By position.
+        const auto share = [&](Index v) {
+            shared[position_[v]] = std::min(shared[position_[v]], v);
+        };
+        const auto is_on_rim = [&](Index p) {
+            return is_outer_position_[p] && inner[p] != no_index;
+        };
+        std::vector<EdgeSide> sides;  // Of edges between positions of the rim.
         for (Index f = 0; f < is_inside_.size(); ++f) {
             ticker_.tick();
             for (Index k = 0; k < 3; ++k) {
                 const Index v = mesh_.triangles[f][k];
                 if (is_inside_[f] == 0 && number[v] != no_index) share(v);
-                const Index a = place_[v], b = place_[mesh_.triangles[f][(k + 1) % 3]];
-                if (a == b || !is_on_seam(a) || !is_on_seam(b)) continue;
+                const Index a = position_[v], b = position_[mesh_.triangles[f][(k + 1) % 3]];
+                if (a == b || !is_on_rim(a) || !is_on_rim(b)) continue;
                 sides.push_back({edge_key(a, b), 3 * f + k, a < b});
             }
         }
-        sides = sort_edge_sides(sides, static_cast<Index>(place_.size()), ticker_);
+        sides = sort_edge_sides(sides, static_cast<Index>(position_.size()), ticker_);
         for_each_edge(std::span<const EdgeSide>(sides), [&](std::span<const EdgeSide> edge) {
             const std::array ends{number[inner[edge[0].low()]], number[inner[edge[0].high()]]};
             const auto is_inside = [&](const EdgeSide& side) {
@@ -155,7 +161,7 @@ private:
                 return;
             }
             if (std::ranges::none_of(edge, is_inside)) return;
-            region.seam_edges.push_back(ends);
+            region.rim_edges.push_back(ends);
             // A crack: cleaning would weld it.
             if (edge.size() == 2) {
                 const Triangle& t = mesh_.triangles[outer->face()];
@@ -164,18 +170,18 @@ private:
             }
         });
         for (Index p = 0; p < inner.size(); ++p) {
-            if (is_on_seam(p)) region.seam.push_back({number[inner[p]], shared[p]});
+            if (is_on_rim(p)) region.rim.push_back({number[inner[p]], shared[p]});
         }
-        std::ranges::sort(region.seam, {}, &SeamVertex::vertex);
+        std::ranges::sort(region.rim, {}, &RimVertex::vertex);
     }
 
     const MeshView& mesh_;
     const CleanOptions& cleaning_;
     Poller poller_;
     Ticker ticker_;
-    const std::vector<Index> place_;       // #V
+    const std::vector<Index> position_;    // #V
     std::vector<std::uint8_t> is_inside_;  // #F
-    std::vector<bool> is_outer_place_;     // By place: a corner of a kept face.
+    std::vector<bool> is_outer_position_;  // By position: a corner of a kept face.
     // (edge or vertex, marked face without area there); sorted.
     std::vector<std::pair<std::uint64_t, Index>> flat_;
 };

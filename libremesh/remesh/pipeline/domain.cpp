@@ -10,20 +10,20 @@ namespace remesh::detail {
 namespace {
 
 // For a base that is not Delaunay, since flips reached their limit: rounding tilts edges around
-// parts that are 10^12 times as long as wide, and each flip mends little of that. Later stages
+// parts that are 10^12 times as long as wide, and each flip repairs little of that. Later stages
 // would take long on it, and the result would be far off.
-[[noreturn]] void refuse_thin_parts(const Surface& surface, const CleanedInput& cleaned) {
-    Index thinnest = 0;
+[[noreturn]] void refuse_narrow_parts(const Surface& surface, const CleanedInput& cleaned) {
+    Index narrowest = 0;
     double most = 0;
     for (Index h = 0; h < surface.twin.size(); ++h) {
-        const double thin = surface.length_of(h) / surface.apex_of(h).y();
-        if (thin <= most) continue;
-        most = thin;
-        thinnest = Surface::face(h);
+        const double narrow = surface.length_of(h) / surface.apex_of(h).y();
+        if (narrow <= most) continue;
+        most = narrow;
+        narrowest = Surface::face(h);
     }
     std::ostringstream text;
     text.precision(1);
-    text << "face " << (cleaned.face_origin.empty() ? thinnest : cleaned.face_origin[thinnest])
+    text << "face " << (cleaned.face_origin.empty() ? narrowest : cleaned.face_origin[narrowest])
          << " is " << std::scientific << most
          << " times as long as high, and coordinates in double have too few digits for distances "
             "on such parts; remove this part, and others like it, or make them wider";
@@ -52,7 +52,7 @@ Domain prepare_domain(CleanedInput& cleaned, std::unique_ptr<const CurvePlan> pl
     if (cut == nullptr) domain.whole = &domain.prepared.input();
     domain.component = parts_of_base(domain.prepared.base, domain.parts->face_component,
                                      progress_at(Stage::Clean, options, 1));
-    if (!domain.prepared.base.counts().is_delaunay) refuse_thin_parts(*domain.whole, cleaned);
+    if (!domain.prepared.base.counts().is_delaunay) refuse_narrow_parts(*domain.whole, cleaned);
     result.refined_faces = domain.base().num_faces();
     return domain;
 }

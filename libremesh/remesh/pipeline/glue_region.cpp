@@ -1,4 +1,4 @@
-// Vertices of the remeshed region are recognised as those of the seam by their positions.
+// Vertices of the remeshed region are recognised as those of the rim by their positions.
 #include <algorithm>
 #include <string>
 #include <unordered_map>
@@ -47,12 +47,12 @@ bool part_edges(const std::vector<EdgeSide>& kept, const std::vector<std::uint64
     return false;
 }
 
-// Edges of the glued mesh that may have more than two faces, ascending: the seam and what was so
+// Edges of the glued mesh that may have more than two faces, ascending: the rim and what was so
 // before.
 // \param shared  vertex of the glued mesh by position.
 std::vector<std::uint64_t> edges_left_alone(const Region& region, const SharedVertices& shared) {
     std::vector<std::uint64_t> edges;
-    for (const auto* some : {&region.seam_edges, &region.branched_edges}) {
+    for (const auto* some : {&region.rim_edges, &region.branched_edges}) {
         for (const auto& [a, b] : *some) {
             const auto at_a = shared.find(region.mesh.positions[a]);
             const auto at_b = shared.find(region.mesh.positions[b]);
@@ -74,9 +74,9 @@ GluedRegion glue_region(const MeshView& mesh, const Region& region, const Triang
     result.kept_vertices = std::move(kept.vertices);
     result.mesh = std::move(kept.mesh);
     SharedVertices shared;
-    for (const SeamVertex& seam : region.seam) {
-        if (seam.shared == no_index) continue;
-        shared.emplace(region.mesh.positions[seam.vertex], kept.number[seam.shared]);
+    for (const RimVertex& rim : region.rim) {
+        if (rim.shared == no_index) continue;
+        shared.emplace(region.mesh.positions[rim.vertex], kept.number[rim.shared]);
     }
     for (const Vec3& position : remeshed.positions) {
         ticker.tick();
@@ -94,7 +94,8 @@ GluedRegion glue_region(const MeshView& mesh, const Region& region, const Triang
         throw ConstraintUnmet(
             std::to_string(remeshed.positions.size()) +
             " samples are too few for the region: an edge of its mesh would join two vertices of "
-            "the seam that another edge joins already; use more samples, or a larger region");
+            "the rim of the region that another edge joins already; use more samples, or a larger "
+            "region");
     }
     for (const Triangle& t : rename_vertices(triangles, result.vertex)) {
         result.mesh.triangles.push_back(t);

@@ -119,9 +119,9 @@ bool has_chain(const ValidDual& dual, std::span<const ChainEdge> chain) {
 }
 
 PlacedDual place_dual(Domain& domain, const CurveSites& curves, const ValidDual& dual,
-                      std::vector<SurfacePoint> places, const StageContext& context) {
-    std::vector<Vec3> offsets(places.size(), Vec3::Zero());
-    PlacedDual placed{{std::move(places), std::move(offsets), dual.triangles}, {}};
+                      std::vector<SurfacePoint> points, const StageContext& context) {
+    std::vector<Vec3> offsets(points.size(), Vec3::Zero());
+    PlacedDual placed{{std::move(points), std::move(offsets), dual.triangles}, {}};
     if (domain.plan) placed.patches = join_patches(dual, curves);
     place_vertices(domain, curves, dual, placed, context);
     auto& triangles = placed.patches ? placed.patches->glued.triangles : placed.mesh.triangles;

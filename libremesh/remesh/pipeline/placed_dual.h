@@ -27,12 +27,12 @@ struct PlacedDual {
 //! Joins the patches, fits the vertices to the surface and moves those of bad triangles, as far as
 //! the options ask for it, and flips triangles without area.
 //! \param domain  its pieces are found if they were reset, and reset then.
-//! \param places  #V of the dual: where each vertex lies on the cleaned surface.
+//! \param points  #V of the dual: where each vertex lies on the cleaned surface.
 //! Cost: that of glue, fit_vertices and improve_shape.
 [[nodiscard]] PlacedDual place_dual(Domain& domain, const CurveSites& curves, const ValidDual& dual,
-                                    std::vector<SurfacePoint> places, const StageContext& context);
+                                    std::vector<SurfacePoint> points, const StageContext& context);
 
-//! The elements of `all` at the places `chosen`.
+//! The elements of `all` at the indices `chosen`.
 template <typename T>
 [[nodiscard]] std::vector<T> take(const std::vector<T>& all, std::span<const Index> chosen) {
     std::vector<T> result;
@@ -45,7 +45,7 @@ template <typename T>
 [[nodiscard]] TriangleMesh whole_mesh(const Surface& whole, const PlacedDual& placed);
 
 //! The same to search for self-intersections: sheets share vertices where they meet, and so do
-//! parts at locked places. Some vertices may be in no triangle.
+//! parts at locked positions. Some vertices may be in no triangle.
 [[nodiscard]] TriangleMesh welded_mesh(const Domain& domain, const PlacedDual& placed);
 
 //! The triangles with the first vertex at its position in place of each vertex. Cost: O(n).

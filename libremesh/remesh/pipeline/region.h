@@ -10,7 +10,7 @@
 namespace remesh::detail {
 
 //! A vertex at the position of a kept face's corner and of a remeshed face's.
-struct SeamVertex {
+struct RimVertex {
     Index vertex;  //!< Of the region's mesh: the first one there.
     //! The caller's vertex that kept and remeshed faces share; no_index: they only touch.
     Index shared;
@@ -29,18 +29,18 @@ struct MeshPart {
 
 //! The faces to remesh.
 struct Region : MeshPart {
-    std::vector<Index> kept;       //!< All other faces of the caller, ascending.
-    std::vector<SeamVertex> seam;  //!< By position; ascending.
+    std::vector<Index> kept;     //!< All other faces of the caller, ascending.
+    std::vector<RimVertex> rim;  //!< By position; ascending.
     //! Edges between remeshed and kept faces, as vertices of mesh.
-    std::vector<std::array<Index, 2>> seam_edges;
-    //! Edges between vertices of the seam that have more than two faces, all of them remeshed.
+    std::vector<std::array<Index, 2>> rim_edges;
+    //! Edges between vertices of the rim that have more than two faces, all of them remeshed.
     std::vector<std::array<Index, 2>> branched_edges;
 };
 
 //! Divides a mesh into the faces to remesh and those that stay. Vertices at equal positions count
 //! as one, as the mesh may not be welded. Marked faces without area are left to cleaning, which
 //! absorbs them. They stay where it would drop them instead, and with them an edge or a vertex of
-//! the seam: where a vertex inside the region lies on an edge of the seam.
+//! the rim: where a vertex inside the region lies on an edge of the rim.
 //! \param is_marked  #F: other than 0 for the faces to remesh.
 //! \param cleaning   of the region.
 //! \throw InvalidOption  no face is left to remesh.
@@ -64,13 +64,13 @@ struct GluedRegion {
 
 //! Joins a remeshed region and the faces that stayed, so that no edge has more faces than in the
 //! input. For that it flips inner edges of the region between vertices that another edge joins.
-//! \param remeshed  has all vertices and edges of the region's seam, at their positions.
+//! \param remeshed  has all vertices and edges of the region's rim, at their positions.
 //! \throw ConstraintUnmet  that is not possible.
 //! Cost: O(n log n).
 [[nodiscard]] GluedRegion glue_region(const MeshView& mesh, const Region& region,
                                       const TriangleMesh& remeshed, Ticker& ticker);
 
-//! Takes the region out as a mesh of its own, locks its seam, remeshes it, and joins it with the
+//! Takes the region out as a mesh of its own, locks its rim, remeshes it, and joins it with the
 //! faces that stay.
 //! \param options  with a region; checked.
 //! \throw as remesh().

@@ -78,7 +78,7 @@ struct RemeshOptions {
     //! the sheets have equal points there, except with given sites or Boundary::Free.
     Junctions junctions = Junctions::Apart;
     //! Vertices of the caller that stay where they are, bit for bit, as vertices of the result;
-    //! those that cleaning welds (clean_input), at their common place. Not with `sites`.
+    //! those that cleaning welds (clean_input), at their common position. Not with `sites`.
     std::vector<Index> locked = {};
     //! Edges that stay edges of the result, as pairs of the caller's vertices; their ends stay too.
     std::vector<std::array<Index, 2>> locked_edges = {};
@@ -86,7 +86,7 @@ struct RemeshOptions {
     bool lock_boundary = false;
     //! Faces to remesh: other than 0 for each of the caller's faces that is to change, or empty for
     //! all. The others stay, see KeptPart; what joins them to the changed ones is locked.
-    //! num_samples, edge lengths and numbers of faces count in the region, its seam included. Not
+    //! num_samples, edge lengths and numbers of faces count in the region, its rim included. Not
     //! with `sites`, drop_components, weld or fill_holes.
     std::vector<std::uint8_t> region = {};
     std::uint64_t seed = 1;  //!< Same seed, same bytes, any num_threads.
@@ -102,7 +102,7 @@ struct RemeshOptions {
     std::optional<bool> fit = {};
     //! How distances are computed. Its num_threads and progress are ignored: those below count.
     PropagationOptions propagation = {};
-    //! Most rounds that add sites, >= 0; components that still fail are thinned.
+    //! Most rounds that add sites, >= 0; components that still fail are simplified.
     int repair_rounds = 12;
     //! Which edges to flip: those that fail by geodesic or by straight lengths, or none.
     Delaunay delaunay = DelaunayOptions{}.mode;
@@ -118,9 +118,9 @@ struct FeatureCounts {
     Index vertices = 0;  //!< Vertices of the result on curves and nodes.
     double length = 0;   //!< Of the creases that were kept, in mesh units.
     double dropped_length = 0;  //!< Of the dropped creases: the sites are too few or lie elsewhere.
-    Index uncarried_curves = 0;  //!< Creases that given sites do not lie on.
-    Index samples_for_all = 0;   //!< Fewest samples that keep all creases.
-    Index thinned_patches = 0;   //!< Patches that are too narrow for Voronoi cells.
+    Index uncarried_curves = 0;    //!< Creases that given sites do not lie on.
+    Index samples_for_all = 0;     //!< Fewest samples that keep all creases.
+    Index simplified_patches = 0;  //!< Patches that are too narrow for Voronoi cells.
     //! Creases were dropped because no mesh with all of them was found, or only one that
     //! self-intersects.
     bool gave_up = false;
@@ -160,13 +160,13 @@ struct SizingResult {
 struct KeptPart {
     std::vector<Index> vertices;  //!< The caller's, ascending: the first ones of the result.
     std::vector<Index> faces;     //!< Likewise.
-    Index seam_edges = 0;         //!< Edges between kept and remeshed faces.
+    Index rim_edges = 0;          //!< Edges between kept and remeshed faces.
 };
 
 //! Pairs of faces of a result that intersect.
 struct CrossingCounts {
     Index all = 0;    //!< See RemeshResult::self_intersections.
-    Index fresh = 0;  //!< See RemeshResult::new_self_intersections.
+    Index added = 0;  //!< See RemeshResult::new_self_intersections.
 };
 
 //! Plain values owned by the caller; nothing points back into the input.
@@ -185,15 +185,15 @@ struct RemeshResult {
     Index components_dropped = 0;     //!< See drop_components.
     Index sites_added = 0;            //!< By topology repair and against self-intersections.
     std::map<SiteReason, Index> added_because = {};  //!< The same by reason.
-    Index sites_moved = 0;        //!< Onto the boundary, or from places where they owned nothing.
+    Index sites_moved = 0;        //!< Onto the boundary, or from points where they owned nothing.
     Index sites_removed = 0;      //!< Vertices removed to keep the count.
     Index sites_dropped = 0;      //!< Given sites that own nothing (e.g. duplicates).
     int repair_rounds = 0;        //!< Rounds of moving and adding.
     Index unfitted_vertices = 0;  //!< Moved back onto the surface: triangles intersected.
     std::vector<RelaxLevel> relaxation = {};  //!< Empty: the sites were not relaxed.
-    //! Components whose cells did not give their topology: they were thinned to their sites instead
-    //! (thin).
-    Index components_thinned = 0;
+    //! Components whose cells did not give their topology: they were simplified to their sites
+    //! instead.
+    Index components_simplified = 0;
     FeatureCounts features = {};    //!< What became of creases.
     JunctionCounts junctions = {};  //!< What became of junctions.
     SizingResult sizing = {};       //!< How long the edges are.
@@ -202,7 +202,7 @@ struct RemeshResult {
     //! Sheets that touch at a junction with equal points do not count. Unset: without CGAL.
     std::optional<Index> self_intersections = {};
     Index input_self_intersections = 0;  //!< See self_intersections.
-    //! Pairs of the result that intersect farther from all places where the input intersects itself
+    //! Pairs of the result that intersect farther from all points where the input intersects itself
     //! than their longest edge. Others follow from the input; more samples give more of these. 0 if
     //! the input has as many pairs as the result. With a region: those above their number.
     Index new_self_intersections = 0;

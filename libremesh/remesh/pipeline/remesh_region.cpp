@@ -9,10 +9,10 @@
 namespace remesh::detail {
 namespace {
 
-// The seam and other vertices of the region, numbered as in it. Vertices outside stay anyway.
+// The rim and other vertices of the region, numbered as in it. Vertices outside stay anyway.
 std::vector<Index> locked_vertices(const Region& region, const std::vector<Index>& locked) {
     std::vector<Index> result;
-    for (const SeamVertex& seam : region.seam) result.push_back(seam.vertex);
+    for (const RimVertex& rim : region.rim) result.push_back(rim.vertex);
     for (const Index v : locked) {
         if (v >= region.number.size()) {
             throw InvalidInput("vertex " + std::to_string(v) +
@@ -39,7 +39,7 @@ Edges edges_inside(const MeshView& mesh, const Region& region, const Edges& edge
         if (!has_edge(all, edge_key(a, b))) {
             throw InvalidInput("the " + what + " edge between vertices " + std::to_string(a) +
                                " and " + std::to_string(b) +
-                               " is no edge of the mesh; name the two ends of an edge, counted "
+                               " is not an edge of the mesh; name the two ends of an edge, counted "
                                "from 0");
         }
         const Index i = region.number[a], j = region.number[b];
@@ -48,8 +48,8 @@ Edges edges_inside(const MeshView& mesh, const Region& region, const Edges& edge
     return result;
 }
 
-// Target lengths let edges grow from those of the seam. Where all are to be equally long, they are
-// given: the mean of all edges would count those near the seam, too.
+// Target lengths let edges grow from those of the rim. Where all are to be equally long, they are
+// given: the mean of all edges would count those near the rim, too.
 Sizing sizing_of_region(const Sizing& given, const Region& region) {
     Sizing sizing = given;
     if (auto* lengths = std::get_if<VertexLengths>(&sizing.edges)) {
@@ -76,12 +76,12 @@ RemeshOptions options_of_region(const MeshView& mesh, const RemeshOptions& given
     options.region.clear();
     options.locked = locked_vertices(region, given.locked);
     options.locked_edges = inside(given.locked_edges, "locked");
-    options.locked_edges.insert(options.locked_edges.end(), region.seam_edges.begin(),
-                                region.seam_edges.end());
+    options.locked_edges.insert(options.locked_edges.end(), region.rim_edges.begin(),
+                                region.rim_edges.end());
     options.feature_edges = inside(given.feature_edges, "feature");
-    options.texture_seams = inside(given.texture_seams, "seam");
+    options.texture_seams = inside(given.texture_seams, "rim");
     if (!given.face_labels.empty()) options.face_labels = take(given.face_labels, region.faces);
-    if (!region.seam_edges.empty()) options.sizing = sizing_of_region(given.sizing, region);
+    if (!region.rim_edges.empty()) options.sizing = sizing_of_region(given.sizing, region);
     return options;
 }
 
@@ -135,7 +135,7 @@ RemeshResult remesh_region(const MeshView& mesh, const RemeshOptions& options) {
     result.sites = sites_of(region, glued, result.sites);
     result.mesh = std::move(glued.mesh);
     result.kept = {std::move(glued.kept_vertices), region.kept,
-                   static_cast<Index>(region.seam_edges.size())};
+                   static_cast<Index>(region.rim_edges.size())};
     count_crossings(mesh, region, options, result);
     return result;
 }

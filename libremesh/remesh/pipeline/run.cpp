@@ -71,11 +71,11 @@ public:
         // Only what is locked can make all attempts fail.
         if (!best_) throw TooFewSamples{options_.num_samples, options_.num_samples + 1};
         best_->seconds = first_.seconds;
-        // A rod that is thinner than the spacing gets shorter by some edges.
+        // A rod that is narrower than the spacing gets shorter by some edges.
         const bool has_lost_part = best_->verdict.largest_distance > best_->verdict.spacing;
-        if (!thin_places_.empty() && may_shorten(options_) && !work.is_spent() && has_lost_part &&
+        if (!narrow_points_.empty() && may_shorten(options_) && !work.is_spent() && has_lost_part &&
             !is_hopeless(best_->self_intersections.value_or(0), {options_, *best_})) {
-            shorten_thin(work);
+            shorten_narrow(work);
         }
         return *std::move(best_);
     }
@@ -106,11 +106,11 @@ private:
             if (work.is_spent() && best_) return;
             if (!is_last && (needs_none || work.is_spent())) continue;
             RemeshResult result = first_;
-            std::vector<SurfacePoint> thin_places;
+            std::vector<SurfacePoint> narrow_points;
             const std::size_t done = work.done();
             try {
-                thin_places = run_attempt(cleaned_, found_, kept, sizes_.field.get(), work,
-                                          {options_, result});
+                narrow_points = run_attempt(cleaned_, found_, kept, sizes_.field.get(), work,
+                                            {options_, result});
                 result.features.gave_up = kept.drop_share > 0;
             } catch (const NetworkFailed&) {
                 first_.seconds = result.seconds;
@@ -124,20 +124,20 @@ private:
             if (!best_ || is_better(result, *best_)) {
                 best_ = std::move(result);
                 kept_ = kept;
-                thin_places_ = std::move(thin_places);
+                narrow_points_ = std::move(narrow_points);
             }
             if (is_fine(*best_) || is_bare) return;
         }
     }
 
-    // Runs the best attempt again with shorter edges on thin parts, where cells wrapped around
+    // Runs the best attempt again with shorter edges on narrow parts, where cells wrapped around
     // them, and keeps the better result.
-    void shorten_thin(WorkLimit& work) {
+    void shorten_narrow(WorkLimit& work) {
         RemeshResult again = first_;
         const StageContext context{options_, again};
         try {
             const RunSizes sizes = find_sizes(cleaned_, found_, spacing_for(cleaned_, options_), {},
-                                              thin_places_, context);
+                                              narrow_points_, context);
             run_attempt(cleaned_, found_, kept_, sizes.field.get(), work, context);
         } catch (const TooFewSamples&) {
             return;
@@ -159,8 +159,8 @@ private:
     FoundCurves found_;
     RunSizes sizes_;
     std::optional<RemeshResult> best_;
-    KeptCurves kept_;                        // Of the best.
-    std::vector<SurfacePoint> thin_places_;  // Of the best.
+    KeptCurves kept_;                          // Of the best.
+    std::vector<SurfacePoint> narrow_points_;  // Of the best.
 };
 
 // \throw TooFewSamples  no mesh of this topology has as few vertices as are asked for.

@@ -15,7 +15,7 @@ namespace remesh::detail {
 //! the vertex count that was asked for.
 //! \param sizes  target lengths; null: all equal.
 //! \param work   counts the attempt.
-//! \return where cells wrapped around thin parts (ValidDual).
+//! \return where cells wrapped around narrow parts (ValidDual).
 //! \throw TooFewSamples, NetworkFailed   `cleaned` is unchanged then.
 //! \throw std::logic_error  there is no plan, and the topology differs: a bug.
 std::vector<SurfacePoint> run_attempt(CleanedInput& cleaned, const FoundCurves& found,

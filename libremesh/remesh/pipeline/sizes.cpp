@@ -24,12 +24,12 @@ constexpr double cells_per_site = 4;
 // With a mean edge given, the number of samples is found in so many rounds.
 constexpr int edge_length_tries = 2;
 
-// Thin parts: the length is that of so many edges around, but not less than this share of the
+// Narrow parts: the length is that of so many edges around, but not less than this share of the
 // spacing.
 constexpr double vertices_around = 5, shortest_of_spacing = 0.125;
 // Cells that wrap around a rod lie next to cells that fit: all within so many spacings are looked
 // at.
-constexpr double reach_of_place = 3;
+constexpr double reach_of_point = 3;
 // Patches that measure curvature have to be narrower than the rod.
 constexpr double patches_per_site = 32;
 constexpr double most_of_sites = 0.25;
@@ -75,10 +75,10 @@ std::vector<double> carry_values(std::span<const double> of_vertex, const FieldB
     std::vector<double> values;
     for (const Index v : on.original) values.push_back(of_vertex[v]);
     for (Index v = input.num_vertices(); v < on.base->surface().num_vertices(); ++v) {
-        const SurfacePoint& place = on.base->added_point(v);
-        const Triangle& t = input.mesh.triangles[place.face.value()];
+        const SurfacePoint& point = on.base->added_point(v);
+        const Triangle& t = input.mesh.triangles[point.face.value()];
         double value = 0;
-        for (std::size_t k = 0; k < 3; ++k) value += place.barycentric[k] * values[t[k]];
+        for (std::size_t k = 0; k < 3; ++k) value += point.barycentric[k] * values[t[k]];
         values.push_back(value);
     }
     return values;
@@ -199,26 +199,26 @@ double mean_edge(const MeshView& mesh) {
 }  // namespace
 
 RunSizes find_sizes(const CleanedInput& cleaned, const FoundCurves& found, double spacing,
-                    std::span<const double> most_lengths, std::span<const SurfacePoint> thin_places,
-                    const StageContext& context) {
+                    std::span<const double> most_lengths,
+                    std::span<const SurfacePoint> narrow_points, const StageContext& context) {
     const auto& [options, result] = context;
     const Sizing& sizing = options.sizing;
-    if (sizing.is_even() && thin_places.empty()) return {nullptr, options.num_samples};
+    if (sizing.is_even() && narrow_points.empty()) return {nullptr, options.num_samples};
     const StageClock clock(Stage::Clean, result);
     const Progress progress = cleaned_progress(options);
     Poller poller(progress);
     Ticker ticker(poller);
     const double num_sites =
         options.sites ? static_cast<double>(options.sites->size()) : options.num_samples;
-    const bool drops_vertices = sizing.is_adaptive() || !thin_places.empty();
+    const bool drops_vertices = sizing.is_adaptive() || !narrow_points.empty();
     const FieldBase on = make_base(cleaned, found, spacing, num_sites, drops_vertices, options);
     const std::vector<double> values = values_for(sizing, cleaned, on, num_sites, ticker);
     const std::vector<double> locked = locked_lengths(cleaned);
     const std::vector<double> least = least_lengths_on(on, locked);
     const std::vector<double> most =
-        thin_places.empty()
+        narrow_points.empty()
             ? most_lengths_on(on, cleaned.surface, most_lengths, locked, options.num_threads)
-            : thin_lengths(*on.base, thin_places, on.joined, spacing, num_sites, ticker);
+            : narrow_lengths(*on.base, narrow_points, on.joined, spacing, num_sites, ticker);
     const bool gives_count =
         !options.sites && (std::holds_alternative<CountOfLengths>(sizing.count) ||
                            std::holds_alternative<MaxError>(sizing.count));
@@ -242,14 +242,14 @@ RunSizes find_sizes(const CleanedInput& cleaned, const FoundCurves& found, doubl
     return sizes;
 }
 
-std::vector<double> thin_lengths(const IntrinsicTriangulation& base,
-                                 std::span<const SurfacePoint> places,
-                                 std::span<const std::pair<Index, Index>> joined, double spacing,
-                                 double num_sites, Ticker& ticker) {
+std::vector<double> narrow_lengths(const IntrinsicTriangulation& base,
+                                   std::span<const SurfacePoint> points,
+                                   std::span<const std::pair<Index, Index>> joined, double spacing,
+                                   double num_sites, Ticker& ticker) {
     const Surface& surface = base.surface();
     std::vector<double> distance(surface.num_vertices(), infinity);
-    for (const SurfacePoint& place : base.to_intrinsic(places)) {
-        for (const Index v : surface.mesh.triangles[place.face.value()]) {
+    for (const SurfacePoint& point : base.to_intrinsic(points)) {
+        for (const Index v : surface.mesh.triangles[point.face.value()]) {
             distance[v] = std::numeric_limits<double>::min();
         }
     }
@@ -258,21 +258,21 @@ std::vector<double> thin_lengths(const IntrinsicTriangulation& base,
         patch_curvature(base, bounded_count(patches_per_site * num_sites), ticker);
     std::vector<double> length(surface.num_vertices(), infinity);
     for (Index v = 0; v < length.size(); ++v) {
-        if (distance[v] > reach_of_place * spacing) continue;
+        if (distance[v] > reach_of_point * spacing) continue;
         // Of a cylinder the root mean square of both curvatures is 1 / (sqrt(2) r).
         const double radius = 1 / (std::numbers::sqrt2 * curvature[v]);
         length[v] = 2 * std::numbers::pi * radius / vertices_around;
         if (length[v] >= spacing) length[v] = infinity;
         length[v] = std::max(length[v], shortest_of_spacing * spacing);
     }
-    double num_thin = 0;
+    double num_narrow = 0;
     for (Index f = 0; f < surface.num_faces(); ++f) {
         for (const Index v : surface.mesh.triangles[f]) {
-            num_thin += face_area(surface, f) / 3 / (length[v] * length[v]);
+            num_narrow += face_area(surface, f) / 3 / (length[v] * length[v]);
         }
     }
-    num_thin *= 2 / std::numbers::sqrt3;
-    const double excess = num_thin / (most_of_sites * num_sites);
+    num_narrow *= 2 / std::numbers::sqrt3;
+    const double excess = num_narrow / (most_of_sites * num_sites);
     if (excess > 1) {
         for (double& l : length) l *= std::sqrt(excess);
     }

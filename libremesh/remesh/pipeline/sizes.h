@@ -16,28 +16,28 @@ struct RunSizes {
 //! \param spacing  mesh units: of the sites in the mean.
 //! \param most_lengths  #V of the cleaned mesh: no target is longer; or empty. Nor is one longer
 //!                      than the locked edges beside it.
-//! \param thin_places   on the cleaned surface: where edges have to be shorter (thin_lengths).
+//! \param narrow_points   on the cleaned surface: where edges have to be shorter (narrow_lengths).
 //! Cost: that of a base, and a few sweeps over the edges.
 [[nodiscard]] RunSizes find_sizes(const CleanedInput& cleaned, const FoundCurves& found,
                                   double spacing, std::span<const double> most_lengths,
-                                  std::span<const SurfacePoint> thin_places,
+                                  std::span<const SurfacePoint> narrow_points,
                                   const StageContext& context);
 
-//! Longest edges on parts that are thinner than the spacing: some five vertices lie around each.
+//! Longest edges on parts that are narrower than the spacing: some five vertices lie around each.
 //! Lengths are at least an eighth of the spacing, and longer if such parts took more than a quarter
 //! of the sites.
-//! \param places   on base.input(): where cells wrap around such parts.
+//! \param points   on base.input(): where cells wrap around such parts.
 //! \param joined   see limit_growth.
 //! \param spacing  mesh units: of the sites in the mean.
-//! \return #V of base.surface(); infinity where nothing is thin.
+//! \return #V of base.surface(); infinity where nothing is narrow.
 //! Cost: O(n log n).
-[[nodiscard]] std::vector<double> thin_lengths(const IntrinsicTriangulation& base,
-                                               std::span<const SurfacePoint> places,
-                                               std::span<const std::pair<Index, Index>> joined,
-                                               double spacing, double num_sites, Ticker& ticker);
+[[nodiscard]] std::vector<double> narrow_lengths(const IntrinsicTriangulation& base,
+                                                 std::span<const SurfacePoint> points,
+                                                 std::span<const std::pair<Index, Index>> joined,
+                                                 double spacing, double num_sites, Ticker& ticker);
 
 //! Compares a mesh with the target lengths.
-//! \param sites  #V: places of the vertices on the surface.
+//! \param sites  #V: the vertices on the surface.
 //! \param sizes  null: all targets are equal.
 //! Cost: O(n log n).
 [[nodiscard]] SizingResult measure_edges(const MeshView& mesh, std::span<const SurfacePoint> sites,

@@ -1,6 +1,6 @@
 // Each round propagates, builds the diagram, finds cells that break the closed-ball property
 // ([edelsbrunner1997]) or miss the boundary, and moves or adds sites there. A component whose
-// faults do not decrease is given up and thinned to its first sites ([liu2023]).
+// faults do not decrease is given up and simplified to its first sites ([liu2023]).
 #include "remesh/pipeline/valid_dual.h"
 
 #include <algorithm>
@@ -32,7 +32,7 @@ class ValidDualBuilder {
 public:
     ValidDualBuilder(const Domain& domain, const PlacedSites& placed,
                      std::optional<SurfaceLayout>& layout, std::vector<SurfacePoint>& sites,
-                     std::vector<bool>& is_thinned, const StageContext& context)
+                     std::vector<bool>& is_simplified, const StageContext& context)
         : domain_(domain),
           placed_(placed),
           layout_(layout),
@@ -43,12 +43,12 @@ public:
           sites_(sites),
           given_(sites),
           faults_(components_.size()),
-          has_failed_(is_thinned) {
+          has_failed_(is_simplified) {
         has_failed_.resize(components_.size(), false);
     }
 
     ValidDual run() {
-        mend_sites();
+        repair_sites();
         result_.sites_added += static_cast<Index>(reasons_.size());
         for (const SiteReason reason : reasons_) ++result_.added_because[reason];
         const StageClock clock(Stage::Dual, result_);
@@ -67,10 +67,10 @@ private:
         std::size_t in_strips = 0;
         std::size_t fewest = std::numeric_limits<std::size_t>::max();
         int stalled_rounds = 0;
-        bool gave_up = false;  // It is to be thinned.
+        bool gave_up = false;  // It is to be simplified.
     };
 
-    void mend_sites() {
+    void repair_sites() {
         const std::size_t most_sites = max_growth * given_.size() + always_allowed;
         const int most_rounds = domain_.plan ? 0 : options_.repair_rounds;
         for (bool is_first = true;; is_first = false) {
@@ -83,7 +83,7 @@ private:
             Violations violations = find_violations();
             move_empty_sites(fixes);
             leave_failed_components(fixes, violations);
-            if (is_first) find_thin_places(violations);
+            if (is_first) find_narrow_points(violations);
             count_faults(fixes, violations);
             give_up(result_.repair_rounds >= most_rounds || sites_.size() >= most_sites);
             leave_failed_components(fixes, violations);
@@ -96,10 +96,10 @@ private:
         }
     }
 
-    void find_thin_places(const Violations& violations) {
+    void find_narrow_points(const Violations& violations) {
         for (const ClosedBallViolation& v : violations) {
             if (v.is_at_boundary || !v.site.is_valid()) continue;
-            dual_.thin_places.push_back(sites_[v.site.value()]);
+            dual_.narrow_points.push_back(sites_[v.site.value()]);
         }
     }
 
@@ -110,8 +110,8 @@ private:
             ++faults.count;
             if (v.is_at_boundary) ++faults.in_strips;
         }
-        for (const auto& [site, place] : fixes.moved) ++faults_[component_of(place)].count;
-        for (const SurfacePoint& place : fixes.added) ++faults_[component_of(place)].count;
+        for (const auto& [site, point] : fixes.moved) ++faults_[component_of(point)].count;
+        for (const SurfacePoint& point : fixes.added) ++faults_[component_of(point)].count;
     }
 
     // Marks components as failed whose faults have not decreased for too many rounds, and after the
@@ -130,9 +130,9 @@ private:
         }
     }
 
-    // Removes the fixes and violations of failed components: these are thinned.
+    // Removes the fixes and violations of failed components: these are simplified.
     void leave_failed_components(BoundaryFixes& fixes, Violations& violations) const {
-        const auto has_failed = [&](const auto& place) { return has_failed_[component_of(place)]; };
+        const auto has_failed = [&](const auto& point) { return has_failed_[component_of(point)]; };
         std::erase_if(violations, has_failed);
         std::erase_if(fixes.moved, [&](const auto& move) { return has_failed(move.second); });
         std::erase_if(fixes.added, has_failed);
@@ -188,10 +188,10 @@ private:
         }
         const std::size_t num_owning = sites_.size() - empty.size();
         if (empty.empty() || num_owning >= options_.num_samples) return;
-        const std::vector<Index> places = points_in_largest_cells(
+        const std::vector<Index> points = points_in_largest_cells(
             dual_.diagram, std::min(empty.size(), options_.num_samples - num_owning));
-        for (std::size_t i = 0; i < places.size(); ++i) {
-            fixes.moved.emplace_back(empty[i], dual_.diagram.vertices[places[i]]);
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            fixes.moved.emplace_back(empty[i], dual_.diagram.vertices[points[i]]);
         }
     }
 
@@ -199,13 +199,13 @@ private:
     // concerns.
     void apply(const BoundaryFixes& fixes, const Violations& violations) {
         std::vector<bool> is_concerned(sites_.size(), false);
-        for (const auto& [site, place] : fixes.moved) {
-            sites_[site] = place;
+        for (const auto& [site, point] : fixes.moved) {
+            sites_[site] = point;
             is_concerned[site] = true;
         }
         result_.sites_moved += static_cast<Index>(fixes.moved.size());
-        new_places_.clear();
-        for (const SurfacePoint& place : fixes.added) add(place, SiteReason::BoundaryCorner);
+        new_positions_.clear();
+        for (const SurfacePoint& point : fixes.added) add(point, SiteReason::BoundaryCorner);
         for (const ClosedBallViolation& violation : violations) {
             bool is_free = true;
             for (const SiteId site : {violation.site, violation.other}) {
@@ -214,13 +214,13 @@ private:
                 is_concerned[site.value()] = true;
             }
             if (!is_free) continue;
-            for (const SurfacePoint& place : violation.remedies) add(place, violation.reason);
+            for (const SurfacePoint& point : violation.remedies) add(point, violation.reason);
         }
     }
 
-    void add(const SurfacePoint& place, SiteReason reason) {
-        if (!new_places_.insert(position(surface_.mesh.view(), place)).second) return;
-        sites_.push_back(place);
+    void add(const SurfacePoint& point, SiteReason reason) {
+        if (!new_positions_.insert(position(surface_.mesh.view(), point)).second) return;
+        sites_.push_back(point);
         reasons_.push_back(reason);
     }
 
@@ -254,13 +254,13 @@ private:
         for (const SurfacePoint& site : sites_) {
             if (const auto v = vertex_of(surface_, site)) has_site[*v] = true;
         }
-        new_places_.clear();
+        new_positions_.clear();
         for (const Index v : placed_.boundary_corners) {
             const SurfacePoint corner = point_at(surface_, v);
             if (has_site[v] || !faults_[component_of(corner)].gave_up) continue;
             add(corner, SiteReason::BoundaryCorner);
         }
-        return !new_places_.empty();
+        return !new_positions_.empty();
     }
 
     [[nodiscard]] Index component_of(const SurfacePoint& point) const {
@@ -271,7 +271,7 @@ private:
                                                       : violation.remedies.front());
     }
 
-    // Vertices in the order of their sites, then those of thinned components.
+    // Vertices in the order of their sites, then those of simplified components.
     void build_mesh() {
         const std::vector<std::vector<Triangle>> triangles = triangles_of_components();
         std::vector<bool> has_vertex(sites_.size(), false);
@@ -289,13 +289,13 @@ private:
             dual_.points.push_back(sites_[s]);
         }
         const auto num_failed = std::count(has_failed_.begin(), has_failed_.end(), true);
-        result_.components_thinned = static_cast<Index>(num_failed);
-        // By component that is to be thinned: faces, ascending, and sites, one at each place.
+        result_.components_simplified = static_cast<Index>(num_failed);
+        // By component that is to be simplified: faces, ascending, and sites, one at each position.
         std::vector<std::vector<Index>> faces(components_.size()), sites(components_.size());
         if (num_failed > 0) find_parts(faces, sites);
         for (Index c = 0; c < triangles.size(); ++c) {
             if (has_failed_[c]) {
-                append_thinned(faces[c], sites[c]);
+                append_simplified(faces[c], sites[c]);
                 continue;
             }
             for (const auto& [i, j, k] : triangles[c]) {
@@ -356,8 +356,8 @@ private:
         }
     }
 
-    // Appends a component, thinned to its sites and the extra vertices that must stay.
-    void append_thinned(std::span<const Index> faces, std::span<const Index> sites) {
+    // Appends a component, simplified to its sites and the extra vertices that must stay.
+    void append_simplified(std::span<const Index> faces, std::span<const Index> sites) {
         const auto first = static_cast<Index>(dual_.points.size());
         std::vector<SurfacePoint> points = points_of(sites_, sites);
         dual_.site.insert(dual_.site.end(), sites.begin(), sites.end());
@@ -380,11 +380,11 @@ private:
     const RemeshOptions& options_;
     RemeshResult& result_;
     std::vector<SurfacePoint>& sites_;
-    const std::vector<SurfacePoint> given_;              // The sites before repair.
-    std::vector<SiteReason> reasons_;                    // Of the added sites.
-    std::vector<Faults> faults_;                         // By component.
-    std::vector<bool>& has_failed_;                      // By component.
-    std::unordered_set<Vec3, PositionHash> new_places_;  // Of sites added in this round.
+    const std::vector<SurfacePoint> given_;                 // The sites before repair.
+    std::vector<SiteReason> reasons_;                       // Of the added sites.
+    std::vector<Faults> faults_;                            // By component.
+    std::vector<bool>& has_failed_;                         // By component.
+    std::unordered_set<Vec3, PositionHash> new_positions_;  // Of sites added in this round.
     ValidDual dual_;
 };
 
@@ -392,8 +392,8 @@ private:
 
 ValidDual build_valid_dual(const Domain& domain, const PlacedSites& placed,
                            std::optional<SurfaceLayout>& layout, std::vector<SurfacePoint>& sites,
-                           std::vector<bool>& is_thinned, const StageContext& context) {
-    return ValidDualBuilder(domain, placed, layout, sites, is_thinned, context).run();
+                           std::vector<bool>& is_simplified, const StageContext& context) {
+    return ValidDualBuilder(domain, placed, layout, sites, is_simplified, context).run();
 }
 
 }  // namespace remesh::detail

@@ -254,11 +254,11 @@ TEST(Glb, WrongNodesAndPrimitivesAreRefused) {
         return root;
     };
     expect_refused(with("scene", "1"), {"scenes has no element 1"});
-    expect_refused(with("scenes", "{}"), {"scenes is no list"});
+    expect_refused(with("scenes", "{}"), {"scenes is not a list"});
     expect_refused(with("nodes", "[{\"mesh\": 1}]"), {"meshes has no element 1"});
     expect_refused(with("nodes", "[7]"), {"nodes has no element 0"});
     expect_refused(with("nodes", "[{\"children\": [0]}]"), {"node 0 has several parents"});
-    expect_refused(with("nodes", "[{\"children\": [\"a\"]}]"), {"a node is no whole number"});
+    expect_refused(with("nodes", "[{\"children\": [\"a\"]}]"), {"a node is not a whole number"});
     expect_refused(with("nodes", "[{\"translation\": [1, 2]}]"), {"3 numbers"});
     expect_refused(with("nodes", "[{\"scale\": [1, 2, null]}]"), {"no number"});
     expect_refused(with("meshes", "[{\"primitives\": [{}]}]"), {"no attributes"});

@@ -140,7 +140,7 @@ TEST(Medit, EdgesAreFeatureEdgesAndCornersAndRequiredElementsAreLocked) {
     EXPECT_EQ(file.locked_edges, (Edges{{0, 1}}));
     EXPECT_EQ(file.locked, (std::vector<agvd::Index>{0, 3}));
     ASSERT_EQ(file.warnings.size(), 2u);
-    EXPECT_EQ(file.warnings[0], "a.mesh: RequiredTriangles are passed over");
+    EXPECT_EQ(file.warnings[0], "a.mesh: RequiredTriangles are skipped");
     EXPECT_NE(file.warnings[1].find(": 4 edges, corners or required vertices"), std::string::npos)
         << file.warnings[1];
 }

@@ -10,7 +10,7 @@
 #include "support/shapes.h"
 
 using agvd::Vec3;
-using remesh::detail::crossing_place;
+using remesh::detail::crossing_triangle;
 
 namespace {
 
@@ -30,16 +30,16 @@ void expect_segment(const Corners& place, const Vec3& a, const Vec3& b) {
 TEST(CrossingPlaces, AreTheShorterOfBothSegments) {
     const Corners large{Vec3(-4, -4, 0), Vec3(4, -4, 0), Vec3(0, 8, 0)};
     const Corners small{Vec3(0, 0, -1), Vec3(0, 1, 1), Vec3(0, -1, 1)};
-    expect_segment(crossing_place(large, small), {0, -.5, 0}, {0, .5, 0});
-    expect_segment(crossing_place(small, large), {0, -.5, 0}, {0, .5, 0});
+    expect_segment(crossing_triangle(large, small), {0, -.5, 0}, {0, .5, 0});
+    expect_segment(crossing_triangle(small, large), {0, -.5, 0}, {0, .5, 0});
     const Corners touching{Vec3(1, 0, 0), Vec3(1, 1, 1), Vec3(1, -1, 1)};
-    expect_segment(crossing_place(large, touching), {1, 0, 0}, {1, 0, 0});
+    expect_segment(crossing_triangle(large, touching), {1, 0, 0}, {1, 0, 0});
     const Corners in_plane{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
-    EXPECT_EQ(crossing_place(large, in_plane), in_plane);
-    EXPECT_EQ(crossing_place(in_plane, large), in_plane);
+    EXPECT_EQ(crossing_triangle(large, in_plane), in_plane);
+    EXPECT_EQ(crossing_triangle(in_plane, large), in_plane);
     // One edge lies in the other's plane.
     const Corners standing{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 0, 1)};
-    expect_segment(crossing_place(standing, large), {0, 0, 0}, {1, 0, 0});
+    expect_segment(crossing_triangle(standing, large), {0, 0, 0}, {1, 0, 0});
 }
 
 TEST(CrossingPlaces, PairsFartherThanTheirLongestEdgeAreElsewhere) {
@@ -56,7 +56,7 @@ TEST(CrossingPlaces, PairsFartherThanTheirLongestEdgeAreElsewhere) {
         mesh.triangles.push_back({6 * i + 3, 6 * i + 4, 6 * i + 5});
         pairs.emplace_back(2 * i, 2 * i + 1);
     }
-    const agvd::ClosestPointTree places(remesh::detail::crossing_places(mesh, {pairs[1]}));
+    const agvd::ClosestPointTree places(remesh::detail::crossing_triangles(mesh, {pairs[1]}));
     // The longest edges are 1.12.
     EXPECT_EQ(remesh::detail::pairs_elsewhere(places, mesh, pairs),
               (remesh::detail::FacePairs{pairs[3], pairs[4], pairs[5]}));

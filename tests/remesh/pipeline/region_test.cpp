@@ -114,7 +114,7 @@ RemeshResult expect_region(const TriangleMesh& mesh, const Mask& mask, RemeshOpt
     const FacesAtEdge before = seam_of(mesh, [&](Index f) { return mask[f] != 0; });
     const FacesAtEdge after = seam_of(result.mesh, [&](Index f) { return f >= kept.size(); });
     EXPECT_EQ(after, before);
-    EXPECT_EQ(result.kept.seam_edges, before.size());
+    EXPECT_EQ(result.kept.rim_edges, before.size());
     return result;
 }
 
@@ -214,7 +214,7 @@ TEST(Region, AWholeComponentComesOutAsAlone) {
     std::fill(mask.begin() + static_cast<std::ptrdiff_t>(one.triangles.size()), mask.end(), 1);
     const RemeshResult part = expect_manifold_region(two, mask, {.num_samples = 200});
     const RemeshResult alone = remesh::remesh(one.view(), {.num_samples = 200, .num_threads = 1});
-    EXPECT_EQ(part.kept.seam_edges, 0u);
+    EXPECT_EQ(part.kept.rim_edges, 0u);
     for (Index v = 0; v < 200; ++v) {
         const Index moved = v + static_cast<Index>(one.positions.size());
         EXPECT_EQ(bits_of(part.mesh.positions[moved]), bits_of(alone.mesh.positions[v]));
@@ -362,7 +362,7 @@ TEST(Region, WhatIsGivenForElementsIsCarriedOver) {
 TEST(Region, MeshesThatAreNotWeldedHaveASeamToo) {
     const TriangleMesh mesh = shapes::unweld(shapes::sphere(3));
     const RemeshResult result = expect_region(mesh, upper_half(mesh), {.num_samples = 300});
-    EXPECT_GT(result.kept.seam_edges, 30u);
+    EXPECT_GT(result.kept.rim_edges, 30u);
     EXPECT_EQ(num_vertices_of(new_part(result)), 300u);
     // Each vertex of the seam is one of those that stay.
     std::set<Bits> positions;

@@ -65,7 +65,7 @@ TEST(ThinParts, ARodKeepsItsLength) {
         const RemeshResult result =
             remesh::remesh(ball_with_rod(radius).view(), {.num_samples = 1000, .sizing = sizing});
         EXPECT_EQ(result.mesh.positions.size(), 1000u);
-        EXPECT_EQ(result.components_thinned, 0u);
+        EXPECT_EQ(result.components_simplified, 0u);
         // With equal edges: 8 to 12 %.
         EXPECT_LT(distance_in_diagonals(result), 0.015) << radius << ' ' << is_adaptive;
         EXPECT_GT(result.verdict.min_angle, 15 * std::numbers::pi / 180);
@@ -122,7 +122,7 @@ TEST(ThinParts, FiveVerticesLieAroundACylinder) {
         const agvd::SurfacePoint place{agvd::FaceId(lowest), {1, 0, 0}};
         agvd::Ticker ticker;
         const std::vector<double> length =
-            remesh::detail::thin_lengths(base, {&place, 1}, {}, spacing, 4000, ticker);
+            remesh::detail::narrow_lengths(base, {&place, 1}, {}, spacing, 4000, ticker);
         Index near = 0, far = 0;
         for (Index v = 0; v < length.size(); ++v) {
             const double z = base.surface().mesh.positions[v].z();
@@ -141,7 +141,7 @@ TEST(ThinParts, FiveVerticesLieAroundACylinder) {
         EXPECT_GT(far, 50u);
         // At most a quarter of the sites.
         const std::vector<double> of_few =
-            remesh::detail::thin_lengths(base, {&place, 1}, {}, spacing, 40, ticker);
+            remesh::detail::narrow_lengths(base, {&place, 1}, {}, spacing, 40, ticker);
         double thin = 0;
         for (Index f = 0; f < base.surface().num_faces(); ++f) {
             const Index h = 3 * f;

@@ -174,7 +174,7 @@ TEST(TopologyGuarantee, NeedlesBesideALargeFaceKeepTheNumberOfVertices) {
     remesh::RemeshOptions options{.num_samples = 100};
     const remesh::RemeshResult result = remesh::remesh(mesh.view(), options);
     EXPECT_EQ(result.mesh.positions.size(), 100u);
-    EXPECT_EQ(result.components_thinned, 3u);
+    EXPECT_EQ(result.components_simplified, 3u);
     // Sites that own nothing move to places of their own, so that none is missing at the end.
     EXPECT_EQ(result.sites_added, 0u);
 }
@@ -222,7 +222,7 @@ TEST(TopologyGuarantee, AddedVerticesStayIfAsked) {
     const auto result = remesh::remesh(mesh.view(), {.num_samples = 30,
                                                      .vertex_count = remesh::VertexCount::Add,
                                                      .features = remesh::Features::Off});
-    EXPECT_EQ(result.components_thinned, 0u);
+    EXPECT_EQ(result.components_simplified, 0u);
     EXPECT_GT(result.sites_added, 0u);
     EXPECT_EQ(result.mesh.positions.size(), 30 + result.sites_added);
     EXPECT_TRUE(same_topology(remesh::analyze_topology(result.mesh.view()), result.input_topology));

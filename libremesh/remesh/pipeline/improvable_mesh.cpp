@@ -1,4 +1,4 @@
-#include "remesh/pipeline/mendable_mesh.h"
+#include "remesh/pipeline/improvable_mesh.h"
 
 #include <algorithm>
 #include <utility>
@@ -9,8 +9,8 @@
 namespace remesh::detail {
 namespace {
 
-// Most mendings; in the second fewer vertices may move.
-constexpr int most_mendings = 2;
+// Most tries; in the second fewer vertices may move.
+constexpr int most_tries = 2;
 // find_corners() compares chords of half its spacing: these are as long as the mean edge.
 constexpr double chords_of_lasting_corner = 2;
 // In spacings: shorter loops have no chords as long as that.
@@ -35,18 +35,19 @@ std::vector<bool> lasting_corners(const Domain& domain) {
 
 }  // namespace
 
-std::optional<MendableMesh> find_mendable(const Domain& domain, const ValidDual& dual,
-                                          PlacedMesh placed, const std::vector<bool>& is_thinned,
-                                          const RemeshOptions& options) {
-    std::vector<bool> is_mendable = is_thinned;
-    is_mendable.resize(domain.parts->components.size(), false);
-    for (Index i = 0; i < is_mendable.size() && !options.sites; ++i) {
-        if (domain.parts->components[i].boundary_loops > 0) is_mendable[i] = true;
+std::optional<ImprovableMesh> find_improvable(const Domain& domain, const ValidDual& dual,
+                                              PlacedMesh placed,
+                                              const std::vector<bool>& is_simplified,
+                                              const RemeshOptions& options) {
+    std::vector<bool> is_improvable = is_simplified;
+    is_improvable.resize(domain.parts->components.size(), false);
+    for (Index i = 0; i < is_improvable.size() && !options.sites; ++i) {
+        if (domain.parts->components[i].boundary_loops > 0) is_improvable[i] = true;
     }
-    if (std::find(is_mendable.begin(), is_mendable.end(), true) == is_mendable.end()) {
+    if (std::find(is_improvable.begin(), is_improvable.end(), true) == is_improvable.end()) {
         return std::nullopt;
     }
-    MendableMesh result{.mesh = {}, .mobility = {}, .hard = rim_of(placed.triangles)};
+    ImprovableMesh result{.mesh = {}, .mobility = {}, .hard = rim_of(placed.triangles)};
     result.mobility.assign(placed.points.size(), Mobility::Free);
     for (const auto& [from, to] : result.hard) {
         result.mobility[from] = result.mobility[to] = Mobility::Boundary;
@@ -56,7 +57,7 @@ std::optional<MendableMesh> find_mendable(const Domain& domain, const ValidDual&
         const SurfacePoint& point = dual.points[i];
         const auto v = vertex_of(domain.base(), point);
         if ((v && *v < is_corner.size() && is_corner[*v]) ||
-            !is_mendable[domain.component[point.face.value()]]) {
+            !is_improvable[domain.component[point.face.value()]]) {
             result.mobility[i] = Mobility::Fixed;
         }
     }
@@ -64,26 +65,26 @@ std::optional<MendableMesh> find_mendable(const Domain& domain, const ValidDual&
     return result;
 }
 
-bool mend(const Domain& domain, CrossingFinder& finder, MendableMesh& mendable,
-          std::optional<CrossingCounts>& crossings, const StageContext& context) {
-    for (int round = 0; round < most_mendings; ++round) {
-        PlacedDual mended{mendable.mesh, {}};
+bool improve(const Domain& domain, CrossingFinder& finder, ImprovableMesh& improvable,
+             std::optional<CrossingCounts>& crossings, const StageContext& context) {
+    for (int round = 0; round < most_tries; ++round) {
+        PlacedDual improved{improvable.mesh, {}};
         std::vector<Index> numbers;
         {
             const StageClock clock(Stage::Place, context.result);
-            numbers = repair_shape(domain.prepared.input(), mendable.mobility, mendable.hard,
-                                   mended.mesh, progress_at(Stage::Place, context.options, 1));
+            numbers = repair_shape(domain.prepared.input(), improvable.mobility, improvable.hard,
+                                   improved.mesh, progress_at(Stage::Place, context.options, 1));
         }
         if (numbers.empty()) return false;
-        std::optional<FacePairs> pairs = finder.find(mended);
+        std::optional<FacePairs> pairs = finder.find(improved);
         if (!pairs || pairs->size() <= crossings->all) {
-            if (pairs) crossings = finder.tell_fresh(mended, *std::move(pairs)).counts();
-            mendable.mesh = std::move(mended.mesh);
+            if (pairs) crossings = finder.tell_added(improved, *std::move(pairs)).counts();
+            improvable.mesh = std::move(improved.mesh);
             return true;
         }
-        for_each_corner(*pairs, mended.mesh.triangles, [&](Index v) {
+        for_each_corner(*pairs, improved.mesh.triangles, [&](Index v) {
             const Index before = numbers[v];
-            if (before < mendable.mobility.size()) mendable.mobility[before] = Mobility::Fixed;
+            if (before < improvable.mobility.size()) improvable.mobility[before] = Mobility::Fixed;
         });
     }
     return false;
