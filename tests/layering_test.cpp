@@ -1,11 +1,13 @@
 // Reads every #include line of the libraries and holds it against the layers: data flows down the
-// rows, a file includes its own row or rows above, and each package stays where it belongs.
+// rows, a file includes its own row or rows above, and each package stays where it belongs. And
+// holds public headers against the tests that they name.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <regex>
@@ -203,6 +205,42 @@ std::string find_circle(const Includes& includes) {
     return "";
 }
 
+std::string read_text(const fs::path& path) {
+    std::ifstream stream(path);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+// The suites of all tests, and their tests as Suite.Name.
+std::set<std::string> find_tests() {
+    static const std::regex test(R"(TEST(?:_F|_P)?\((\w+),\s*(\w+))");
+    std::set<std::string> names;
+    for (const auto& entry :
+         fs::recursive_directory_iterator(fs::path(AGVD_SOURCE_DIR) / "tests")) {
+        if (entry.path().extension() != ".cpp") continue;
+        const std::string text = read_text(entry.path());
+        for (std::sregex_iterator i(text.begin(), text.end(), test), end; i != end; ++i) {
+            names.insert((*i)[1]);
+            names.insert((*i)[1].str() + '.' + (*i)[2].str());
+        }
+    }
+    return names;
+}
+
+// The tests that the comment at the top of a header names: "Held by A.B and C in tests/...".
+std::vector<std::string> tests_named_by(const std::string& header) {
+    static const std::regex held(R"(Held by (.*?)\s+in tests/)"), name(R"([A-Z]\w+(\.[A-Z]\w+)?)");
+    std::string top = header.substr(0, header.find("#pragma once"));
+    top = std::regex_replace(top, std::regex(R"(\s*//!\s*)"), " ");
+    std::smatch match;
+    if (!std::regex_search(top, match, held)) return {};
+    const std::string list = match[1];
+    std::vector<std::string> names;
+    for (std::sregex_iterator i(list.begin(), list.end(), name), end; i != end; ++i) {
+        names.push_back(i->str());
+    }
+    return names;
+}
+
 }  // namespace
 
 TEST(Layering, NoModulesIncludeEachOtherInACircle) {
@@ -245,4 +283,29 @@ TEST(Layering, BreachesAreSeen) {
               "");
     EXPECT_EQ(complaint("remesh/curves/find_creases.cpp", "#include \"agvd/mesh/surface.h\""), "");
     EXPECT_EQ(complaint("agvd/mesh/surface.cpp", "#include <vector>"), "");
+}
+
+TEST(PublicHeaders, EachNamesTestsThatExist) {
+    const std::set<std::string> tests = find_tests();
+    EXPECT_GT(tests.size(), 1000u);
+    int num_headers = 0;
+    for (const std::string& header : find_public_headers()) {
+        if (is_umbrella(header) || header == "remesh/names.h") continue;  // Promise nothing.
+        ++num_headers;
+        const fs::path library = header.rfind("agvd/", 0) == 0 ? "libagvd" : "libremesh";
+        const auto named = tests_named_by(read_text(fs::path(AGVD_SOURCE_DIR) / library / header));
+        EXPECT_FALSE(named.empty()) << header;
+        for (const std::string& test : named)
+            EXPECT_EQ(tests.count(test), 1u) << header << ": " << test;
+    }
+    EXPECT_GT(num_headers, 20);
+}
+
+TEST(PublicHeaders, AreNoMoreThanThirty) { EXPECT_LE(find_public_headers().size(), 30u); }
+
+TEST(PublicHeaders, NamesAreFoundInComments) {
+    const std::vector<std::string> found =
+        tests_named_by("//! Text. Held by Ab.Bc\n//! and Cd.* in tests/x.\n#pragma once\n");
+    EXPECT_EQ(found, (std::vector<std::string>{"Ab.Bc", "Cd"}));
+    EXPECT_TRUE(tests_named_by("//! Text.\n#pragma once\n//! Held by A in tests/x\n").empty());
 }

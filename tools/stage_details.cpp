@@ -47,7 +47,7 @@ std::string after_dual(const RemeshResult& result) {
         std::to_string(result.sites_added) + " sites added, " + std::to_string(result.sites_moved) +
         " moved, " + std::to_string(result.sites_removed) + " removed, " +
         std::to_string(result.sites_dropped) +
-        " dropped; components thinned: " + std::to_string(result.components_simplified);
+        " dropped; components simplified: " + std::to_string(result.components_simplified);
     for (const auto& [reason, count] : result.added_because) {
         text += "; " + std::to_string(count) + " sites added " + remesh::where_text(reason);
     }

@@ -94,7 +94,7 @@ std::string describe(const FeatureCounts& features) {
                "texture seams left out as too short or too close to each other");
     if (features.simplified_patches > 0) {
         text += "; " + counted(features.simplified_patches, "patch") +
-                " between them thinned to the sites, because cells failed there";
+                " between them simplified to the sites, because cells failed there";
     }
     return text;
 }
@@ -215,7 +215,7 @@ std::string describe_repair(const RemeshResult& result) {
     }
     if (result.components_simplified > 0) {
         text += "\n" + counted(result.components_simplified, "component") +
-                " thinned to the sites, because cells failed there";
+                " simplified to the sites, because cells failed there";
     }
     return text;
 }

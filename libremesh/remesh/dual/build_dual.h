@@ -1,7 +1,8 @@
 //! \file
 //! The dual of the diagram: a vertex per cell, a triangle per Voronoi vertex. What later stages
 //! tell about it: the Delaunay condition, and why sites were added.
-//! Held by BuildDual.GivesATriangulationOnRandomMeshes in tests/remesh/dual.
+//! Held by ClosedBall.HoldsForManySites and MakeDelaunay.HoldsOnRandomMeshesWhateverTheDual in
+//! tests/remesh/dual.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 //! \file
 //! Files of sites, of edges and of diagrams: what is read back is what was written, bit for bit.
-//! Held by ReadSites.* and DiagramFile.* in tests/remesh/meshfile.
+//! Held by ReadSites and WriteDiagram in tests/remesh/meshfile.
 #pragma once
 
 #include <filesystem>

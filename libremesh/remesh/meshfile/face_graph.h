@@ -1,6 +1,6 @@
 //! \file
 //! Meshes of CGAL: every model of its concept FaceListGraph, such as Surface_mesh and Polyhedron_3.
-//! Includes nothing of CGAL.
+//! Includes nothing of CGAL. Held by FaceGraph in tests/remesh/meshfile.
 #pragma once
 
 #include <type_traits>

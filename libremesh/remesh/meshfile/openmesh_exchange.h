@@ -1,6 +1,7 @@
 //! \file
 //! Converts meshes from and to OpenMesh, for programs that use it. Needs the target
 //! remesh::openmesh, which links OpenMesh; no other header includes OpenMesh.
+//! Held by OpenMeshExchange in tests/remesh/meshfile.
 #pragma once
 
 #include <OpenMesh/Core/Mesh/DefaultTriMesh.hh>

@@ -2,9 +2,17 @@
 #include <utility>
 
 #include "remesh/clean/carry.h"
+#include "remesh/pipeline/build_mesh.h"
+#include "remesh/pipeline/crossings.h"
+#include "remesh/pipeline/curves.h"
+#include "remesh/pipeline/domain.h"
 #include "remesh/pipeline/locked.h"
+#include "remesh/pipeline/place_sites.h"
+#include "remesh/pipeline/placed_dual.h"
 #include "remesh/pipeline/run.h"
 #include "remesh/pipeline/sizes.h"
+#include "remesh/pipeline/stage_context.h"
+#include "remesh/pipeline/work_limit.h"
 
 namespace remesh::detail {
 namespace {

@@ -8,6 +8,14 @@
 #include "agvd/mesh/surface_points.h"
 #include "remesh/dual/closed_ball.h"
 #include "remesh/dual/reduce_vertices.h"
+#include "remesh/pipeline/crossings.h"
+#include "remesh/pipeline/domain.h"
+#include "remesh/pipeline/improvable_mesh.h"
+#include "remesh/pipeline/place_sites.h"
+#include "remesh/pipeline/placed_dual.h"
+#include "remesh/pipeline/stage_context.h"
+#include "remesh/pipeline/valid_dual.h"
+#include "remesh/pipeline/work_limit.h"
 
 namespace remesh::detail {
 namespace {

@@ -2,10 +2,14 @@
 //! From sites to a mesh: cells, dual, the exact count, flips to Delaunay, positions.
 #pragma once
 
-#include "remesh/pipeline/improvable_mesh.h"
-#include "remesh/pipeline/work_limit.h"
+#include "remesh/pipeline/remesh.h"
 
 namespace remesh::detail {
+
+class WorkLimit;
+struct Domain;
+struct PlacedSites;
+struct StageContext;
 
 //! Thrown if not all curves of the network could be reproduced.
 struct NetworkFailed {};

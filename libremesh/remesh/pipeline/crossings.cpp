@@ -3,6 +3,9 @@
 #include <algorithm>
 
 #include "agvd/mesh/scale.h"
+#include "remesh/pipeline/domain.h"
+#include "remesh/pipeline/placed_dual.h"
+#include "remesh/pipeline/stage_context.h"
 #include "remesh/quality/evaluate.h"
 
 namespace remesh::detail {

@@ -3,9 +3,17 @@
 #pragma once
 
 #include "agvd/mesh/closest_point.h"
-#include "remesh/pipeline/placed_dual.h"
+#include "remesh/pipeline/remesh.h"
+
+namespace remesh {
+struct CurveSites;
+}
 
 namespace remesh::detail {
+
+struct Domain;
+struct PlacedDual;
+struct StageContext;
 
 using FacePairs = std::vector<std::pair<Index, Index>>;
 

@@ -8,6 +8,8 @@
 #include "agvd/mesh/surface_points.h"
 #include "remesh/clean/carry.h"
 #include "remesh/curves/crease_chains.h"
+#include "remesh/pipeline/cleaned_input.h"
+#include "remesh/pipeline/stage_context.h"
 #include "remesh/sites/prepared_surface.h"
 
 namespace remesh::detail {

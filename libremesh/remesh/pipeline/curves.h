@@ -3,11 +3,15 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
-#include "remesh/pipeline/cleaned_input.h"
+#include "agvd/mesh/topology.h"
 #include "remesh/sites/network_plan.h"
 
 namespace remesh::detail {
+
+struct CleanedInput;
+struct StageContext;
 
 //! Creases, seams and junctions of the cleaned surface.
 struct FoundCurves {

@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "agvd/core/error.h"
+#include "remesh/pipeline/cleaned_input.h"
+#include "remesh/pipeline/stage_context.h"
 
 namespace remesh::detail {
 namespace {

@@ -4,6 +4,11 @@
 #include <utility>
 
 #include "agvd/mesh/surface_points.h"
+#include "remesh/pipeline/crossings.h"
+#include "remesh/pipeline/domain.h"
+#include "remesh/pipeline/placed_dual.h"
+#include "remesh/pipeline/stage_context.h"
+#include "remesh/pipeline/valid_dual.h"
 #include "remesh/sites/sampling.h"
 
 namespace remesh::detail {

@@ -2,9 +2,15 @@
 //! Better triangles where placement leaves thin ones: along boundaries and in thinned components.
 #pragma once
 
-#include "remesh/pipeline/crossings.h"
+#include "remesh/pipeline/remesh.h"
+#include "remesh/placement/placement.h"
 
 namespace remesh::detail {
+
+class CrossingFinder;
+struct Domain;
+struct StageContext;
+struct ValidDual;
 
 //! A mesh and which of its vertices improvement may move.
 struct ImprovableMesh {

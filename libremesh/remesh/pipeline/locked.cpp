@@ -42,7 +42,8 @@ void add_boundary(const Surface& surface, Positions& known, std::vector<std::uin
         ends.add(position(surface.tail(h)));
         ends.add(position(surface.head(h)));
     }
-    std::vector<std::pair<std::uint64_t, Index>> edges;  // Between these positions, and a half-edge.
+    std::vector<std::pair<std::uint64_t, Index>>
+        edges;  // Between these positions, and a half-edge.
     for (const Index h : surface.edge_half) {
         const Index a = ends.find(position(surface.tail(h)));
         const Index b = ends.find(position(surface.head(h)));

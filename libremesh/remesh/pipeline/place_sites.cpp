@@ -6,6 +6,9 @@
 #include <utility>
 
 #include "agvd/mesh/surface_points.h"
+#include "remesh/pipeline/cleaned_input.h"
+#include "remesh/pipeline/domain.h"
+#include "remesh/pipeline/stage_context.h"
 #include "remesh/sites/relax_network.h"
 #include "remesh/sites/sampling.h"
 #include "remesh/sites/shares.h"

@@ -2,9 +2,13 @@
 //! Sites on the surface: sampled or given, and relaxed.
 #pragma once
 
-#include "remesh/pipeline/domain.h"
+#include "remesh/curves/curve_sites.h"
 
 namespace remesh::detail {
+
+struct CleanedInput;
+struct Domain;
+struct StageContext;
 
 struct PlacedSites {
     //! On the cleaned surface. Sites of curves come first, with a copy for each side of the cut.

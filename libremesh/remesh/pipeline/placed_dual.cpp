@@ -4,6 +4,10 @@
 #include <utility>
 
 #include "agvd/mesh/any_mesh.h"
+#include "remesh/pipeline/domain.h"
+#include "remesh/pipeline/place_sites.h"
+#include "remesh/pipeline/stage_context.h"
+#include "remesh/pipeline/valid_dual.h"
 
 namespace remesh::detail {
 namespace {

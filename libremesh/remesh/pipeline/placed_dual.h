@@ -2,12 +2,15 @@
 //! Positions for the vertices of a dual, and the patches between curves as one mesh.
 #pragma once
 
+#include "remesh/curves/curve_sites.h"
 #include "remesh/curves/glue.h"
-#include "remesh/pipeline/place_sites.h"
-#include "remesh/pipeline/valid_dual.h"
 #include "remesh/placement/placement.h"
 
 namespace remesh::detail {
+
+struct Domain;
+struct StageContext;
+struct ValidDual;
 
 //! How the patches of a dual are joined.
 struct JoinedPatches {

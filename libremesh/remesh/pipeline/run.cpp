@@ -8,9 +8,14 @@
 #include <string>
 #include <utility>
 
+#include "remesh/pipeline/build_mesh.h"
+#include "remesh/pipeline/crossings.h"
+#include "remesh/pipeline/curves.h"
 #include "remesh/pipeline/meet_distance.h"
 #include "remesh/pipeline/sample_count.h"
 #include "remesh/pipeline/sizes.h"
+#include "remesh/pipeline/stage_context.h"
+#include "remesh/pipeline/work_limit.h"
 #include "remesh/sites/shares.h"
 
 namespace remesh::detail {

@@ -2,9 +2,14 @@
 //! The stages of remesh() in their order: a whole run, and one attempt.
 #pragma once
 
-#include "remesh/pipeline/build_mesh.h"
+#include "remesh/pipeline/cleaned_input.h"
+#include "remesh/sites/prepared_surface.h"
 
 namespace remesh::detail {
+
+class WorkLimit;
+struct FoundCurves;
+struct KeptCurves;
 
 //! \param options  checked.
 //! \throw what remesh() throws.

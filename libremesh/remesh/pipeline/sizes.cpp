@@ -11,7 +11,9 @@
 #include "agvd/mesh/any_mesh.h"
 #include "agvd/mesh/scale.h"
 #include "agvd/mesh/surface_points.h"
+#include "remesh/pipeline/cleaned_input.h"
 #include "remesh/pipeline/sample_count.h"
+#include "remesh/pipeline/stage_context.h"
 #include "remesh/sites/target_lengths.h"
 
 namespace remesh::detail {

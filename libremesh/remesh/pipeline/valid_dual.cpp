@@ -13,6 +13,9 @@
 #include "agvd/mesh/surface_points.h"
 #include "remesh/dual/closed_ball.h"
 #include "remesh/dual/reduce_vertices.h"
+#include "remesh/pipeline/domain.h"
+#include "remesh/pipeline/place_sites.h"
+#include "remesh/pipeline/stage_context.h"
 
 namespace remesh::detail {
 namespace {

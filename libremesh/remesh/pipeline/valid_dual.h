@@ -2,10 +2,17 @@
 //! Moves and adds sites until the dual of their cells has the topology of the surface.
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "agvd/diagram/diagram.h"
-#include "remesh/pipeline/place_sites.h"
+#include "remesh/names.h"
 
 namespace remesh::detail {
+
+struct Domain;
+struct PlacedSites;
+struct StageContext;
 
 //! A triangle mesh whose vertices are points of the base.
 struct ValidDual {

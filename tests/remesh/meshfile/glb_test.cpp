@@ -244,7 +244,7 @@ TEST(Glb, WrongAccessorsAreRefused) {
     expect_refused(changed("bufferViews", 0, "buffer", 1), {"within the data"});
     expect_refused(changed("buffers", 0, "uri", "/dev/zero"), {"'/dev/zero'", "beside"});
     expect_refused(changed("buffers", 0, "uri", "https://a/b"), {"beside"});
-    expect_refused(changed("buffers", 0, "uri", "data:;base64,A*=="), {"no base64"});
+    expect_refused(changed("buffers", 0, "uri", "data:;base64,A*=="), {"not base64"});
 }
 
 TEST(Glb, WrongNodesAndPrimitivesAreRefused) {
@@ -260,7 +260,7 @@ TEST(Glb, WrongNodesAndPrimitivesAreRefused) {
     expect_refused(with("nodes", "[{\"children\": [0]}]"), {"node 0 has several parents"});
     expect_refused(with("nodes", "[{\"children\": [\"a\"]}]"), {"a node is not a whole number"});
     expect_refused(with("nodes", "[{\"translation\": [1, 2]}]"), {"3 numbers"});
-    expect_refused(with("nodes", "[{\"scale\": [1, 2, null]}]"), {"no number"});
+    expect_refused(with("nodes", "[{\"scale\": [1, 2, null]}]"), {"not a number"});
     expect_refused(with("meshes", "[{\"primitives\": [{}]}]"), {"no attributes"});
     expect_refused(with("meshes", "[{\"primitives\": [{\"attributes\": {}}]}]"), {"no positions"});
     expect_error<InvalidInput>("a.glb", glb(with("meshes", "[{}]").dump(), square_data),

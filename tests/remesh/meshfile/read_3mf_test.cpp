@@ -202,13 +202,14 @@ TEST_F(Read3mf, WhatWasWrittenComesBack) {
 }
 
 TEST_F(Read3mf, WrongPackagesAreRefused) {
-    expect_error<IoError>("a.3mf", "solid a", {"byte 0", "no ZIP file", "extension"});
+    expect_error<IoError>("a.3mf", "solid a", {"byte 0", "not a ZIP file", "extension"});
     expect_error<IoError>("a.3mf", package({{"word/document.xml", "<a/>"}}), {"'_rels/.rels'"});
-    expect_error<IoError>("a.3mf", package({{"_rels/.rels", "<Relationships/>"}}), {"no 3MF file"});
+    expect_error<IoError>("a.3mf", package({{"_rels/.rels", "<Relationships/>"}}),
+                          {"not a 3MF file"});
     expect_error<IoError>("a.3mf", package({{"_rels/.rels", relations}}), {"'3D/Main.model'"});
     expect_error<IoError>("a.3mf",
                           package({{"_rels/.rels", relations}, {"3D/Main.model", "<model/>"}}),
-                          {"a.3mf: 3D/Main.model: line 1", "no model of 3MF"});
+                          {"a.3mf: 3D/Main.model: line 1", "not a model of 3MF"});
 }
 
 TEST_F(Read3mf, WrongModelsAreRefused) {

@@ -300,8 +300,8 @@ TEST_F(Vtp, WrongDataAreRefused) {
     expect_error<IoError>(replaced(base64, ">\n_", ">\n"), {"'_'"});
     expect_error<IoError>(replaced(base64, "'base64'", "'hex'"), {"'hex'"});
     // 40 bytes of heat are announced by the digits "KAAAA".
-    expect_error<IoError>(replaced(base64, "_KAAAA", "_KAA*A"), {"'heat'", "no base64"});
-    expect_error<IoError>(replaced(base64, "_KAAAA", "_=AAAA"), {"'heat'", "no base64"});
+    expect_error<IoError>(replaced(base64, "_KAAAA", "_KAA*A"), {"'heat'", "not base64"});
+    expect_error<IoError>(replaced(base64, "_KAAAA", "_=AAAA"), {"'heat'", "not base64"});
     expect_error<IoError>(replaced(base64, "_KAAAA", "_JwAAA"), {"'heat'", "39 bytes"});
     expect_error<IoError>(replaced(base64, "_KAAAA", "_IAAAA"), {"'heat'", "4 numbers for 5"});
     expect_error<IoError>(replaced(base64, "_KAAAA", "_/////"), {"'heat'", "ends within it"});

@@ -251,7 +251,7 @@ TEST(Locked, WhatIsNotThereIsRefused) {
               std::string::npos);
     mesh.positions.emplace_back(5, 5, 5);
     EXPECT_NE(text_of({.num_samples = 50, .locked = {count}}).find("no face"), std::string::npos);
-    EXPECT_NE(text_of({.num_samples = 50, .locked_edges = {{0, 1}}}).find("no edge"),
+    EXPECT_NE(text_of({.num_samples = 50, .locked_edges = {{0, 1}}}).find("not an edge"),
               std::string::npos);
     RemeshOptions with_sites{.locked = {0}};
     with_sites.sites.emplace();
