@@ -4,7 +4,14 @@
 #include <utility>
 
 #include "remesh/pipeline/build_mesh.h"
+#include "remesh/pipeline/cleaned_input.h"
+#include "remesh/pipeline/crossings.h"
+#include "remesh/pipeline/curves.h"
+#include "remesh/pipeline/domain.h"
+#include "remesh/pipeline/place_sites.h"
 #include "remesh/pipeline/remesh.h"
+#include "remesh/pipeline/stage_context.h"
+#include "remesh/pipeline/work_limit.h"
 #include "remesh/quality/evaluate.h"
 #include "support/parts.h"
 #include "support/shapes.h"
