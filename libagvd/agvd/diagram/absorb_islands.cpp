@@ -255,7 +255,7 @@ void relabel_row(IslandSearch& search, const Row& row, std::vector<Index>& stale
                       });
     if (!is_changed) return;
     const LineId line = labels.crossings[row.crossings->begin].line;
-    *row.crossings = {static_cast<Index>(labels.crossings.size()), static_cast<Index>(kept.size())};
+    *row.crossings = {size_of(labels.crossings), size_of(kept)};
     labels.crossings.insert(labels.crossings.end(), kept.begin(), kept.end());
     add_faces_of_line(search, line, stale_faces);
 }

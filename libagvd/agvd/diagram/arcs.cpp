@@ -6,11 +6,6 @@ namespace agvd {
 namespace {
 
 template <typename T>
-Index size_of(const std::vector<T>& list) {
-    return static_cast<Index>(list.size());
-}
-
-template <typename T>
 void append_all(const std::vector<T>& from, std::vector<T>& to) {
     to.insert(to.end(), from.begin(), from.end());
 }
@@ -29,7 +24,7 @@ void add_edge(const Arcs& arcs, ArcEnd start, bool is_closed, Ticker& ticker, Jo
     ArcEnd from = start;
     ArcEnd to;
     while (true) {
-        joined.edge_of_arc[from.arc()] = static_cast<Index>(joined.edges.size());
+        joined.edge_of_arc[from.arc()] = size_of(joined.edges);
         ticker.tick();
         to = from.other();
         if (!is_closed && ends_edges(joined, node_at(arcs, to))) break;

@@ -1,10 +1,7 @@
-// The bisector of two sites a and b has equal distances f_a = f_b, each the least over the site's
-// relays. Its point opposite the middle m of a chord is m + s n with the chord's normal n: Newton
-// on f_a - f_b along that normal.
-//
-// A Voronoi vertex p has f_a(p) = f_b(p) = f_c(p). Newton on (f_a - f_b, f_b - f_c) finds it, with
-// the relays that are the nearest at the start; where it converges they are chosen again, until
-// they stay the same.
+// The point of a bisector opposite the middle of a chord is found by Newton on f_a - f_b along the
+// normal, a Voronoi vertex by Newton on (f_a - f_b, f_b - f_c), where f is the distance from a
+// site. Relays are those that are the nearest at the start; at a root they are chosen again until
+// they stay.
 #include "agvd/diagram/bisectors.h"
 
 #include <algorithm>
@@ -125,7 +122,6 @@ void sample(const Sampling& sampling, const Chord& chord, int depth) {
 
 // Distance of p through a relay, all in the frame of its half-edge; as reach() in any frame.
 Reach reach_in_frame(const Relay& r, const Vec2& p) {
-    const auto root = [](double x, double y) { return std::sqrt(x * x + y * y); };
     const double dx = p.x() - r.x;
     const double dy = p.y() - r.y;
     if (r.y < 0) {
@@ -286,7 +282,7 @@ double arc_undercut(const TriangleSites& triangle, const std::array<Index, 2>& s
 }
 
 bool joins_straight(std::span<const Relay> relays, const std::array<Vec2, 3>& corners,
-                    const Breakpoint& from, const Breakpoint& to, const ChordTest& test) {
+                    const Breakpoint& from, const Breakpoint& to, double slack, double tolerance) {
     const Vec2 middle = (from.position + to.position) / 2;
     struct Frame {
         Vec2 along;
@@ -311,10 +307,10 @@ bool joins_straight(std::span<const Relay> relays, const std::array<Vec2, 3>& co
         if (site == nullptr) continue;
         const std::size_t k = relay.half_edge % 3;
         const Frame& frame = frames[k];
-        site->agrees_at_from = site->agrees_at_from || reach_in_frame(relay, frame.from).distance <=
-                                                           from.distance + test.slack;
-        site->agrees_at_to = site->agrees_at_to ||
-                             reach_in_frame(relay, frame.to).distance <= to.distance + test.slack;
+        site->agrees_at_from = site->agrees_at_from ||
+                               reach_in_frame(relay, frame.from).distance <= from.distance + slack;
+        site->agrees_at_to =
+            site->agrees_at_to || reach_in_frame(relay, frame.to).distance <= to.distance + slack;
         const Reach at_middle = reach_in_frame(relay, frame.middle);
         if (at_middle.distance < site->at_middle.distance) {
             site->at_middle = at_middle;
@@ -329,7 +325,7 @@ bool joins_straight(std::span<const Relay> relays, const std::array<Vec2, 3>& co
             corners[site.frame] + image.x() * along + image.y() * Vec2(-along.y(), along.x());
     }
     return is_nearly_straight(to.position - from.position, middle, known[0].at_middle,
-                              known[1].at_middle, test.tolerance);
+                              known[1].at_middle, tolerance);
 }
 
 VertexCandidate find_voronoi_vertex(const TriangleSites& triangle,

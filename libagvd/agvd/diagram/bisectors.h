@@ -61,19 +61,15 @@ void sample_bisector(const TriangleSites& triangle, const std::array<Index, 2>& 
 [[nodiscard]] double arc_undercut(const TriangleSites& triangle, const std::array<Index, 2>& sites,
                                   const Chord& chord);
 
-struct ChordTest {
-    double slack;      //!< Mesh units: distances agree up to this.
-    double tolerance;  //!< A share of the chord.
-};
-
 //! Whether a face's own relays say that the chord between two breakpoints is its one arc: the
 //! bisector clearly strays from it by less than the tolerance, and the relays agree with the
 //! breakpoints' distances. False: see TriangleSolver, which draws arcs of any shape.
 //! \param relays   of the face.
 //! \param corners  of the face, in whose frame the breakpoints are.
+//! \param slack, tolerance  of distances, mesh units; a share of the chord.
 [[nodiscard]] bool joins_straight(std::span<const Relay> relays, const std::array<Vec2, 3>& corners,
-                                  const Breakpoint& from, const Breakpoint& to,
-                                  const ChordTest& test);
+                                  const Breakpoint& from, const Breakpoint& to, double slack,
+                                  double tolerance);
 
 // --- Voronoi vertices --------------------------------------------------------------------------
 

@@ -69,13 +69,13 @@ void collect_loops(const Diagram& diagram, Ticker& ticker, Cells& cells) {
     std::vector<bool> seen(next.size(), false);
     for (Side start = 0; start < next.size(); ++start) {
         if (seen[start] || !site_of(diagram, start).is_valid()) continue;
-        const auto begin = static_cast<Index>(walked.size());
+        const auto begin = size_of(walked);
         for (Side side = start; !seen[side]; side = next[side]) {
             ticker.tick();
             seen[side] = true;
             walked.push_back({side / 2, side % 2 == 1});
         }
-        loops.push_back({site_of(diagram, start), begin, static_cast<Index>(walked.size())});
+        loops.push_back({site_of(diagram, start), begin, size_of(walked)});
     }
     std::stable_sort(loops.begin(), loops.end(),
                      [](const Loop& a, const Loop& b) { return a.site < b.site; });
@@ -84,7 +84,7 @@ void collect_loops(const Diagram& diagram, Ticker& ticker, Cells& cells) {
     for (const auto& [site, begin, end] : loops) {
         ++cells.cell_loops[site.value() + 1];
         cells.edges.insert(cells.edges.end(), walked.begin() + begin, walked.begin() + end);
-        cells.loop_edges.push_back(static_cast<Index>(cells.edges.size()));
+        cells.loop_edges.push_back(size_of(cells.edges));
     }
     add_up(cells.cell_loops);
 }

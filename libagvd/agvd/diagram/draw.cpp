@@ -92,7 +92,7 @@ private:
 
     // The edges of one loop between its label changes, and the vertices at these.
     void attach_boundary(std::span<const BoundaryCrossing> crossings) {
-        const auto first_edge = static_cast<Index>(out_.edges.size());
+        const auto first_edge = size_of(out_.edges);
         const auto count = static_cast<Index>(crossings.size());
         for (const BoundaryCrossing& from : crossings) {
             const SiteId site(labels_.crossings[from.crossing].site_after);
@@ -117,7 +117,7 @@ private:
 
     // To the vertex that is finished next.
     void attach(const EdgeEnd& end, Index site) {
-        const auto vertex = static_cast<Index>(out_.vertices.size());
+        const auto vertex = size_of(out_.vertices);
         out_.vertex_ends.push_back(end);
         out_.vertex_sites.push_back(SiteId(site));
         (end.is_tail ? out_.edges[end.edge].tail : out_.edges[end.edge].head) = vertex;
@@ -126,7 +126,7 @@ private:
     void finish_vertex(const SurfacePoint& point, double distance) {
         out_.vertices.push_back(point);
         out_.vertex_distance.push_back(distance);
-        out_.vertex_offsets.push_back(static_cast<Index>(out_.vertex_ends.size()));
+        out_.vertex_offsets.push_back(size_of(out_.vertex_ends));
     }
 
     // --- Points --------------------------------------------------------------------------------
@@ -142,7 +142,7 @@ private:
         out_.passages.reserve(most);
     }
 
-    void finish_edge() { out_.edge_points.push_back(static_cast<Index>(out_.points.size())); }
+    void finish_edge() { out_.edge_points.push_back(size_of(out_.points)); }
 
     void draw_edge(const JoinedEdges::Edge& edge) {
         ArcEnd from = edge.first;

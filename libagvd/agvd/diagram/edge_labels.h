@@ -21,6 +21,11 @@ template <typename T>
     return std::span(list).subspan(block.begin, block.count);
 }
 
+template <typename T>
+[[nodiscard]] Index size_of(const std::vector<T>& list) {
+    return static_cast<Index>(list.size());
+}
+
 //! A line on which labels change: a mesh edge, named by one of its half-edges, or a cut.
 struct LineId {
     EitherIndex id;

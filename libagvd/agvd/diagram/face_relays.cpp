@@ -31,7 +31,6 @@ SurfacePoint to_surface(const Surface& surface, Index face, const Vec2& p) {
 }
 
 CornerDistances corner_distances(const Relay& r, double length, const Vec2& apex) {
-    const auto root = [](double x, double y) { return std::sqrt(x * x + y * y); };
     const double cx = apex.x();
     const double cy = apex.y();
     if (r.y >= 0) {
@@ -52,13 +51,6 @@ CornerDistances corner_distances(const Relay& r, double length, const Vec2& apex
         result.apex = r.weight + root(cx - r.x, height);
     }
     return result;
-}
-
-void append_planar(const Surface& surface, std::span<const Relay> relays,
-                   std::vector<PlanarRelay>& out) {
-    for (const Relay& relay : relays) {
-        out.push_back(to_planar(relay, to_face_frame(surface, relay.half_edge)));
-    }
 }
 
 std::span<const PlanarRelay> of_site(std::span<const PlanarRelay> relays, Index site) {
@@ -98,8 +90,9 @@ PointLabel point_label(const Surface& surface, const Propagation& propagation,
         return {propagation.vertex_site[surface.mesh.triangles[face][0]], {}};
     }
     std::vector<PlanarRelay> planar;
-    append_planar(surface, relays_of(propagation, static_cast<Index>(found - mixed.begin())),
-                  planar);
+    for (const Relay& relay : relays_of(propagation, static_cast<Index>(found - mixed.begin()))) {
+        planar.push_back(to_planar(relay, to_face_frame(surface, relay.half_edge)));
+    }
     const Nearest label = nearest(planar, position_in_frame(surface, point, 3 * face));
     return {SiteId(label.site), label.distance};
 }

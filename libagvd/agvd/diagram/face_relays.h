@@ -33,6 +33,9 @@ struct Reach {
     return a.x() * b.y() - a.y() * b.x();
 }
 
+//! The length of a vector.
+[[nodiscard]] inline double root(double x, double y) { return std::sqrt(x * x + y * y); }
+
 //! Straight where the interval lets the chord through, else bent at its nearer end.
 [[nodiscard]] inline Reach reach(const PlanarRelay& relay, const Vec2& p) {
     const auto from = [&p](const Vec2& source, double weight) -> Reach {
@@ -65,11 +68,6 @@ struct Motion {
     }
 };
 
-//! First `first`, then `second`.
-[[nodiscard]] inline Motion compose(const Motion& second, const Motion& first) {
-    return {second(first.axis) - second.origin, second(first.origin)};
-}
-
 //! The surface point at a position in the face's own frame; positions outside are moved to the
 //! nearest edge.
 [[nodiscard]] SurfacePoint to_surface(const Surface& surface, Index face, const Vec2& p);
@@ -79,7 +77,6 @@ struct Motion {
 
 //! A relay, moved from its half-edge's frame.
 [[nodiscard]] inline PlanarRelay to_planar(const Relay& relay, const Motion& motion) {
-    const auto root = [](double x, double y) { return std::sqrt(x * x + y * y); };
     return {motion({relay.x, relay.y}),
             motion({relay.begin, 0}),
             motion({relay.end, 0}),
@@ -98,10 +95,6 @@ struct CornerDistances {
 
 //! \param length, apex  of the relay's half-edge.
 [[nodiscard]] CornerDistances corner_distances(const Relay& relay, double length, const Vec2& apex);
-
-//! Appends relays, moved from their half-edges' frames by to_face_frame.
-void append_planar(const Surface& surface, std::span<const Relay> relays,
-                   std::vector<PlanarRelay>& out);
 
 //! Those of one site among relays by ascending site.
 [[nodiscard]] std::span<const PlanarRelay> of_site(std::span<const PlanarRelay> relays, Index site);

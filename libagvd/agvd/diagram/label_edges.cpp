@@ -39,35 +39,36 @@ struct FoundRows {
     }
 }
 
-// Labels edges one after the other. One for each thread.
-class EdgeLabeller {
-public:
-    EdgeLabeller(const StageInput& in, const EdgeLabels& labels, FoundRows& out)
-        : surface_(in.surface),
-          labels_(labels),
-          gatherer_(in.surface, in.propagation, labels),
-          out_(out) {}
-
-    void label(Index half_edge) {
-        const Index edge = surface_.edge[half_edge];
-        if (!gatherer_.may_change(edge, relays_)) return;
-        const auto begin = static_cast<Index>(out_.crossings.size());
-        label_line(relays_, LineId::of_edge(half_edge),
-                   {surface_.length[edge], labels_.point_site[surface_.tail(half_edge)],
-                    labels_.point_site[surface_.head(half_edge)]},
-                   scratch_, out_.crossings);
-        const Index count = static_cast<Index>(out_.crossings.size()) - begin;
-        if (count > 0) out_.rows.push_back({edge, {begin, count}});
+// Labels some edges one after the other.
+void label_some(const StageInput& input, const EdgeLabels& labels,
+                std::span<const Index> half_edges, FoundRows& out) {
+    const Surface& surface = input.surface;
+    RelayGatherer gatherer(surface, input.propagation, labels);
+    std::vector<LineRelay> relays;  // Of the edge at hand.
+    EnvelopeScratch scratch;
+    Ticker ticker(input.poller);
+    for (std::size_t i = 0; i < half_edges.size(); ++i) {
+        constexpr std::size_t ahead = 3;
+        if (i + 2 * ahead < half_edges.size()) {
+            prefetch_across(input, labels, half_edges[i + 2 * ahead], false);
+        }
+        if (i + ahead < half_edges.size()) {
+            prefetch_across(input, labels, half_edges[i + ahead], true);
+        }
+        const Index h = half_edges[i];
+        const Index mixed = labels.mixed_index[Surface::face(h)];
+        ticker.tick(1 + relays_of(input.propagation, mixed).size());
+        const Index edge = surface.edge[h];
+        if (!gatherer.may_change(edge, relays)) continue;
+        const Index begin = size_of(out.crossings);
+        label_line(relays, LineId::of_edge(h),
+                   {surface.length[edge], labels.point_site[surface.tail(h)],
+                    labels.point_site[surface.head(h)]},
+                   scratch, out.crossings);
+        const Index count = size_of(out.crossings) - begin;
+        if (count > 0) out.rows.push_back({edge, {begin, count}});
     }
-
-private:
-    const Surface& surface_;
-    const EdgeLabels& labels_;
-    RelayGatherer gatherer_;
-    FoundRows& out_;
-    std::vector<LineRelay> relays_;  // Of the edge at hand.
-    EnvelopeScratch scratch_;
-};
+}
 
 // The lower half-edge of each edge all of whose faces are mixed.
 std::vector<Index> labelled_edges(const StageInput& in, const EdgeLabels& labels) {
@@ -86,41 +87,23 @@ std::vector<Index> labelled_edges(const StageInput& in, const EdgeLabels& labels
     return half_edges;
 }
 
-// Chunk after chunk of the half-edges.
-std::vector<FoundRows> find_rows(const StageInput& input, std::span<const Index> half_edges,
-                                 const EdgeLabels& labels) {
-    constexpr Index grain = 512;
-    const auto count = static_cast<Index>(half_edges.size());
-    std::vector<FoundRows> found(num_chunks(count, grain));
-    const auto label_chunk = [&](Index chunk, Index begin, Index end) {
-        EdgeLabeller labeller(input, labels, found[chunk]);
-        Ticker ticker(input.poller);
-        for (Index i = begin; i < end; ++i) {
-            constexpr Index ahead = 3;
-            if (i + 2 * ahead < end) {
-                prefetch_across(input, labels, half_edges[i + 2 * ahead], false);
-            }
-            if (i + ahead < end) prefetch_across(input, labels, half_edges[i + ahead], true);
-            labeller.label(half_edges[i]);
-            const Index mixed = labels.mixed_index[Surface::face(half_edges[i])];
-            ticker.tick(1 + relays_of(input.propagation, mixed).size());
-        }
-    };
-    parallel_chunks(count, grain, input.num_threads, label_chunk, input.poller);
-    return found;
-}
-
 }  // namespace
 
 void label_edges(const StageInput& input, EdgeLabels& labels) {
     labels.edge_rows.assign(input.surface.num_edges(), {});
-    const std::vector<FoundRows> found = find_rows(input, labelled_edges(input, labels), labels);
+    const std::vector<Index> half_edges = labelled_edges(input, labels);
+    constexpr Index grain = 512;
+    std::vector<FoundRows> found(num_chunks(size_of(half_edges), grain));
+    const auto label_chunk = [&](Index chunk, Index begin, Index end) {
+        label_some(input, labels, std::span(half_edges).subspan(begin, end - begin), found[chunk]);
+    };
+    parallel_chunks(size_of(half_edges), grain, input.num_threads, label_chunk, input.poller);
     std::size_t num_crossings = 0;
     for (const FoundRows& chunk : found) num_crossings += chunk.crossings.size();
     labels.crossings.reserve(num_crossings + num_crossings / 8);  // And those of cuts.
     for (const FoundRows& chunk : found) {
         input.poller.poll();
-        const auto begin = static_cast<Index>(labels.crossings.size());
+        const auto begin = size_of(labels.crossings);
         for (const auto& [edge, row] : chunk.rows) {
             labels.edge_rows[edge] = {begin + row.begin, row.count};
         }

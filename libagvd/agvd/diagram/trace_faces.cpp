@@ -206,10 +206,10 @@ private:
         const Breakpoint& from = breakpoints_[0];
         const Breakpoint& to = breakpoints_[1];
         if (!joins_straight(relays_of(propagation_, mixed_index_), corners_, from, to,
-                            {largest_disagreement * longest_side(corners), chord_tolerance_})) {
+                            largest_disagreement * longest_side(corners), chord_tolerance_)) {
             return false;
         }
-        const auto num_points = static_cast<Index>(out_.points.size());
+        const auto num_points = size_of(out_.points);
         out_.arcs.push_back({face_, from.node, to.node, to.site_after, from.site_after, num_points,
                              0, from.is_across, to.is_across});
         return true;

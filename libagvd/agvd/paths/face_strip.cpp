@@ -57,54 +57,51 @@ public:
     }
 
 private:
+    // Turns around the current point, by the shorter way, to a view that is the goal. False if
+    // there is none.
     template <typename IsGoal>
-    bool turn_to(const IsGoal& is_goal);
+    bool turn_to(const IsGoal& is_goal) {
+        if (is_goal(here_)) return true;
+        const std::optional<Index> corner = corner_of(surface_, here_);
+        if (!corner) {
+            const std::optional<Index> h = half_edge_of(here_);
+            if (!h || surface_.twin[*h] == no_index) return false;
+            cross(surface_, *h, strip_.crossed);
+            here_ = across_edge(surface_, here_, *h);
+            return is_goal(here_);
+        }
+        const auto at = [](Index leaving) {
+            SurfacePoint view{FaceId(Surface::face(leaving)), {0, 0, 0}};
+            view.barycentric[leaving % 3] = 1;
+            return view;
+        };
+        // Alternates between both directions, so the way found is the shorter one.
+        const Index start = *corner;
+        Index left = start, right = start;  // Leaving the vertex; no_index: at the boundary.
+        for (Index steps = 1;; ++steps) {
+            if (left != no_index) left = surface_.twin[Surface::previous(left)];
+            if (right != no_index) right = surface_.twin[right];
+            if (right != no_index) right = Surface::next(right);
+            const bool is_left = left != no_index && is_goal(at(left));
+            const bool is_right = right != no_index && is_goal(at(right));
+            if (is_left || is_right) {
+                Index h = start;
+                for (Index i = 0; i < steps; ++i) {
+                    const Index out = is_left ? Surface::previous(h) : h;
+                    cross(surface_, out, strip_.crossed);
+                    h = is_left ? surface_.twin[out] : Surface::next(surface_.twin[out]);
+                }
+                here_ = at(h);
+                return true;
+            }
+            if (left == start || (left == no_index && right == no_index)) return false;
+        }
+    }
 
     const Surface& surface_;
     FaceStrip strip_;
     SurfacePoint here_;  // The current point, in the strip's last face.
 };
-
-// Turns around the current point, by the shorter way, to a view that is the goal. False if there is
-// none.
-template <typename IsGoal>
-bool StripBuilder::turn_to(const IsGoal& is_goal) {
-    if (is_goal(here_)) return true;
-    const std::optional<Index> corner = corner_of(surface_, here_);
-    if (!corner) {
-        const std::optional<Index> h = half_edge_of(here_);
-        if (!h || surface_.twin[*h] == no_index) return false;
-        cross(surface_, *h, strip_.crossed);
-        here_ = across_edge(surface_, here_, *h);
-        return is_goal(here_);
-    }
-    const auto at = [](Index leaving) {
-        SurfacePoint view{FaceId(Surface::face(leaving)), {0, 0, 0}};
-        view.barycentric[leaving % 3] = 1;
-        return view;
-    };
-    // Alternates between both directions, so the way found is the shorter one.
-    const Index start = *corner;
-    Index left = start, right = start;  // Leaving the vertex; no_index: at the boundary.
-    for (Index steps = 1;; ++steps) {
-        if (left != no_index) left = surface_.twin[Surface::previous(left)];
-        if (right != no_index) right = surface_.twin[right];
-        if (right != no_index) right = Surface::next(right);
-        const bool is_left = left != no_index && is_goal(at(left));
-        const bool is_right = right != no_index && is_goal(at(right));
-        if (is_left || is_right) {
-            Index h = start;
-            for (Index i = 0; i < steps; ++i) {
-                const Index out = is_left ? Surface::previous(h) : h;
-                cross(surface_, out, strip_.crossed);
-                h = is_left ? surface_.twin[out] : Surface::next(surface_.twin[out]);
-            }
-            here_ = at(h);
-            return true;
-        }
-        if (left == start || (left == no_index && right == no_index)) return false;
-    }
-}
 
 }  // namespace
 

@@ -26,7 +26,7 @@ namespace {
 
 // Windows of a second site may come to a face if its bound exceeds that of the nearest site by at
 // most this share. That is as much as bounds exceed distances. With less, more sites run twice.
-constexpr double slack = 0.08;
+constexpr double bound_excess = 0.08;
 
 // The exact border may lie this far from the border of the bounds, as a share of the distance from
 // the site. Where that is less than two rings of faces, nothing is widened.
@@ -60,7 +60,7 @@ void widen(const Surface& surface, const Corners& corners, const DistanceBounds&
     const auto reach = [&](Index vertex, float distance) {
         if (!(distance < across[vertex])) return;
         across[vertex] = distance;
-        if (!(distance <= (1 + slack) * bounds.distance[vertex])) return;
+        if (!(distance <= (1 + bound_excess) * bounds.distance[vertex])) return;
         marks[vertex] = static_cast<std::uint8_t>(marks[vertex] | 2);
         front.push_back(vertex);
     };
