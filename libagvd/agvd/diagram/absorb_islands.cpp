@@ -1,7 +1,5 @@
-// Points and stretches of one label that touch are united by union-find; nodes are numbered as in
-// EdgeLabels. What is not united with its cell's site is an island. It gets the label of a
-// neighbouring cell that is connected to its own site, on edges and cuts alike, and the faces
-// around it are traced again.
+// Points and stretches of one label that touch are united; what is not united with its cell's site
+// is an island, and gets the label of a neighbouring cell that is connected to its own site.
 #include <algorithm>
 #include <map>
 #include <utility>
@@ -279,8 +277,6 @@ void relabel_points(IslandSearch& search, std::vector<Index>& stale_faces) {
 
 // Changes the labels of islands.
 // \return ascending: the positions of the mixed faces around changed labels.
-// Cost: nearly linear in the points and crossings of the faces that the cells in doubt reach into,
-// and O(#V + crossings) quick steps.
 std::vector<Index> relabel_islands(const StageInput& input, const CellSet& in_doubt,
                                    DiagramParts& parts) {
     const EdgeLabels& labels = parts.labels;

@@ -222,9 +222,8 @@ private:
         return ear;
     }
 
-    // A lens is wrong where a third site is nearer on the arc, and the less likely the farther the
-    // arc strays from its chord. It is certain where the site has no other interval that this one
-    // could be connected to.
+    // A lens is wrong where a third site is nearer on the arc, and less likely the farther the arc
+    // strays. It is certain where the site has no other interval to be connected to.
     void judge_lens(const Breakpoint& from, const Breakpoint& to, Ear& ear) const {
         const std::array sites{from.site_after, to.site_after};
         const auto middle =

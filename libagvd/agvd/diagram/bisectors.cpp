@@ -1,7 +1,6 @@
 // The point of a bisector opposite the middle of a chord is found by Newton on f_a - f_b along the
 // normal, a Voronoi vertex by Newton on (f_a - f_b, f_b - f_c), where f is the distance from a
-// site. Relays are those that are the nearest at the start; at a root they are chosen again until
-// they stay.
+// site, through the relay that is nearest at the start; at a root relays are chosen again.
 #include "agvd/diagram/bisectors.h"
 
 #include <algorithm>
@@ -76,8 +75,7 @@ Vec2 gradient(const Vec2& p, const Reach& reach) {
 }
 
 // Whether the bisector of two sites clearly strays from a chord by less than the tolerance (share
-// of the chord), by one Newton step across its middle: by Kantorovich's theorem the root lies
-// within twice that step where the slope changes by less than half of itself on the way.
+// of the chord): by Kantorovich's theorem, for one Newton step across its middle.
 // \param a, b  of the two sites at the middle.
 bool is_nearly_straight(const Vec2& chord, const Vec2& middle, const Reach& a, const Reach& b,
                         double tolerance) {

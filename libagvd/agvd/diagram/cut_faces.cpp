@@ -1,7 +1,5 @@
-// The sites inside a face become points of a triangulation that begins with its corners; its inner
-// edges are the cuts. A cut is labelled as a mesh edge is, by the relays that can reach it. Chunks
-// of faces are cut in parallel into lists of their own; then the lists are copied into the labels
-// in order.
+// The sites inside a face become points of a triangulation of it; its inner edges are the cuts,
+// labelled as mesh edges are. Chunks of faces are cut in parallel and copied in order.
 #include <algorithm>
 
 #include "agvd/core/parallel.h"
@@ -28,11 +26,7 @@ class FaceCutter {
 public:
     FaceCutter(const Surface& surface, const Propagation& propagation, const EdgeLabels& labels,
                FoundCuts& out)
-        : surface_(surface),
-          propagation_(propagation),
-          labels_(labels),
-          gatherer_(surface, propagation, labels),
-          out_(out) {}
+        : surface_(surface), propagation_(propagation), labels_(labels), out_(out) {}
 
     void cut(Index mixed_index, std::span<const PlacedSite> placed) {
         face_ = propagation_.mixed_faces[mixed_index];
@@ -133,8 +127,8 @@ private:
     const Surface& surface_;
     const Propagation& propagation_;
     const EdgeLabels& labels_;
-    RelayGatherer gatherer_;
     FoundCuts& out_;
+    RelayGatherer gatherer_{surface_, propagation_, labels_};
 
     // The face at hand.
     Index face_ = 0;

@@ -82,10 +82,8 @@ struct CutFace {
 };
 
 //! Points are the mesh vertices, then the inner points. Crossings stand in rows, one for each edge
-//! or cut; where a row is empty there is one label, that of both ends.
-//!
-//! The stretches of one label are nodes of a graph, by number: a stretch that ends at a point is
-//! that point; then come the others, by the crossing that they follow along the edge_half or cut.
+//! or cut. Stretches of one label are nodes of a graph: one that ends at a point is that point;
+//! then come the others, by the crossing that they follow along the edge_half or cut.
 struct EdgeLabels {
     std::vector<Index> point_site;        //!< By point; no_index where no site reaches.
     std::vector<double> vertex_distance;  //!< #V.

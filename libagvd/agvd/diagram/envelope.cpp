@@ -1,6 +1,5 @@
-// A stretch [lo, hi] of the segment is labelled by candidates that could win on it. They stand on a
-// stack, those of the stretch at hand on top; a stretch that is cut in two copies its candidates
-// for the left half and labels that first, so that intervals come in their order.
+// The candidates of a stretch [lo, hi] stand on top of a stack. A stretch that is cut in two
+// copies them for the left half and labels that first, so that intervals come in their order.
 #include "agvd/diagram/envelope.h"
 
 #include <algorithm>
@@ -28,9 +27,8 @@ LineSample from_left(const LineRelay& relay, double x, LineSample s) {
     return s;
 }
 
-// Seen from x, two images differ in direction by at most their distance from each other over the
-// distance of either. Distances from images that are near each other are thus nearly parallel:
-// this decides without bisecting whether one is above the other.
+// Whether c is above b by more than their directions, which are nearly parallel, can change: they
+// differ by at most the distance of the images over that of either.
 bool is_parallel_above(const Candidate& c, const Candidate& b, double width, double slack) {
     if (c.lo.source != c.hi.source || b.lo.source != b.hi.source) return false;
     const auto i = static_cast<std::size_t>(c.lo.source);
@@ -87,9 +85,8 @@ double newton_step(const LineSample& a, const LineSample& b) {
     return (a.value - b.value) / (a.slope - b.slope);
 }
 
-// Notation: f_a and f_b are the distances from two sites, each the least over the site's relays.
-// Where the distances from the sites of a and b are equal on the stretch: a is nearer at lo, b at
-// hi. Newton, relay against relay, until no other relay of the two sites is nearer at the root.
+// Where the distances from the sites of a and b are equal: a is nearer at lo, b at hi. Newton,
+// relay against relay, until no other relay of the two sites is nearer at the root.
 double find_equal(std::span<const Candidate> candidates, const Candidate& a, const Candidate& b,
                   const std::array<double, 2>& stretch, double length) {
     assert(a.relay->site != b.relay->site);

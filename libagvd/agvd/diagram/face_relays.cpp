@@ -1,7 +1,6 @@
 #include "agvd/diagram/face_relays.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "agvd/mesh/surface_points.h"
 
@@ -63,7 +62,7 @@ std::span<const PlanarRelay> of_site(std::span<const PlanarRelay> relays, Index 
 }
 
 Reach least_reach(std::span<const PlanarRelay> relays, const Vec2& p) {
-    Reach best{std::numeric_limits<double>::infinity(), p, 0};
+    Reach best{infinity, p, 0};
     for (const PlanarRelay& relay : relays) {
         const Reach r = reach(relay, p);
         if (r.distance < best.distance) best = r;
@@ -72,7 +71,7 @@ Reach least_reach(std::span<const PlanarRelay> relays, const Vec2& p) {
 }
 
 Nearest nearest(std::span<const PlanarRelay> relays, const Vec2& p) {
-    Nearest best{no_index, std::numeric_limits<double>::infinity()};
+    Nearest best{no_index, infinity};
     for (const PlanarRelay& relay : relays) {
         const double distance = reach(relay, p).distance;
         if (is_nearer(distance, relay.site, best.distance, best.site))

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <algorithm>
-#include <limits>
 
 #include "agvd/diagram/face_relays.h"
 #include "agvd/mesh/surface.h"
@@ -79,7 +78,7 @@ private:
             if (across == no_index) return piece;
             piece = across;
         }
-        double best_margin = -std::numeric_limits<double>::infinity();
+        double best_margin = -infinity;
         for (Index i = 0; i < pieces_.size(); ++i) {
             const double least = std::min({margin(i, 0), margin(i, 1), margin(i, 2)});
             if (least > best_margin) {

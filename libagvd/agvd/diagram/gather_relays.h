@@ -17,9 +17,8 @@ public:
         : surface_(surface), propagation_(propagation), labels_(labels) {}
 
     //! Whether labels may change on an edge, all of whose faces are listed. Then `relays` holds
-    //! those of both faces and of its ends that could be the nearest somewhere on it, in the frame
-    //! of the edge_half. Distances grow no faster than the point moves, and are convex along the
-    //! edge: most relays lose by what they say at its ends.
+    //! those that could be the nearest somewhere on it, in the frame of the edge_half. Most lose by
+    //! what they say at its ends, since distances are convex.
     [[nodiscard]] bool may_change(Index edge, std::vector<LineRelay>& relays) {
         const Index h = surface_.edge_half[edge];
         const Index site = labels_.point_site[surface_.tail(h)];
@@ -48,10 +47,9 @@ public:
         }
     }
 
-    //! What lies in the face, what won on its edges, its corners, and the label changes on its
-    //! edges, which pin the arcs to the points where they enter. What won on an edge comes through
-    //! the interval on which it won and nowhere else: inside the face every label is star-shaped
-    //! with respect to an interval of its own on the boundary, or its site.
+    //! What lies in the face, its corners, the label changes on its edges, which pin the arcs, and
+    //! what won on its edges, through the interval on which it won: in the face every label is
+    //! star-shaped with respect to an interval of its own on the boundary, or its site.
     void gather_all(Index mixed_index, std::vector<PlanarRelay>& out) {
         out.clear();
         const Index face = propagation_.mixed_faces[mixed_index];
@@ -187,8 +185,7 @@ private:
     }
 
     // The relays of one face whose image lies across the edge, with their slopes, and those in the
-    // face. The ends of the edge stand for themselves. Most faces have three or four relays, so
-    // that sorting them first would not pay.
+    // face. Faces have too few relays to sort them first.
     void scan_across(Index edge, Index half_edge) {
         const bool forward = surface_.edge_half[edge] == half_edge;
         const double length = surface_.length[edge];

@@ -1,7 +1,5 @@
-// Areas and Euler characteristics of cells. Areas are whole numbers of units of about 2^-61 of the
-// surface's area, so that sums do not depend on the order. An open cell is a union of open pieces
-// of triangles, open intervals of inner edges and cuts, and inner points; the alternating sum of
-// their numbers is its Euler characteristic (without the surface's boundary).
+// Areas are whole numbers of 2^-61 of the surface's area, so that sums do not depend on the order.
+// The Euler characteristic is the alternating sum of a cell's faces, intervals and points.
 #include <algorithm>
 #include <cmath>
 

@@ -22,8 +22,7 @@ public:
     }
 
     //! Replaces `out` by indices, ascending: all relays through which p is no farther from a site
-    //! than `radius`, and maybe some others. Cost: O(log n) and what it finds, where images are
-    //! spread evenly.
+    //! than `radius`, and maybe some others. Cost: O(log n) and what it finds, in practice.
     void find_near(const Vec2& p, double radius, std::vector<Index>& out) const {
         out.clear();
         std::array<Index, 64> open;

@@ -26,10 +26,8 @@ struct FaceChart {
 
 //! Charts of the faces that operations have changed.
 //!
-//! Lengths alone would suffice in exact arithmetic. In double, a far corner computed from a short
-//! side has an error of a rounding times the ratio of the two, and a few flips raise that to a
-//! power. Charts store directions besides lengths, so that errors add up and do not multiply
-//! (docs/algorithm.md, "Charts").
+//! Lengths alone would suffice in exact arithmetic; in double, a few flips raise the error of a far
+//! corner to a power. Directions let errors add up and not multiply (docs/algorithm.md, "Charts").
 class FaceCharts {
 public:
     //! \param surface  outlives this; faces without a chart have not changed in it.

@@ -1,12 +1,7 @@
-// Removes inner vertices whose angles sum to 2 pi, in parallel. The vertices are divided into the
-// cells of a grid. A cell removes the vertices whose neighbours it owns, and keeps charts and a
-// list of operations of its own; these are joined in the order of the cells, so that the result is
-// the same for any number of threads. Vertices on the rims of cells follow on one thread.
-//
-// Within a cell vertices are removed in rounds: no two neighbours in one round, and vertices of few
-// edges first. So the operations that a point passes stay few.
-#include "agvd/intrinsic/flat_vertices.h"
-
+// Vertices are divided into the cells of a grid. A cell removes those whose neighbours it owns,
+// with charts and operations of its own, which are joined in the order of the cells; vertices on
+// the rims of cells follow on one thread. Within a cell no two neighbours are removed in one round,
+// and vertices of few edges go first, so that a point passes few operations.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -44,9 +39,7 @@ public:
     FlatRemover(Shared& shared, FaceCharts& charts, Index part, Ticker ticker)
         : shared_(shared), part_(part), ticker_(ticker), ring_(shared.surface, charts) {}
 
-    // Works in rounds of vertices no two of which are neighbours. If the vertices of a line were
-    // removed one after the other, each would change the faces of the one before, and points would
-    // pass as many operations as there are vertices.
+    // Rounds keep few the operations that a point passes along a line of vertices.
     // \return the vertices on the rim of the part.
     std::vector<Index> run(std::vector<Index> waiting) {
         std::vector<Index> on_rim;

@@ -8,10 +8,8 @@
 namespace agvd::detail {
 
 //! An operation lays one or two faces out in a plane and cuts them anew. Barycentric coordinates
-//! pass from the old faces to the new ones by the shares of the quad: sums of terms of one sign, or
-//! differences of numbers below 1, so that each operation costs a few roundings of 1. Coordinates
-//! that are exactly 0 stay so on edges that stay.
-//! 56 bytes for each operation, 8 for each face if there is one.
+//! pass by the shares of the quad at a few roundings of 1; those that are exactly 0 stay so on
+//! edges that stay. 56 bytes for each operation, 8 for each face if there is one.
 class FaceHistory {
 public:
     explicit FaceHistory(Index num_faces) : num_faces_(num_faces) {}

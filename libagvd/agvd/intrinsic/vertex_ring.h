@@ -9,11 +9,9 @@
 
 namespace agvd::detail {
 
-//! The ring of faces around an inner vertex without curvature, counter-clockwise. To remove the
-//! vertex, edges at it are flipped until three are left, or four of which two are one straight
-//! line, and the faces around merge. The flips are found in one plane, in sectors of the ring.
-//! Faces are written once, when it is known that the vertex can be removed: that takes a tenth less
-//! time than to write every flip.
+//! The ring of faces around an inner vertex without curvature, counter-clockwise, laid out in one
+//! plane. To remove the vertex, edges at it are flipped until three are left, or four of which two
+//! are one straight line. Faces are written once, when it is known that the vertex can be removed.
 //!
 //! Notation: m is the vertex at (0, 0). A sector lies between two consecutive spokes, edges from m
 //! to its neighbours; the rim of a sector is the side of its face opposite to m.

@@ -1,10 +1,7 @@
-// A strip is a list of crossed half-edges. StripBuilder appends to it by turning around the current
-// point, from face to face, if that is a vertex or lies on an edge. A view of a point is its
-// position in one of the faces that have it.
+// StripBuilder turns around the current point, from face to face, if it is a vertex or on an edge.
 #include "agvd/paths/face_strip.h"
 
 #include <cassert>
-#include <limits>
 #include <optional>
 #include <string>
 
@@ -18,7 +15,7 @@ namespace {
 std::optional<SurfacePoint> nearest_view(const Surface& surface, const SurfacePoint& point,
                                          const SurfacePoint& from) {
     std::optional<SurfacePoint> nearest;
-    double least = std::numeric_limits<double>::infinity();
+    double least = infinity;
     for_each_view(surface, point, [&](const SurfacePoint& view) {
         if (view.face != from.face) return;
         const double distance = face_distance(surface, from, view);
@@ -70,11 +67,6 @@ private:
             here_ = across_edge(surface_, here_, *h);
             return is_goal(here_);
         }
-        const auto at = [](Index leaving) {
-            SurfacePoint view{FaceId(Surface::face(leaving)), {0, 0, 0}};
-            view.barycentric[leaving % 3] = 1;
-            return view;
-        };
         // Alternates between both directions, so the way found is the shorter one.
         const Index start = *corner;
         Index left = start, right = start;  // Leaving the vertex; no_index: at the boundary.
@@ -82,8 +74,8 @@ private:
             if (left != no_index) left = surface_.twin[Surface::previous(left)];
             if (right != no_index) right = surface_.twin[right];
             if (right != no_index) right = Surface::next(right);
-            const bool is_left = left != no_index && is_goal(at(left));
-            const bool is_right = right != no_index && is_goal(at(right));
+            const bool is_left = left != no_index && is_goal(point_on(left, 0));
+            const bool is_right = right != no_index && is_goal(point_on(right, 0));
             if (is_left || is_right) {
                 Index h = start;
                 for (Index i = 0; i < steps; ++i) {
@@ -91,7 +83,7 @@ private:
                     cross(surface_, out, strip_.crossed);
                     h = is_left ? surface_.twin[out] : Surface::next(surface_.twin[out]);
                 }
-                here_ = at(h);
+                here_ = point_on(h, 0);
                 return true;
             }
             if (left == start || (left == no_index && right == no_index)) return false;

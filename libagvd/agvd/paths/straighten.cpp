@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
+#include "agvd/diagram/face_relays.h"
 #include "agvd/mesh/surface_points.h"
 #include "agvd/paths/face_strip.h"
 
@@ -28,10 +28,8 @@ constexpr int max_stalled_rounds = 5;
 // Relative error of a path's length.
 constexpr double rounding = 1e-12;
 
-double cross_product(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
-
 // Above 0: c lies on the left of the line from a to b.
-double side_of(const Vec2& a, const Vec2& b, const Vec2& c) { return cross_product(b - a, c - a); }
+double side_of(const Vec2& a, const Vec2& b, const Vec2& c) { return cross(b - a, c - a); }
 
 // Sine of the angle below which a vertex counts as lying on a straight line: rounding must not hide
 // that a path goes through it.
@@ -51,7 +49,7 @@ public:
 
     // Replaces the strip by that of a locally shortest path, which is never longer.
     GeodesicPath run() {
-        double least = std::numeric_limits<double>::infinity();
+        double least = infinity;
         const std::size_t max_rounds = strip_.crossed.size() + more_rounds;
         const std::size_t max_looks = looks_for_each * strip_.crossed.size() + more_looks;
         std::size_t looks = 0;
@@ -183,9 +181,8 @@ private:
                           no_index, num_crossed, num_crossed, false});
     }
 
-    // The chains from the apex to both ends bend outwards; nodes past which the new end sees are
-    // removed. A vertex on the straight line counts as a bend, as its other side may be narrower
-    // than pi.
+    // Nodes past which the new end sees are removed from its chain. A vertex on the straight line
+    // counts as a bend: its other side may be narrower than pi.
     void add_to_funnel(Index node) {
         const Vec2& point = nodes_[node].position;
         const auto at = [&](Index i) -> const Vec2& { return nodes_[funnel_[i]].position; };
@@ -275,7 +272,7 @@ private:
         };
         const auto add = [&](const Vec2& from, const Vec2& to) {
             const Vec2 a = from - node.position, b = to - node.position;
-            add_corner({a.dot(b), node.is_left ? cross_product(b, a) : cross_product(a, b)});
+            add_corner({a.dot(b), node.is_left ? cross(b, a) : cross(a, b)});
         };
         const Ends& first = ends_[node.first];
         const Ends& last = ends_[node.last];

@@ -1,8 +1,6 @@
-// A label-correcting search for the nearest site over the arcs of ArcGraph: edges, and the straight
-// lines across an edge from apex to apex. It proceeds in slabs of distance; the vertices of a slab
-// are divided into chunks, which threads search. A vertex holds distance and site in one 64-bit
-// number, the distance in the upper half, which threads lower atomically. The least such number is
-// unique, so the result does not depend on the order of the threads.
+// A label-correcting search over the arcs of ArcGraph in slabs of distance, whose vertices threads
+// search in chunks. A vertex holds distance and site in one 64-bit number, which threads lower
+// atomically: the least one is unique, whatever the order of the threads.
 #include "agvd/propagation/distance_bounds.h"
 
 #include <algorithm>

@@ -1,18 +1,13 @@
 // Sources: [meng2023] Algorithm 1, Sec. 4.3 and 5.2.
 //
-// Symbols: m = counts_[edge], Q = queue_, lambda n = retirement_interval; d(a), d(b), |e| as named.
+// A Steiner point stands for a window around it, seen from its parent: it serves only the targets
+// across its edge in the fan through both windows. Vertices serve their whole one-ring, so a path
+// of the graph reaches every target, and d(x) <= (d(a) + d(b) + |e|) / 2 holds on every edge.
 //
-// A Steiner point represents a window around it, seen from its parent. So it serves only the
-// targets across its edge inside the fan through both windows. Vertices serve their whole one-ring.
-// So a path of the graph reaches every target, and d(x) <= (d(a) + d(b) + |e|) / 2 holds on every
-// edge.
-//
-// Faces behind the front retire: their relays are made, and their Steiner points are given back.
-// Inside a face, a node whose parent lies on the same face is dominated by that parent (triangle
-// inequality), and one that came through a neighbour is dominated by its parent's image, unfolded
-// across the shared edge. So the relays of a face are the parents' images: the joint diagram with
-// the neighbours' Steiner points ([meng2023] Sec. 5.3), without the points that cannot win. Faces
-// retire in an order that depends on lambda; the result does not.
+// Faces behind the front retire: their relays are made, and their points are given back. In a face
+// a node whose parent lies on it is dominated by the parent, and one that came through a neighbour
+// by the parent's image across the shared edge: so a face's relays are the parents' images
+// ([meng2023] Sec. 5.3). The order of retirement depends on lambda; the result does not.
 #include "agvd/propagation/steiner/steiner_front.h"
 
 #include <algorithm>

@@ -1,10 +1,6 @@
-// Windows that wait at a half-edge become part of its lower envelope; then each window that has not
-// been sent on meets the apex of the face behind the edge, is divided there, and goes on.
-//
-// Windows that lose to the bounds of the edge's ends are dropped: one comparison, where the paths
-// from both ends meet, decides for the whole interval. Windows mostly come in order along the edge,
-// and one cut between neighbours is enough; the others are inserted one by one. At last neighbours
-// that have not been served are merged as far as the error allows.
+// Windows that wait at a half-edge become part of its lower envelope, unless they lose to the
+// bounds of its ends; then they are divided at the apex of the face behind it, and go on. They
+// mostly come in order, and one cut between neighbours is enough; others are inserted one by one.
 #include "agvd/propagation/window/window_front.h"
 
 #include <algorithm>

@@ -1,11 +1,7 @@
-// Runs the windows ([mitchell1987]) of one site after the other, each only as far as the bounds
-// allow, and collects distances and relays. Sites run in batches of parallel tasks. A task uses the
-// memory of a worker and hands its results over; they are taken in a fixed order, so that bytes do
-// not depend on threads.
-//
-// Windows are kept as relays in the faces near a change of label in the bounds. Where a site
-// reaches a face that the bounds give to another site, its windows are strays: the other site runs
-// once more to keep its windows there (docs/algorithm.md, "Window engine").
+// Runs the windows ([mitchell1987]) of each site as far as the bounds allow, in batches of
+// parallel tasks, whose results are taken in a fixed order. Windows are kept as relays in the
+// faces near a change of label in the bounds. Where a site reaches a face of another one by the
+// bounds, that one runs once more (docs/algorithm.md, "Window engine").
 #include "agvd/propagation/engines.h"
 
 #include <algorithm>
@@ -82,10 +78,8 @@ void widen(const Surface& surface, const Corners& corners, const DistanceBounds&
     }
 }
 
-// Marks the faces where windows of several sites are expected: those within two rings of a change
-// of label, and those where a path from the other side of the change is nearly as short as the
-// bound. On few faces the borders of exact distances lie farther off. Returns 1 for the marked
-// faces.
+// 1 for the faces where windows of several sites are expected: within two rings of a change of
+// label, or where a path from across the change is nearly as short as the bound.
 std::vector<std::uint8_t> faces_near_borders(const Surface& surface, const Corners& corners,
                                              const DistanceBounds& bounds) {
     Marks marks = mark_two_rings(surface, bounds);
@@ -167,9 +161,7 @@ private:
                logs_.bytes();
     }
 
-    // The order in which sites run, and in which their relays are stored for a face: by the faces
-    // of the sites. Consecutive faces are neighbours on most meshes, so that caches hold what is
-    // needed.
+    // The order in which sites run and their relays are stored: neighbours share the cache.
     [[nodiscard]] bool comes_before(Index a, Index b) const {
         return std::tie(sites_[a].face, a) < std::tie(sites_[b].face, b);
     }
