@@ -38,8 +38,7 @@ Index interval_of(const StageInput& in, const EdgeLabels& labels, Index site, In
     return label == site ? holder : no_index;
 }
 
-// The node of the site's cell that holds the site; no_index: its position belongs to another cell,
-// or is an inner point.
+// The node of the site's cell that holds it; no_index: none, or an inner point.
 Index holder_of(const StageInput& input, const EdgeLabels& labels, Index site) {
     const SurfacePoint& point = input.sites[site];
     if (const auto vertex = vertex_of(input.surface, point)) {
@@ -201,8 +200,7 @@ void for_each_row(IslandSearch& search, const Callback& callback) {
     }
 }
 
-// Islands border on other cells at crossings. Each goes to the lowest-numbered cell that it borders
-// on and that is connected to its site there.
+// Islands go to the lowest-numbered cell beside them that is connected to its site there.
 void choose_new_sites(IslandSearch& search) {
     const auto give = [&](Index island, Index site) {
         const auto [found, is_new] = search.new_site.try_emplace(search.sets.root(island), site);
@@ -275,8 +273,7 @@ void relabel_points(IslandSearch& search, std::vector<Index>& stale_faces) {
     }
 }
 
-// Changes the labels of islands.
-// \return ascending: the positions of the mixed faces around changed labels.
+// Changes the labels of islands; returns the mixed faces around them, ascending positions.
 std::vector<Index> relabel_islands(const StageInput& input, const CellSet& in_doubt,
                                    DiagramParts& parts) {
     const EdgeLabels& labels = parts.labels;

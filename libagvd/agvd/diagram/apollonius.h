@@ -66,8 +66,7 @@ public:
     }
 
 private:
-    // A step that the distances contradict by more (share of the size) is drawn straight, so that
-    // arcs do not cross.
+    // Steps that the distances contradict by more (share of the size) are drawn straight.
     static constexpr double largest_violation = 1e-3;
     static std::size_t after(std::size_t i, std::size_t n) { return i + 1 == n ? 0 : i + 1; }
     static std::size_t before(std::size_t i, std::size_t n) { return i == 0 ? n - 1 : i - 1; }
@@ -154,8 +153,7 @@ private:
         return divides(s, t) && divides(t, s);
     }
 
-    // Takes the inner points away from arcs that cross others, or themselves. O(n^2) for n pieces.
-    // False: no arcs cross.
+    // Takes the inner points from arcs that cross, O(n^2) for n pieces. False: there are none.
     [[nodiscard]] bool straighten() {
         assert(chords_.size() == out_.arcs.size() - start_.arcs);
         // Two segments that share an end do not cross.
@@ -258,8 +256,7 @@ private:
                 close_with_vertex(i, ear.voronoi_vertex);
             }
             if (breakpoints_.size() <= 3) return;
-            // A Voronoi vertex has replaced the breakpoint at the interval's start, and the one at
-            // its end is gone; a lens leaves neither.
+            // A Voronoi vertex replaces both breakpoints of the interval; a lens leaves neither.
             if (ear.is_lens) {
                 erase_both(ears_, i);
             } else {
@@ -316,8 +313,7 @@ private:
         erase_both(breakpoints_, i);
     }
 
-    // Two arcs run from the interval's breakpoints to the Voronoi vertex; with three breakpoints
-    // left, all three do.
+    // An arc from each end of the interval; with three breakpoints left, from all.
     void close_with_vertex(std::size_t i, VertexCandidate voronoi_vertex) {
         const std::size_t n = breakpoints_.size();
         assert(n >= 3);

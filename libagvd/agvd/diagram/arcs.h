@@ -63,8 +63,7 @@ struct Arc {
     Index left, right;  //!< Sites, walking from tail to head.
     Index first_point;  //!< Its inner polyline points in Arcs::points.
     Index num_points;
-    //! The node, a crossing, lies on the twin of the half-edge that it names: a face that is glued
-    //! to itself meets one twice.
+    //! The crossing lies on the twin of its half-edge: a glued face meets one twice.
     bool tail_is_across = false, head_is_across = false;
 };
 
@@ -95,8 +94,7 @@ struct FaceArcs {
     Block arcs, voronoi_vertices, connections, parts;
 };
 
-//! What some faces contribute: those of one chunk, or all mixed ones. A face that is traced again
-//! leaves what it had, unused.
+//! What some faces contribute. A face that is traced again leaves what it had, unused.
 struct Arcs {
     //! Sizes of the lists.
     struct Mark {
@@ -183,8 +181,7 @@ struct JoinedEdges {
         Index left, right;   //!< Sites, walking from tail to head.
         bool is_closed;
     };
-    //! Open ones in the order of the first of their ends in the faces, then closed ones in that of
-    //! their first tail.
+    //! Open ones by the first of their ends in the faces, then closed ones by their first tail.
     std::vector<Edge> edges;
     std::vector<Index> edge_of_arc;
     //! The arcs' ends at each crossing; on the surface's boundary one only.

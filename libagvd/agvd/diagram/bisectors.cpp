@@ -13,8 +13,7 @@ namespace {
 // Equalities are met up to this share of the triangle's longest side: below it lies rounding.
 constexpr double convergence = 1e-11;
 constexpr int max_newton_steps = 25;
-// Relays chosen at one point of a bisector stand for their sites this far along (share of the
-// chord).
+// Relays chosen at one point stand for their sites this far along (share of the chord).
 constexpr double near_enough = 0.02;
 constexpr int max_arc_depth = 4;  // At most 2^4 pieces an arc and face.
 // A search that strays this far (share of the size) from its start does not come back.
@@ -148,35 +147,25 @@ struct Known {
 struct EqualPoint {
     Vec2 position;
     double distance;
-    // Two points may be equally far from three sites: positive at the one around which the sites
-    // lie counter-clockwise.
+    // Of two such points, positive at that around which the sites lie counter-clockwise.
     double turn;
 };
-
-// The nearest relays of three sites at a point.
-struct Chosen {
-    std::array<const PlanarRelay*, 3> relays;
-    Vec2 at;
-
-    [[nodiscard]] bool is_complete() const {
-        return relays[0] != nullptr && relays[1] != nullptr && relays[2] != nullptr;
-    }
-};
-
-Chosen choose(const std::array<Relays, 3>& sites, const Vec2& p) {
-    return {{nearest_relay(sites[0], p), nearest_relay(sites[1], p), nearest_relay(sites[2], p)},
-            p};
-}
 
 std::optional<EqualPoint> find_equal(double size, const std::array<Relays, 3>& sites,
                                      const Vec2& start) {
     Vec2 p = start;
-    Chosen chosen = choose(sites, p);
+    Vec2 chosen_at;
+    std::array<const PlanarRelay*, 3> nearest;
+    const auto choose = [&] {
+        chosen_at = p;
+        for (std::size_t k = 0; k < 3; ++k) nearest[k] = nearest_relay(sites[k], p);
+        return nearest[0] != nullptr && nearest[1] != nullptr && nearest[2] != nullptr;
+    };
+    if (!choose()) return {};
     for (int i = 0; i < max_newton_steps; ++i) {
-        if (!chosen.is_complete()) return {};
-        const Reach a = reach(*chosen.relays[0], p);
-        const Reach b = reach(*chosen.relays[1], p);
-        const Reach c = reach(*chosen.relays[2], p);
+        const Reach a = reach(*nearest[0], p);
+        const Reach b = reach(*nearest[1], p);
+        const Reach c = reach(*nearest[2], p);
         const double distance = std::max({a.distance, b.distance, c.distance});
         if (!std::isfinite(distance)) return {};
         const Vec2 residual(a.distance - b.distance, b.distance - c.distance);
@@ -186,8 +175,8 @@ std::optional<EqualPoint> find_equal(double size, const std::array<Relays, 3>& s
         const double determinant = cross(first, second);
         if (std::max(std::abs(residual.x()), std::abs(residual.y())) <=
             convergence * (size + distance)) {
-            if (p == chosen.at) return EqualPoint{p, distance, determinant};
-            chosen = choose(sites, p);  // Others may be nearer here.
+            if (p == chosen_at) return EqualPoint{p, distance, determinant};
+            if (!choose()) return {};  // Others may be nearer here.
             continue;
         }
         if (!(std::abs(determinant) > convergence)) return {};

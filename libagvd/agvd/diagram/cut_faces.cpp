@@ -12,8 +12,7 @@
 namespace agvd {
 namespace {
 
-// What the faces of one chunk add to the labels. Inner points, cuts and crossings are counted from
-// 0.
+// What the faces of one chunk add to the labels, counted from 0.
 struct FoundCuts {
     std::vector<InnerPoint> inner_points;
     std::vector<Cut> cuts;

@@ -55,8 +55,7 @@ struct InnerPoint {
     Index site;
 };
 
-//! An end of a cut: a corner of the face, which may have the same vertex at several, or a point
-//! inside.
+//! A corner of the face, which may have the same vertex at several, or a point inside.
 struct CutEnd {
     Index point;
     Index corner;  //!< 0 to 2; 3: an inner point.
@@ -69,8 +68,7 @@ struct Cut {
     Block row;  //!< Of EdgeLabels::crossings.
 };
 
-//! A face with inner points is cut into triangles at them, so that every cell in it reaches the
-//! boundary of some triangle.
+//! Of a face that is cut at its inner points: every cell in it reaches some boundary.
 struct CutTriangle {
     std::array<CutEnd, 3> points;
     std::array<LineId, 3> sides;  //!< From point k to k + 1; a mesh edge by the face's half-edge.

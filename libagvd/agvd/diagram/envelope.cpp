@@ -19,8 +19,7 @@ constexpr std::size_t max_splits_each = 8;
 // Distances that differ by less are tied.
 double tie_at(double distance, double length) { return tie_tolerance * (distance + length); }
 
-// Turns a sample at x into one from the left. The segment may pass through the source itself: then
-// the slope changes there.
+// From the left, where the slope changes if the segment passes through the source itself.
 LineSample from_left(const LineRelay& relay, double x, LineSample s) {
     const auto k = static_cast<std::size_t>(s.source);
     if (relay.y[k] == 0 && relay.x[k] == x) s.slope = -1;
@@ -218,8 +217,7 @@ bool cross_once(Envelope& envelope, const Stretch& stretch, const Candidate& bes
     return true;
 }
 
-// Where two relays are about equal, if that is well inside: a third one that comes between them is
-// likely to do so there. Else the middle.
+// Where two relays are about equal, as a third one comes between them there, if well inside.
 double near_crossing(const Candidate& a, const Candidate& b, const Stretch& stretch) {
     const double gap_lo = a.lo.value - b.lo.value;
     const double gap_hi = a.hi.value - b.hi.value;

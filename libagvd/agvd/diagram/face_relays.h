@@ -53,8 +53,7 @@ struct Reach {
 //! The relay of a point that lies in the face itself.
 [[nodiscard]] PlanarRelay point_relay(const Vec2& point, double weight, Index site);
 
-//! The corners of a face in the frame of its first half-edge (half-edge 3 f), which is the face's
-//! own frame wherever a face stands alone.
+//! In the frame of half-edge 3 f: the own frame of a face that stands alone.
 [[nodiscard]] std::array<Vec2, 3> face_corners(const Surface& surface, Index face);
 
 //! A rigid motion of the plane.
@@ -68,8 +67,7 @@ struct Motion {
     }
 };
 
-//! The surface point at a position in the face's own frame; positions outside are moved to the
-//! nearest edge.
+//! At a position in the face's own frame; outside, at the nearest edge.
 [[nodiscard]] SurfacePoint to_surface(const Surface& surface, Index face, const Vec2& p);
 
 //! From the frame of a half-edge into the frame of its face's first half-edge.
@@ -115,8 +113,7 @@ struct PointLabel {
     std::optional<double> distance;  //!< Through the relays; unknown in faces of one label.
 };
 
-//! What a propagation says at any point of the surface: by the relays of its face, or by its one
-//! label.
+//! What a propagation says at a point: by the relays of its face, or by its one label.
 [[nodiscard]] PointLabel point_label(const Surface& surface, const Propagation& propagation,
                                      const SurfacePoint& point);
 
@@ -126,8 +123,7 @@ struct PointLabel {
 // is f(x) = w + sqrt((x - a)^2 + b^2), with the source (a, b) of the last straight piece of the
 // path at distance w from the site: the image, or the end of the interval where paths bend.
 
-// Tolerances of label changes on a segment, as shares of its length. Changes nearer to each other
-// are not told apart.
+// Share of a segment: label changes nearer to each other are not told apart.
 inline constexpr double shortest_interval = 1e-9;
 // At a change the two distances are equal up to this: below it lies rounding.
 inline constexpr double equal_distances = 1e-11;
@@ -140,8 +136,7 @@ struct LineRelay {
     Index site;
 };
 
-//! Distance at a point of the segment, its derivative (at a source itself: that to the right), and
-//! the source of the last straight piece.
+//! Distance, its derivative (at a source: to the right), and the source of the last piece.
 struct LineSample {
     double value, slope;
     int source;

@@ -9,19 +9,16 @@
 
 namespace agvd {
 
-//! Delaunay but for rounding: then a triangle reaches into few cells of the points, however many
-//! there are.
+//! Delaunay but for rounding: then a triangle reaches into few cells of the points.
 class FaceTriangulation {
 public:
-    //! Begins with one triangle of the points 0, 1, 2.
-    //! \param corners  counter-clockwise.
+    //! Begins with one triangle of the points 0, 1, 2: corners, counter-clockwise.
     void reset(const std::array<Vec2, 3>& corners) {
         points_.assign(corners.begin(), corners.end());
         pieces_.assign(1, {{0, 1, 2}, {no_index, no_index, no_index}});
     }
 
-    //! Adds the next point, which lies inside. Cost: O(sqrt(n)) steps towards it, from the point
-    //! added last, and a few flips.
+    //! Adds the next point, which lies inside. Cost: O(sqrt(n)) steps towards it, and a few flips.
     void add(const Vec2& p) {
         const Index first = find_holder(p);
         const auto n = static_cast<Index>(points_.size());
@@ -61,8 +58,7 @@ private:
                c.squaredNorm() * cross(a, b);
     }
 
-    // From piece to piece across sides that p lies behind; pieces that rounding made flat could
-    // send the walk round in circles.
+    // From piece to piece across sides that p lies behind; flat pieces could send it in circles.
     [[nodiscard]] Index find_holder(const Vec2& p) const {
         const auto margin = [&](Index piece, std::size_t k) {
             const Vec2& from = points_[pieces_[piece].points[k]];
@@ -103,8 +99,7 @@ private:
         }
     }
 
-    // In pieces with the new point it is the last; flips give it another neighbour each, so they
-    // end.
+    // The new point is the last of its pieces; each flip gives it a neighbour, so they end.
     void flip_opposite(Index here) {
         const Piece mine = pieces_[here];
         const Index there = mine.neighbours[0];

@@ -72,8 +72,7 @@ public:
     }
 
 private:
-    // A relay stands for the end of an edge itself if it is no worse there by more than this share
-    // of the edge.
+    // A relay no worse than this share of the edge stands for its end.
     static constexpr double same_distance = 1e-4;
     // The relays across an edge suffice if they give the distances of its ends up to this share of
     // the edge. Errors below it are accepted for a shorter list of candidates.
@@ -168,8 +167,7 @@ private:
             last.hi = at_head;
         }
 
-        // c lies above its tangents at the ends, which come closest to a chord where they meet; the
-        // others lie below their chords.
+        // c lies above its tangents at the ends, the others below their chords.
         const double rise_first = (first.hi - first.lo) / length;
         const double rise_last = (last.hi - last.lo) / length;
         const auto loses = [&](const Candidate& c) {

@@ -87,8 +87,7 @@ struct Bracket {
     [[nodiscard]] double middle() const { return (lo + hi) / 2; }
 };
 
-// Newton from x for the nearest relays at x, until one more step is enough: each doubles the
-// digits.
+// Newton for the nearest relays at x, until one more step is enough: each doubles the digits.
 double step_to_root(const Search& search, const Samples& samples, const Bracket& bracket,
                     double x) {
     const LineRelay& relay_a = search.relays[samples.best_a];

@@ -153,7 +153,8 @@ private:
     void trace_triangle(const std::array<Vec2, 3>& corners, Index site) {
         if (std::all_of(sides_.begin(), sides_.end(),
                         [](const TriangleSide& side) { return side.row.count == 0; })) {
-            if (site != no_index) out_.parts.push_back({site, 1, area_of(corners)});
+            const double area = cross(corners[1] - corners[0], corners[2] - corners[0]) / 2;
+            if (site != no_index) out_.parts.push_back({site, 1, area});
             return;
         }
         const TriangleParts parts{out_.parts, out_.parts.size()};
@@ -170,18 +171,13 @@ private:
             if (has_all_relays_ || !solve_by_own_relays(corners)) solve_by_all_relays(corners);
         }
         count_arcs(out_, breakpoints_, before, parts);
-        // Arcs that lie on each other, or on a side, escape a search for crossings, but turn a
-        // piece inside out.
+        // Arcs on each other, or on a side, do not cross, but turn a piece inside out.
         if (!is_plain && has_inverted_part(parts, corners)) {
             solver_.redraw_straight(breakpoints_);
             out_.parts.resize(parts.first);
             out_.parts.insert(out_.parts.end(), boundary_parts_.begin(), boundary_parts_.end());
             count_arcs(out_, breakpoints_, before, parts);
         }
-    }
-
-    [[nodiscard]] static double area_of(const std::array<Vec2, 3>& corners) {
-        return cross(corners[1] - corners[0], corners[2] - corners[0]) / 2;
     }
 
     [[nodiscard]] static bool has_inverted_part(const TriangleParts& parts,

@@ -92,8 +92,7 @@ public:
         entries_[slot] = {face, chart};
     }
 
-    //! Makes the chart of a face again after its lengths have changed, and updates the turns of its
-    //! neighbours.
+    //! Makes a chart again after its lengths have changed, with its neighbours' turns.
     void renew(Index face) {
         if (!has(face)) return;
         FaceChart& chart = entries_[slot_[face]].chart;

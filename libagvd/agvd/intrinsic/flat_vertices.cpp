@@ -18,8 +18,7 @@ namespace {
 
 // Radians: the rounding of the sum of a vertex's angles in the input.
 constexpr double angle_rounding = 1e-12;
-// The number of vertices of a part of the surface, roughly. Parts let threads work in parallel, and
-// the data of a part fits into the caches.
+// Vertices of a part, roughly: what fits into the caches.
 constexpr double part_size = 1 << 13;
 constexpr Index most_cells = 64;  // Along each axis.
 

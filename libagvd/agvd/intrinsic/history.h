@@ -99,8 +99,7 @@ public:
         return normalized(point);
     }
 
-    //! Appends the parts of a straight segment within one face of the end, in their order: begin
-    //! and end of each.
+    //! Appends begin and end of each part of a segment in a face of the end, in their order.
     void carry_back(const SurfacePoint& begin, const SurfacePoint& end,
                     std::vector<SurfacePoint>& parts) const {
         struct Waiting {

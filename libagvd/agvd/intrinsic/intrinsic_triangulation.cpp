@@ -58,8 +58,7 @@ public:
         }
     }
 
-    // \param added  gets the new vertices, on the input.
-    // \return false if flips ended early.
+    // Appends the new vertices, on the input. False if flips ended early.
     bool run(std::vector<SurfacePoint>& added) {
         while (find_long_edges()) {
             while (!queue_.empty()) {
@@ -136,8 +135,7 @@ void shrink(Surface& s) {
 // For faces with more operations, evenly spread points are used.
 constexpr Index most_steps_back = 16, most_part_steps = 64;
 
-// Area and centroid of a polygon, from the triangles at its first corner; the area as a share of
-// the face.
+// Area, as a share of the face, and centroid, from the triangles at the first corner.
 InputPart measure(const detail::FacePolygon& polygon) {
     const auto& corner = polygon.corner;
     InputPart part{{FaceId(polygon.face), {0, 0, 0}}, 0};

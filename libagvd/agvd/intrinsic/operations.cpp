@@ -45,8 +45,7 @@ void move_sides(Surface& surface, const std::array<Side, N>& sides,
     }
 }
 
-// Adds elements that get their contents later.
-// \return the number of the first one.
+// Adds elements that get their contents later; returns the first one.
 Index add_faces(Surface& surface, Index count) {
     const Index first = surface.num_faces();
     surface.mesh.triangles.resize(first + count);
@@ -190,8 +189,7 @@ void flip(Surface& surface, FaceCharts& charts, Index half_edge, const Quad& qua
                            side_of(surface, Surface::next(half_edge)),       // b c
                            side_of(surface, Surface::previous(half_edge))};  // c a
     const Vec2 turn = charts.of(f).turn[half_edge % 3];
-    // The charts of both new faces have the directions of the first face. The turns of faces across
-    // do not change, unless these are the two faces.
+    // Both new faces get the directions of the first one; turns across change between the two only.
     std::array<Vec2, 4> turns;
     for (std::size_t i = 0; i < 4; ++i) {
         const Index h = sides[i].half_edge;

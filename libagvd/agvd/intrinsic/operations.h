@@ -16,8 +16,7 @@ namespace agvd::detail {
 //! changes its lengths by less than rounding.
 inline constexpr double least_doubled_area = 0x1p-50;
 
-//! The least length of an edge that an operation makes, as a share of the longest edge beside it:
-//! rounding might make it 0.
+//! The least length of an edge as a share of the longest beside it: rounding might give 0.
 inline constexpr double least_length = 0x1p-50;
 
 //! Sets the three apexes of a face from its chart. The lengths of sides are those of the chart,
@@ -115,8 +114,7 @@ struct EdgeSplit {
 //! Makes a gap of a face.
 void bury(Surface& surface, Index face);
 
-//! Computes the layout of a face after its lengths have changed. If they make no triangle, it gets
-//! the least height.
+//! Lays a face out after its lengths have changed; no triangle gets the least height.
 void renew_face(Surface& surface, FaceCharts& charts, Index face);
 
 //! Cuts face (a, b, c) into (a, b, m), and the new faces (b, c, m) and (c, a, m).

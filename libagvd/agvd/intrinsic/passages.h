@@ -303,8 +303,7 @@ struct MergePassage {
         FaceSegment segment;
         Index slot = 0;
     };
-    //! Cuts a segment of (a, b, c) where it crosses the edges at m, in its order.
-    //! \return the number of parts.
+    //! Cuts a segment of (a, b, c) at the edges at m, in its order; returns the number of parts.
     Index cut(const FaceSegment& segment, std::array<Part, 3>& parts) const {
         const Shares& begin = segment.begin.barycentric;
         const Shares& end = segment.end.barycentric;

@@ -15,8 +15,7 @@ namespace {
 
 constexpr double angle_tolerance = 1e-10;
 constexpr int most_steps = 60;
-// The share of the range of factors that is left out at both ends: faces there are nearly
-// degenerate.
+// Share of the range of factors left out at both ends, where faces are nearly degenerate.
 constexpr double margin = 1e-3;
 
 // With edges scaled by s the corner between a and b across from c has the cosine p - q w, w = 1/s².
@@ -38,8 +37,7 @@ Angle angle_at(const std::vector<Corner>& corners, double w) {
     return sum;
 }
 
-// The angle grows with w. Newton's method is used, and bisection where a step would leave the
-// range.
+// The angle grows with w: Newton, and bisection where a step would leave the range.
 double solve(const std::vector<Corner>& corners, double target, double low, double high) {
     double w = std::clamp(1.0, low, high);
     for (int step = 0; step < most_steps; ++step) {
@@ -181,8 +179,7 @@ private:
         return true;
     }
 
-    // The quality of the triangle at the head after the flip: twice its area over the squares of
-    // its sides.
+    // As Quad::quality_behind().
     [[nodiscard]] double quality_behind(Index h, const Quad& quad) const {
         if (lengths_ == Lengths::OnSurface) return quad.quality_behind();
         const Vec3& a = surface_.mesh.positions[surface_.head(h)];

@@ -52,8 +52,7 @@ public:
     [[nodiscard]] std::span<const Index> corners() const { return corners_; }
 
 private:
-    // A share of the faces' size: two edges of one straight line bend by at most this, by the
-    // rounding of charts.
+    // A share of the faces' size: straight lines bend by this at most, by rounding.
     static constexpr double straight_enough = 1e-14;
 
     // The side of a face opposite to the vertex, and its neighbour beyond.
@@ -110,8 +109,7 @@ private:
         return true;
     }
 
-    // All new faces get the chart of the first face. A face beyond a rim may belong to the ring,
-    // too.
+    // All new faces get the chart of the first. A face beyond a rim may be in the ring, too.
     void turn_glued_rims() {
         for (Sector& sector : sectors_) {
             for (std::size_t k = 0; k < half_edge_.size(); ++k) {

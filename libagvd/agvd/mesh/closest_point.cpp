@@ -17,8 +17,7 @@ constexpr Index leaf_size = 2;
 // edges, which carry rounding errors, are inside and ties are found.
 constexpr double padding_share = 1e-15;
 
-// A face is a needle if the square of twice its area over the fourth power of its length is at most
-// this.
+// Of a needle: the square of twice its area over the fourth power of its length.
 constexpr double needle = 1e-8;
 // A point with a barycentric coordinate below this may lie on the side.
 constexpr double near_side = 1e-6;
@@ -177,8 +176,7 @@ bool ClosestPointTree::is_within(const Vec3& point, double distance) const {
     return search(point, most_sq, most_sq).distance_sq <= most_sq;
 }
 
-// Looks at what is no farther than `most_sq`, and ends at the first point that is no farther than
-// `enough_sq`.
+// Among points no farther than `most_sq`, up to the first no farther than `enough_sq`.
 ClosestPoint ClosestPointTree::search(const Vec3& point, double most_sq, double enough_sq) const {
     ClosestPoint best;
     best.distance_sq = infinity;

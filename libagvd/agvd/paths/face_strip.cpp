@@ -54,8 +54,7 @@ public:
     }
 
 private:
-    // Turns around the current point, by the shorter way, to a view that is the goal. False if
-    // there is none.
+    // Turns by the shorter way to a view that is the goal. False if there is none.
     template <typename IsGoal>
     bool turn_to(const IsGoal& is_goal) {
         if (is_goal(here_)) return true;

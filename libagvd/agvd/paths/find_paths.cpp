@@ -76,8 +76,7 @@ Way descend(const Surface& surface, const SiteDistances& distances, const SiteGo
     }
 }
 
-// A straight line, which starts on the left of a half-edge and ends at the image of a site on its
-// right, in the frame of the half-edge.
+// From the left of a half-edge to a site's image on its right, in the frame of the half-edge.
 struct Ray {
     Index half_edge;
     Vec2 from, image;
@@ -128,8 +127,7 @@ std::optional<Ray> ray_across(const Surface& surface, const SiteDistances& dista
     return Ray{half_edge, from, {x, -y}};
 }
 
-// A* search along edges from the faces of one point to those of another. Empty if none arrives.
-// Ties go to the lower vertex.
+// Between the faces of two points. Empty if none arrives. Ties go to the lower vertex.
 Way search(const Surface& surface, const SurfacePoint& from, const SurfacePoint& to,
            Ticker& ticker) {
     struct Reached {

@@ -17,8 +17,7 @@ namespace {
 // Radians. If the angle on one side of a vertex is below pi by less than this, passing the vertex
 // there saves less than rounding: the square of this.
 constexpr double angle_tolerance = 1e-7;
-// Most rounds, besides one for each crossing at the start. On meshes no path took more than half as
-// many rounds as crossings.
+// Rounds besides one for each crossing at the start, of which no path took more than half.
 constexpr std::size_t more_rounds = 500;
 // Most crossings that all rounds together look at, for each crossing at the start and besides.
 // Where a path winds around a spike of needles, each of thousands of rounds looks at thousands.
@@ -31,8 +30,7 @@ constexpr double rounding = 1e-12;
 // Above 0: c lies on the left of the line from a to b.
 double side_of(const Vec2& a, const Vec2& b, const Vec2& c) { return cross(b - a, c - a); }
 
-// Sine of the angle below which a vertex counts as lying on a straight line: rounding must not hide
-// that a path goes through it.
+// Sine of an angle: rounding must not hide that a path goes through a vertex.
 constexpr double collinear = 1e-12;
 
 // Clearly on the left of the line from a to b, seen from a.

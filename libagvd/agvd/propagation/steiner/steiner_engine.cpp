@@ -44,8 +44,7 @@ public:
         }
     }
 
-    // Marks the edges of all faces that a shortest path from a site to a vertex can cross.
-    // \param distance  #V: from the nearest site.
+    // The same for all faces that a path of the vertex's distance (#V) can cross.
     void mark_between(std::span<const double> distance, Index vertex) {
         std::vector<Index> waiting{Surface::face(surface_.outgoing[vertex])};
         visited_for_[waiting[0]] = vertex;
@@ -63,8 +62,7 @@ public:
         }
     }
 
-    // Halves the spacing on the marked edges, as far as there is room, and removes the marks.
-    // False if there was no room.
+    // Halves the spacing on the marked edges; false if there was no room.
     [[nodiscard]] bool insert() {
         bool has_room = false;
         for (Index e = 0; e < points_.size(); ++e) {

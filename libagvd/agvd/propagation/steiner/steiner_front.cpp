@@ -256,8 +256,7 @@ void SteinerFront::serve_onward(Index edge, Index point) {
                  here, node.distance, node.site, FaceRing::slot(1, j));
 }
 
-// The position of the path's previous node in the frame of node.from. `here`: the position of the
-// node in that frame.
+// The path's previous node in the frame of node.from, where the node itself lies at `here`.
 Vec2 SteinerFront::slot_position(const SteinerNode& node, const Vec2& here) const {
     if (node.parent_slot != FaceRing::site_slot) {
         return FaceRing::position(surface_, counts_, node.from, node.parent_slot);
@@ -355,8 +354,7 @@ void SteinerFront::collect(Index face) {
     }
 }
 
-// Adds the images, in the frame of h, of the parents in the neighbour from which nodes on h
-// were reached.
+// Adds the images of the parents in the neighbour from which nodes on h were reached.
 void SteinerFront::collect_across(Index h, Index twin) {
     const double length = surface_.length_of(h);
     const auto mirrored = [length](const Vec2& p) { return Vec2(length - p.x(), -p.y()); };

@@ -26,8 +26,7 @@ struct TargetRange {
     Index end;
 };
 
-//! A face in the frame of one of its half-edges. The m points on each of the two other sides divide
-//! it into m + 1 intervals.
+//! A face in the frame of a half-edge. m points divide each other side into m + 1 intervals.
 struct FarSide {
     double length;  //!< Of the half-edge.
     Vec2 apex;
@@ -77,8 +76,7 @@ struct FrontEntry {
 //! that improves within its bucket is not pushed again. The caller skips stale entries.
 class FrontQueue {
 public:
-    //! \param bucket_width > 0, in mesh units; a matter of speed only, but no distance may exceed
-    //!                     2^31 widths.
+    //! \param bucket_width > 0, mesh units; no distance may exceed 2^31 widths.
     explicit FrontQueue(double bucket_width) : per_width_(1 / bucket_width) {}
 
     //! \param queued_in  the node's own memory of the bucket it waits in; no_index at first.
@@ -137,8 +135,7 @@ private:
 //! faces that have not retired can be read.
 class SteinerFront {
 public:
-    //! \param counts  outlives the front, as the other arguments do; NodeNumbers must suffice for
-    //! it.
+    //! \param counts  outlives the front, as the others do; NodeNumbers must suffice for it.
     SteinerFront(const Surface& surface, std::span<const SurfacePoint> sites,
                  const SteinerCounts& counts);
 

@@ -140,8 +140,7 @@ public:
 
     [[nodiscard]] bool is_retired(Index edge) const { return first_[edge] == retired; }
 
-    //! The nodes of a live edge, in the direction of its edge_half. They are made on first use. The
-    //! edge must have points.
+    //! Of a live edge that has points, in the direction of its edge_half; made on first use.
     [[nodiscard]] SteinerNode* nodes(Index edge) {
         if (first_[edge] == never_used) first_[edge] = take_block(counts_[edge]);
         return node_at(first_[edge]);

@@ -83,8 +83,7 @@ struct FaceRelays {
     }
 };
 
-// Whether the tail of a half-edge is the image of a relay: a site lies on it or beside it, paths
-// may bend at it, or no window reached it.
+// Whether the tail is the image of a relay: a site or pseudo-source, or no window reached it.
 inline bool is_source(const Surface& surface, const Propagation& result, Index half_edge) {
     const Index v = surface.tail(half_edge);
     const std::vector<Index>& unseen = result.vertices_off_windows;
@@ -111,8 +110,7 @@ void for_each_inner_relay(const Surface& surface, std::span<const PlacedSite> pl
     }
 }
 
-// Calls each(relay) for the relays of a block. Calls load(face) for the faces of relays a few
-// entries ahead, which are seldom in the cache.
+// Calls each(relay) for a block, and load(face) some entries ahead: seldom in the cache.
 template <typename Load, typename Each>
 void for_each_relay(const std::vector<Relay>& block, const Load& load, const Each& each) {
     constexpr std::size_t ahead = 12;

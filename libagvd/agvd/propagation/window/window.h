@@ -64,8 +64,7 @@ public:
         next_block_ = 0;
         room_ = {};
     }
-    //! \param count  > 0.
-    //! \return the number of a run, whose windows are to be written.
+    //! \return the number of a run, whose windows (> 0) are to be written.
     [[nodiscard]] Index take(Index count) {
         const auto size_class = static_cast<int>(std::bit_width(count - 1));
         Index& free_run = free_runs_[static_cast<std::size_t>(size_class)];
@@ -123,8 +122,7 @@ private:
         std::size_t size;
     };
 
-    // Blocks grow with what is in use, so that little is wasted both by short runs and by long
-    // ones.
+    // Blocks grow with what is in use, so that little is wasted.
     [[gnu::noinline]] void open_block(std::size_t size) {
         constexpr std::size_t least = 64, most = 4096;
         while (next_block_ < blocks_.size() && blocks_[next_block_].size < size) ++next_block_;
@@ -148,8 +146,7 @@ private:
 //! the distance of the image if that is less, counts as straight.
 inline constexpr double grazing = 1e-10;
 
-//! A share of the edge: if a site is nearer to a vertex than this, rounding may hide which faces it
-//! sees past the vertex.
+//! A share of the edge: of a site nearer to a vertex, rounding may hide which faces it sees.
 inline constexpr double near_vertex = 1e-4;
 
 //! A vector in the frame whose x axis is the unit vector `axis`.
@@ -219,8 +216,7 @@ struct Rivals {
     double corner_sq;  //!< Squared distance of that end from the corner.
 };
 
-//! Whether a child is kept: it is wide enough, and no path around the ends of its edge or past the
-//! corner behind it is shorter.
+//! Whether a child is wide enough, and no path around its edge or the corner behind is shorter.
 inline bool lives(const Window& child, const Rivals& rivals) {
     const auto& [begin_bound, end_bound, length, spare, corner_sq] = rivals;
     const double to_begin = child.at_begin - child.weight;

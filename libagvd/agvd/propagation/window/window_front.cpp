@@ -30,8 +30,7 @@ struct Fan {
     Index first;  // Leaves the vertex; its face is the first one.
     // The same of the last face; no_index: to the boundary, or all around.
     Index last = no_index;
-    // Rays that bound the fan in its first and last face, in the frames of `first` and `last`;
-    // none: the whole face.
+    // Rays that bound the fan in these two faces, in their frames; none: the whole face.
     std::optional<Vec2> from = {}, to = {};
 };
 
@@ -108,8 +107,7 @@ Fan fan_around(const WindowFront& front, Index record) {
             front.surface.outgoing[v.vertex]};
 }
 
-// Sends windows through the edges opposite to the vertex, and reaches the ends of these edges.
-// False if the boundary comes before the last face.
+// Through the edges opposite to the vertex. False if the boundary comes before the last face.
 bool emit_fan(WindowFront& front, const Fan& fan) {
     Index h = fan.first;
     do {
@@ -270,8 +268,7 @@ void emit_from_pseudo_source(WindowFront& front, const PseudoSource& source) {
         if (emit_fan(front, fan)) return;
     }
     if (left.half_edge == no_index) return;
-    // The part behind the boundary. Whether the vertex lies on it is asked last: seldom in the
-    // cache.
+    // The part behind the boundary; asked last, as it is seldom in the cache.
     fan.first = front.surface.is_boundary_vertex(vertex) ? outgoing : left.half_edge;
     fan.from = std::nullopt;
     (void)emit_fan(front, fan);

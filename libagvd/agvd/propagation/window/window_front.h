@@ -175,13 +175,11 @@ struct WindowFront {
     WindowStore store = {};
     WatchList watched = {};
     FrontScratch scratch = {};
-    //! Largest error of a window that was merged in the last run over its least distance; 0 if none
-    //! was.
+    //! Largest error of a merged window of the last run over its least distance.
     double relative_error = 0;
     std::size_t num_served = 0;  //!< Windows served in the last run.
 
-    //! The surface and its corners outlive the front. The default of small_run fits into the caches
-    //! as it is.
+    //! The first two outlive the front. The default of small_run fits into the caches.
     WindowFront(const Surface& on, const Corners& its_corners, double largest_error,
                 Ticker ticker_of_thread = {}, Index most_kept = 2048)
         : surface(on),
@@ -315,8 +313,7 @@ void reach_vertex(WindowFront& front, Index record, const Arrival& arrival);
 //! Cost: linear where windows come in order, as they nearly always do.
 void take_in_windows(WindowFront& front, EdgeRecord& edge, const WindowFace& face);
 
-//! Reaches the apex of the face, and decides which part of a window goes on to the right and to the
-//! left.
+//! Reaches the apex of the face, and decides which parts of a window go on to both sides.
 [[nodiscard]] Division divide(WindowFront& front, const Window& w, EdgeRecord& edge,
                               const WindowFace& face);
 
