@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "agvd/core/progress.h"
+#include "agvd/core/types.h"
 
 namespace agvd {
 

@@ -1,8 +1,6 @@
-// Runs the chunks of a loop on several threads. The calling thread takes chunks too, and is the
-// only one that polls for long: TBB's tasks (with ThreadSanitizer plain threads) only help. A
-// helper that comes after the last chunk finds the loop closed, so that the calling thread never
-// waits for a task that has not started. The first exception of a chunk or of the poller ends the
-// loop and is thrown to the caller.
+// The calling thread takes chunks too, and is the only one that polls for long: TBB's tasks (with
+// ThreadSanitizer plain threads) only help. A helper that comes after the last chunk finds the loop
+// closed, so that nobody waits for a task that has not started. The first exception ends the loop.
 #include "agvd/core/parallel.h"
 
 #include <tbb/task_arena.h>
@@ -26,8 +24,7 @@ namespace {
 // The time between polls when the calling thread has no chunk left.
 constexpr std::chrono::milliseconds wait_between_polls{5};
 
-// A loop whose chunks are taken by several threads. A thread that comes after the loop was closed
-// finds no body and does nothing.
+// A loop whose chunks are taken by several threads.
 class SharedLoop {
 public:
     SharedLoop(Index num, const std::function<void(Index)>& body, Poller& poller)

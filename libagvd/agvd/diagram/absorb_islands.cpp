@@ -1,7 +1,5 @@
-// Points and stretches of one label that touch are united by union-find; nodes are numbered as in
-// EdgeLabels. What is not united with its cell's site is an island. It gets the label of a
-// neighbouring cell that is connected to its own site, on edges and cuts alike, and the faces
-// around it are traced again.
+// Points and stretches of one label that touch are united; what is not united with its cell's site
+// is an island, and gets the label of a neighbouring cell that is connected to its own site.
 #include <algorithm>
 #include <map>
 #include <utility>
@@ -40,8 +38,7 @@ Index interval_of(const StageInput& in, const EdgeLabels& labels, Index site, In
     return label == site ? holder : no_index;
 }
 
-// The node of the site's cell that holds the site; no_index: its position belongs to another cell,
-// or is an inner point.
+// The node of the site's cell that holds it; no_index: none, or an inner point.
 Index holder_of(const StageInput& input, const EdgeLabels& labels, Index site) {
     const SurfacePoint& point = input.sites[site];
     if (const auto vertex = vertex_of(input.surface, point)) {
@@ -203,8 +200,7 @@ void for_each_row(IslandSearch& search, const Callback& callback) {
     }
 }
 
-// Islands border on other cells at crossings. Each goes to the lowest-numbered cell that it borders
-// on and that is connected to its site there.
+// Islands go to the lowest-numbered cell beside them that is connected to its site there.
 void choose_new_sites(IslandSearch& search) {
     const auto give = [&](Index island, Index site) {
         const auto [found, is_new] = search.new_site.try_emplace(search.sets.root(island), site);
@@ -255,7 +251,7 @@ void relabel_row(IslandSearch& search, const Row& row, std::vector<Index>& stale
                       });
     if (!is_changed) return;
     const LineId line = labels.crossings[row.crossings->begin].line;
-    *row.crossings = {static_cast<Index>(labels.crossings.size()), static_cast<Index>(kept.size())};
+    *row.crossings = {size_of(labels.crossings), size_of(kept)};
     labels.crossings.insert(labels.crossings.end(), kept.begin(), kept.end());
     add_faces_of_line(search, line, stale_faces);
 }
@@ -277,10 +273,7 @@ void relabel_points(IslandSearch& search, std::vector<Index>& stale_faces) {
     }
 }
 
-// Changes the labels of islands.
-// \return ascending: the positions of the mixed faces around changed labels.
-// Cost: nearly linear in the points and crossings of the faces that the cells in doubt reach into,
-// and O(#V + crossings) quick steps.
+// Changes the labels of islands; returns the mixed faces around them, ascending positions.
 std::vector<Index> relabel_islands(const StageInput& input, const CellSet& in_doubt,
                                    DiagramParts& parts) {
     const EdgeLabels& labels = parts.labels;

@@ -5,16 +5,6 @@
 namespace agvd {
 namespace {
 
-template <typename T>
-Index size_of(const std::vector<T>& list) {
-    return static_cast<Index>(list.size());
-}
-
-template <typename T>
-void append_all(const std::vector<T>& from, std::vector<T>& to) {
-    to.insert(to.end(), from.begin(), from.end());
-}
-
 // Calls each(arc) for the arcs of all faces, in their order.
 template <typename Each>
 void for_each_arc(const Arcs& arcs, Ticker& ticker, const Each& each) {
@@ -29,7 +19,7 @@ void add_edge(const Arcs& arcs, ArcEnd start, bool is_closed, Ticker& ticker, Jo
     ArcEnd from = start;
     ArcEnd to;
     while (true) {
-        joined.edge_of_arc[from.arc()] = static_cast<Index>(joined.edges.size());
+        joined.edge_of_arc[from.arc()] = size_of(joined.edges);
         ticker.tick();
         to = from.other();
         if (!is_closed && ends_edges(joined, node_at(arcs, to))) break;
@@ -43,71 +33,6 @@ void add_edge(const Arcs& arcs, ArcEnd start, bool is_closed, Ticker& ticker, Jo
 }
 
 }  // namespace
-
-Arcs::Mark Arcs::mark() const {
-    return {size_of(points), size_of(arcs), size_of(voronoi_vertices), size_of(connections),
-            size_of(parts)};
-}
-
-void Arcs::go_back(const Mark& mark) {
-    points.resize(mark.points);
-    point_distance.resize(mark.points);
-    arcs.resize(mark.arcs);
-    voronoi_vertices.resize(mark.voronoi_vertices);
-    connections.resize(mark.connections);
-    parts.resize(mark.parts);
-}
-
-FaceArcs Arcs::since(const Mark& mark) const {
-    return {{mark.arcs, size_of(arcs) - mark.arcs},
-            {mark.voronoi_vertices, size_of(voronoi_vertices) - mark.voronoi_vertices},
-            {mark.connections, size_of(connections) - mark.connections},
-            {mark.parts, size_of(parts) - mark.parts}};
-}
-
-void Arcs::append(const Arcs& chunk, std::span<const Index> positions) {
-    const Mark at = mark();
-    append_all(chunk.points, points);
-    append_all(chunk.point_distance, point_distance);
-    append_all(chunk.connections, connections);
-    append_all(chunk.parts, parts);
-    const auto moved = [&](NodeId node) {
-        return node.is_voronoi_vertex()
-                   ? NodeId::of_voronoi_vertex(node.voronoi_vertex() + at.voronoi_vertices)
-                   : node;
-    };
-    for (Arc arc : chunk.arcs) {
-        arc.tail = moved(arc.tail);
-        arc.head = moved(arc.head);
-        arc.first_point += at.points;
-        arcs.push_back(arc);
-    }
-    for (VoronoiVertex voronoi_vertex : chunk.voronoi_vertices) {
-        for (ArcEnd& end : voronoi_vertex.ends) end.word += 2 * at.arcs;
-        voronoi_vertices.push_back(voronoi_vertex);
-    }
-    for (std::size_t i = 0; i < positions.size(); ++i) {
-        FaceArcs& face = faces[positions[i]] = chunk.faces[i];
-        face.arcs.begin += at.arcs;
-        face.voronoi_vertices.begin += at.voronoi_vertices;
-        face.connections.begin += at.connections;
-        face.parts.begin += at.parts;
-    }
-}
-
-void Arcs::reserve_for(double times) {
-    constexpr double spare = 1.1;
-    const auto reserve = [&](auto& elements) {
-        const auto size = static_cast<double>(elements.size());
-        elements.reserve(static_cast<std::size_t>(spare * times * size));
-    };
-    reserve(points);
-    reserve(point_distance);
-    reserve(arcs);
-    reserve(voronoi_vertices);
-    reserve(connections);
-    reserve(parts);
-}
 
 JoinedEdges join_arcs(const EdgeLabels& labels, const Arcs& arcs, Ticker ticker) {
     JoinedEdges joined;

@@ -63,8 +63,7 @@ struct Arc {
     Index left, right;  //!< Sites, walking from tail to head.
     Index first_point;  //!< Its inner polyline points in Arcs::points.
     Index num_points;
-    //! The node, a crossing, lies on the twin of the half-edge that it names: a face that is glued
-    //! to itself meets one twice.
+    //! The crossing lies on the twin of its half-edge: a glued face meets one twice.
     bool tail_is_across = false, head_is_across = false;
 };
 
@@ -95,8 +94,7 @@ struct FaceArcs {
     Block arcs, voronoi_vertices, connections, parts;
 };
 
-//! What some faces contribute: those of one chunk, or all mixed ones. A face that is traced again
-//! leaves what it had, unused.
+//! What some faces contribute. A face that is traced again leaves what it had, unused.
 struct Arcs {
     //! Sizes of the lists.
     struct Mark {
@@ -111,16 +109,68 @@ struct Arcs {
     std::vector<CellPart> parts;
     std::vector<FaceArcs> faces;
 
-    [[nodiscard]] Mark mark() const;
+    [[nodiscard]] Mark mark() const {
+        return {size_of(points), size_of(arcs), size_of(voronoi_vertices), size_of(connections),
+                size_of(parts)};
+    }
     //! Drops all that came since.
-    void go_back(const Mark& mark);
+    void go_back(const Mark& mark) {
+        points.resize(mark.points);
+        point_distance.resize(mark.points);
+        arcs.resize(mark.arcs);
+        voronoi_vertices.resize(mark.voronoi_vertices);
+        connections.resize(mark.connections);
+        parts.resize(mark.parts);
+    }
     //! What came since.
-    [[nodiscard]] FaceArcs since(const Mark& mark) const;
+    [[nodiscard]] FaceArcs since(const Mark& mark) const {
+        return {{mark.arcs, size_of(arcs) - mark.arcs},
+                {mark.voronoi_vertices, size_of(voronoi_vertices) - mark.voronoi_vertices},
+                {mark.connections, size_of(connections) - mark.connections},
+                {mark.parts, size_of(parts) - mark.parts}};
+    }
     //! Adds the faces of another list.
     //! \param positions  of these faces in `faces`.
-    void append(const Arcs& chunk, std::span<const Index> positions);
-    //! Makes room for so many times as much.
-    void reserve_for(double times);
+    void append(const Arcs& chunk, std::span<const Index> positions) {
+        const Mark at = mark();
+        const auto append_all = [](const auto& from, auto& to) {
+            to.insert(to.end(), from.begin(), from.end());
+        };
+        append_all(chunk.points, points);
+        append_all(chunk.point_distance, point_distance);
+        append_all(chunk.connections, connections);
+        append_all(chunk.parts, parts);
+        const auto move = [&](NodeId& node) {
+            if (!node.is_voronoi_vertex()) return;
+            node = NodeId::of_voronoi_vertex(node.voronoi_vertex() + at.voronoi_vertices);
+        };
+        for (Arc arc : chunk.arcs) {
+            move(arc.tail);
+            move(arc.head);
+            arc.first_point += at.points;
+            arcs.push_back(arc);
+        }
+        for (VoronoiVertex voronoi_vertex : chunk.voronoi_vertices) {
+            for (ArcEnd& end : voronoi_vertex.ends) end.word += 2 * at.arcs;
+            voronoi_vertices.push_back(voronoi_vertex);
+        }
+        for (std::size_t i = 0; i < positions.size(); ++i) {
+            FaceArcs& face = faces[positions[i]] = chunk.faces[i];
+            face.arcs.begin += at.arcs;
+            face.voronoi_vertices.begin += at.voronoi_vertices;
+            face.connections.begin += at.connections;
+            face.parts.begin += at.parts;
+        }
+    }
+    //! Makes room for so many times as much, and a tenth more.
+    void reserve_for(double times) {
+        const auto reserve = [&](auto&... lists) {
+            (lists.reserve(
+                 static_cast<std::size_t>(1.1 * times * static_cast<double>(lists.size()))),
+             ...);
+        };
+        reserve(points, point_distance, arcs, voronoi_vertices, connections, parts);
+    }
 };
 
 //! The Voronoi edges between cells. An edge runs through crossings from one vertex of the diagram
@@ -131,8 +181,7 @@ struct JoinedEdges {
         Index left, right;   //!< Sites, walking from tail to head.
         bool is_closed;
     };
-    //! Open ones in the order of the first of their ends in the faces, then closed ones in that of
-    //! their first tail.
+    //! Open ones by the first of their ends in the faces, then closed ones by their first tail.
     std::vector<Edge> edges;
     std::vector<Index> edge_of_arc;
     //! The arcs' ends at each crossing; on the surface's boundary one only.

@@ -1,10 +1,6 @@
-// The bisector of two sites a and b has equal distances f_a = f_b, each the least over the site's
-// relays. Its point opposite the middle m of a chord is m + s n with the chord's normal n: Newton
-// on f_a - f_b along that normal.
-//
-// A Voronoi vertex p has f_a(p) = f_b(p) = f_c(p). Newton on (f_a - f_b, f_b - f_c) finds it, with
-// the relays that are the nearest at the start; where it converges they are chosen again, until
-// they stay the same.
+// The point of a bisector opposite the middle of a chord is found by Newton on f_a - f_b along the
+// normal, a Voronoi vertex by Newton on (f_a - f_b, f_b - f_c), where f is the distance from a
+// site, through the relay that is nearest at the start; at a root relays are chosen again.
 #include "agvd/diagram/bisectors.h"
 
 #include <algorithm>
@@ -17,8 +13,7 @@ namespace {
 // Equalities are met up to this share of the triangle's longest side: below it lies rounding.
 constexpr double convergence = 1e-11;
 constexpr int max_newton_steps = 25;
-// Relays chosen at one point of a bisector stand for their sites this far along (share of the
-// chord).
+// Relays chosen at one point stand for their sites this far along (share of the chord).
 constexpr double near_enough = 0.02;
 constexpr int max_arc_depth = 4;  // At most 2^4 pieces an arc and face.
 // A search that strays this far (share of the size) from its start does not come back.
@@ -79,8 +74,7 @@ Vec2 gradient(const Vec2& p, const Reach& reach) {
 }
 
 // Whether the bisector of two sites clearly strays from a chord by less than the tolerance (share
-// of the chord), by one Newton step across its middle: by Kantorovich's theorem the root lies
-// within twice that step where the slope changes by less than half of itself on the way.
+// of the chord): by Kantorovich's theorem, for one Newton step across its middle.
 // \param a, b  of the two sites at the middle.
 bool is_nearly_straight(const Vec2& chord, const Vec2& middle, const Reach& a, const Reach& b,
                         double tolerance) {
@@ -125,7 +119,6 @@ void sample(const Sampling& sampling, const Chord& chord, int depth) {
 
 // Distance of p through a relay, all in the frame of its half-edge; as reach() in any frame.
 Reach reach_in_frame(const Relay& r, const Vec2& p) {
-    const auto root = [](double x, double y) { return std::sqrt(x * x + y * y); };
     const double dx = p.x() - r.x;
     const double dy = p.y() - r.y;
     if (r.y < 0) {
@@ -154,35 +147,25 @@ struct Known {
 struct EqualPoint {
     Vec2 position;
     double distance;
-    // Two points may be equally far from three sites: positive at the one around which the sites
-    // lie counter-clockwise.
+    // Of two such points, positive at that around which the sites lie counter-clockwise.
     double turn;
 };
-
-// The nearest relays of three sites at a point.
-struct Chosen {
-    std::array<const PlanarRelay*, 3> relays;
-    Vec2 at;
-
-    [[nodiscard]] bool is_complete() const {
-        return relays[0] != nullptr && relays[1] != nullptr && relays[2] != nullptr;
-    }
-};
-
-Chosen choose(const std::array<Relays, 3>& sites, const Vec2& p) {
-    return {{nearest_relay(sites[0], p), nearest_relay(sites[1], p), nearest_relay(sites[2], p)},
-            p};
-}
 
 std::optional<EqualPoint> find_equal(double size, const std::array<Relays, 3>& sites,
                                      const Vec2& start) {
     Vec2 p = start;
-    Chosen chosen = choose(sites, p);
+    Vec2 chosen_at;
+    std::array<const PlanarRelay*, 3> nearest;
+    const auto choose = [&] {
+        chosen_at = p;
+        for (std::size_t k = 0; k < 3; ++k) nearest[k] = nearest_relay(sites[k], p);
+        return nearest[0] != nullptr && nearest[1] != nullptr && nearest[2] != nullptr;
+    };
+    if (!choose()) return {};
     for (int i = 0; i < max_newton_steps; ++i) {
-        if (!chosen.is_complete()) return {};
-        const Reach a = reach(*chosen.relays[0], p);
-        const Reach b = reach(*chosen.relays[1], p);
-        const Reach c = reach(*chosen.relays[2], p);
+        const Reach a = reach(*nearest[0], p);
+        const Reach b = reach(*nearest[1], p);
+        const Reach c = reach(*nearest[2], p);
         const double distance = std::max({a.distance, b.distance, c.distance});
         if (!std::isfinite(distance)) return {};
         const Vec2 residual(a.distance - b.distance, b.distance - c.distance);
@@ -192,8 +175,8 @@ std::optional<EqualPoint> find_equal(double size, const std::array<Relays, 3>& s
         const double determinant = cross(first, second);
         if (std::max(std::abs(residual.x()), std::abs(residual.y())) <=
             convergence * (size + distance)) {
-            if (p == chosen.at) return EqualPoint{p, distance, determinant};
-            chosen = choose(sites, p);  // Others may be nearer here.
+            if (p == chosen_at) return EqualPoint{p, distance, determinant};
+            if (!choose()) return {};  // Others may be nearer here.
             continue;
         }
         if (!(std::abs(determinant) > convergence)) return {};
@@ -286,7 +269,7 @@ double arc_undercut(const TriangleSites& triangle, const std::array<Index, 2>& s
 }
 
 bool joins_straight(std::span<const Relay> relays, const std::array<Vec2, 3>& corners,
-                    const Breakpoint& from, const Breakpoint& to, const ChordTest& test) {
+                    const Breakpoint& from, const Breakpoint& to, double slack, double tolerance) {
     const Vec2 middle = (from.position + to.position) / 2;
     struct Frame {
         Vec2 along;
@@ -311,10 +294,10 @@ bool joins_straight(std::span<const Relay> relays, const std::array<Vec2, 3>& co
         if (site == nullptr) continue;
         const std::size_t k = relay.half_edge % 3;
         const Frame& frame = frames[k];
-        site->agrees_at_from = site->agrees_at_from || reach_in_frame(relay, frame.from).distance <=
-                                                           from.distance + test.slack;
-        site->agrees_at_to = site->agrees_at_to ||
-                             reach_in_frame(relay, frame.to).distance <= to.distance + test.slack;
+        site->agrees_at_from = site->agrees_at_from ||
+                               reach_in_frame(relay, frame.from).distance <= from.distance + slack;
+        site->agrees_at_to =
+            site->agrees_at_to || reach_in_frame(relay, frame.to).distance <= to.distance + slack;
         const Reach at_middle = reach_in_frame(relay, frame.middle);
         if (at_middle.distance < site->at_middle.distance) {
             site->at_middle = at_middle;
@@ -329,7 +312,7 @@ bool joins_straight(std::span<const Relay> relays, const std::array<Vec2, 3>& co
             corners[site.frame] + image.x() * along + image.y() * Vec2(-along.y(), along.x());
     }
     return is_nearly_straight(to.position - from.position, middle, known[0].at_middle,
-                              known[1].at_middle, test.tolerance);
+                              known[1].at_middle, tolerance);
 }
 
 VertexCandidate find_voronoi_vertex(const TriangleSites& triangle,

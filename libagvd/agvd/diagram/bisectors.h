@@ -7,8 +7,7 @@
 
 namespace agvd {
 
-//! Distances at a breakpoint that differ by more (share of the triangle's longest side) are not
-//! those of its labels.
+//! Distances at a breakpoint that differ by more (share of the longest side) contradict it.
 inline constexpr double largest_disagreement = 1e-2;
 //! A point this far outside (share of the longest side) still counts as inside.
 inline constexpr double inside_tolerance = 1e-9;
@@ -31,8 +30,7 @@ struct TriangleSites {
 //! Empty for a site that is not on the boundary.
 [[nodiscard]] Relays relays_of_site(const TriangleSites& triangle, Index site);
 
-//! By how much another site than these is nearer to p.
-//! \param distance  of p from these.
+//! By how much another site than these is nearer to p, which is at `distance` from these.
 [[nodiscard]] double undercut(const TriangleSites& triangle, const Vec2& p, double distance,
                               std::span<const Index> sites);
 
@@ -47,8 +45,7 @@ struct BisectorPoint {
     double distance;  //!< From both sites.
 };
 
-//! The point of the bisector of two sites opposite the middle of a chord.
-//! \return none if there is none near, or it lies outside.
+//! The point of the bisector opposite the middle of a chord; none if none is near and inside.
 [[nodiscard]] std::optional<BisectorPoint> project(const TriangleSites& triangle, Relays a,
                                                    Relays b, const Chord& chord);
 
@@ -61,19 +58,15 @@ void sample_bisector(const TriangleSites& triangle, const std::array<Index, 2>& 
 [[nodiscard]] double arc_undercut(const TriangleSites& triangle, const std::array<Index, 2>& sites,
                                   const Chord& chord);
 
-struct ChordTest {
-    double slack;      //!< Mesh units: distances agree up to this.
-    double tolerance;  //!< A share of the chord.
-};
-
 //! Whether a face's own relays say that the chord between two breakpoints is its one arc: the
 //! bisector clearly strays from it by less than the tolerance, and the relays agree with the
 //! breakpoints' distances. False: see TriangleSolver, which draws arcs of any shape.
 //! \param relays   of the face.
 //! \param corners  of the face, in whose frame the breakpoints are.
+//! \param slack, tolerance  of distances, mesh units; a share of the chord.
 [[nodiscard]] bool joins_straight(std::span<const Relay> relays, const std::array<Vec2, 3>& corners,
-                                  const Breakpoint& from, const Breakpoint& to,
-                                  const ChordTest& test);
+                                  const Breakpoint& from, const Breakpoint& to, double slack,
+                                  double tolerance);
 
 // --- Voronoi vertices --------------------------------------------------------------------------
 

@@ -1,7 +1,5 @@
-// The sites inside a face become points of a triangulation that begins with its corners; its inner
-// edges are the cuts. A cut is labelled as a mesh edge is, by the relays that can reach it. Chunks
-// of faces are cut in parallel into lists of their own; then the lists are copied into the labels
-// in order.
+// The sites inside a face become points of a triangulation of it; its inner edges are the cuts,
+// labelled as mesh edges are. Chunks of faces are cut in parallel and copied in order.
 #include <algorithm>
 
 #include "agvd/core/parallel.h"
@@ -14,8 +12,7 @@
 namespace agvd {
 namespace {
 
-// What the faces of one chunk add to the labels. Inner points, cuts and crossings are counted from
-// 0.
+// What the faces of one chunk add to the labels, counted from 0.
 struct FoundCuts {
     std::vector<InnerPoint> inner_points;
     std::vector<Cut> cuts;
@@ -28,11 +25,7 @@ class FaceCutter {
 public:
     FaceCutter(const Surface& surface, const Propagation& propagation, const EdgeLabels& labels,
                FoundCuts& out)
-        : surface_(surface),
-          propagation_(propagation),
-          labels_(labels),
-          gatherer_(surface, propagation, labels),
-          out_(out) {}
+        : surface_(surface), propagation_(propagation), labels_(labels), out_(out) {}
 
     void cut(Index mixed_index, std::span<const PlacedSite> placed) {
         face_ = propagation_.mixed_faces[mixed_index];
@@ -97,7 +90,8 @@ private:
                 if (neighbour == no_index) {
                     triangle.sides[k] = LineId::of_edge(3 * face_ + from);
                 } else if (neighbour > i) {
-                    triangle.sides[k] = add_cut(std::min(from, to), std::max(from, to));
+                    triangle.sides[k] =
+                        add_cut(points_[std::min(from, to)], points_[std::max(from, to)]);
                 } else {
                     const auto& shared = pieces[neighbour].points;
                     const auto found = std::find(shared.begin(), shared.end(), to);
@@ -111,13 +105,8 @@ private:
         out_.faces.push_back({face_, {first, size_of(pieces)}});
     }
 
-    LineId add_cut(Index from, Index to) {
+    LineId add_cut(const Point& from, const Point& to) {
         const LineId name = LineId::of_cut(size_of(out_.cuts));
-        label_cut(name, points_[from], points_[to]);
-        return name;
-    }
-
-    void label_cut(LineId name, const Point& from, const Point& to) {
         const Vec2 chord = to.position - from.position;
         const double length = chord.norm();
         // No point of the cut is farther from a site than the nearer end allows; from the middle a
@@ -131,18 +120,14 @@ private:
         const Index begin = size_of(out_.crossings);
         label_line(on_cut_, name, {length, from.site, to.site}, scratch_, out_.crossings);
         out_.cuts.push_back({face_, from.name, to.name, {begin, size_of(out_.crossings) - begin}});
-    }
-
-    template <typename T>
-    static Index size_of(const std::vector<T>& list) {
-        return static_cast<Index>(list.size());
+        return name;
     }
 
     const Surface& surface_;
     const Propagation& propagation_;
     const EdgeLabels& labels_;
-    RelayGatherer gatherer_;
     FoundCuts& out_;
+    RelayGatherer gatherer_{surface_, propagation_, labels_};
 
     // The face at hand.
     Index face_ = 0;
@@ -158,10 +143,10 @@ private:
 
 // Adds the cuts of a chunk to the labels, with indices into these.
 void add_cuts(FoundCuts& found, EdgeLabels& labels) {
-    const auto first_point = static_cast<Index>(labels.inner_points.size());
-    const auto first_cut = static_cast<Index>(labels.cuts.size());
-    const auto first_crossing = static_cast<Index>(labels.crossings.size());
-    const auto first_triangle = static_cast<Index>(labels.cut_triangles.size());
+    const auto first_point = size_of(labels.inner_points);
+    const auto first_cut = size_of(labels.cuts);
+    const auto first_crossing = size_of(labels.crossings);
+    const auto first_triangle = size_of(labels.cut_triangles);
     const auto move_end = [&](CutEnd& end) {
         if (end.corner == 3) end.point += first_point;
     };
@@ -199,7 +184,7 @@ void cut_faces(const StageInput& input, EdgeLabels& labels) {
     if (input.placement.is_empty()) return;
     constexpr Index grain = 512;
     const auto& mixed = input.propagation.mixed_faces;
-    const auto count = static_cast<Index>(mixed.size());
+    const auto count = size_of(mixed);
     std::vector<FoundCuts> found(num_chunks(count, grain));
     const auto cut_chunk = [&](Index chunk, Index begin, Index end) {
         FaceCutter cutter(input.surface, input.propagation, labels, found[chunk]);

@@ -28,8 +28,7 @@ CurvePiece curve_piece(const Surface& surface, const Diagram& diagram, Index edg
     const Passage& in = diagram.passages[next];
     if (!diagram.edges[edge].right.is_valid()) {
         if (in.leaves) {  // The mesh vertex at the head.
-            piece.to = {piece.from.face, {0, 0, 0}};
-            piece.to.barycentric[(out.side + 1) % 3] = 1;
+            piece.to = point_on(Surface::next(half_edge_at(piece.from, out)), 0);
         }
         return piece;
     }

@@ -1,11 +1,6 @@
-// An edge is a chain of arcs. Its points are the node at the beginning of each arc, the inner
-// points of the arc, and the node at the end of the last one. Points lie in faces of the surface,
-// with barycentric coordinates; a crossing is given in the face of the half-edge that it names.
-//
-// Edges between cells come first, then those on the surface's boundary, loop after loop. Voronoi
-// vertices inside the surface come first, then the label changes on the boundary, where an edge
-// between cells meets two edges of the boundary. Each vertex gets its ends counter-clockwise, and
-// the cell after each end.
+// An edge is a chain of arcs; its points are their nodes and inner points. Edges between cells
+// come before those on the surface's boundary, and Voronoi vertices before the label changes on
+// the boundary, where an edge between cells meets two edges of the boundary.
 #include <cassert>
 
 #include "agvd/diagram/face_relays.h"
@@ -23,13 +18,7 @@ struct BoundaryCrossing {
 class Drawing {
 public:
     Drawing(const Surface& surface, const DiagramParts& parts, Ticker ticker, Diagram& out)
-        : surface_(surface),
-          boundary_loops_(parts.boundary_loops),
-          labels_(parts.labels),
-          arcs_(parts.arcs),
-          joined_(parts.joined),
-          ticker_(ticker),
-          out_(out) {}
+        : surface_(surface), parts_(parts), ticker_(ticker), out_(out) {}
 
     void draw_complex() {
         out_.vertex_offsets.assign(1, 0);
@@ -38,7 +27,7 @@ public:
             out_.edges.push_back({SiteId(edge.left), SiteId(edge.right), no_index, no_index});
         }
         draw_voronoi_vertices();
-        for (const std::vector<Index>& loop : boundary_loops_) {
+        for (const std::vector<Index>& loop : parts_.boundary_loops) {
             const Index site = labels_.point_site[surface_.tail(loop[0])];
             const std::vector<BoundaryCrossing> crossings = crossings_along(loop);
             if (!crossings.empty()) {
@@ -53,7 +42,7 @@ public:
         reserve_points();
         out_.edge_points.assign(1, 0);
         for (const JoinedEdges::Edge& edge : joined_.edges) draw_edge(edge);
-        for (const std::vector<Index>& loop : boundary_loops_) {
+        for (const std::vector<Index>& loop : parts_.boundary_loops) {
             const std::vector<BoundaryCrossing> crossings = crossings_along(loop);
             if (!crossings.empty()) {
                 draw_boundary_edges(loop, crossings);
@@ -92,7 +81,7 @@ private:
 
     // The edges of one loop between its label changes, and the vertices at these.
     void attach_boundary(std::span<const BoundaryCrossing> crossings) {
-        const auto first_edge = static_cast<Index>(out_.edges.size());
+        const auto first_edge = size_of(out_.edges);
         const auto count = static_cast<Index>(crossings.size());
         for (const BoundaryCrossing& from : crossings) {
             const SiteId site(labels_.crossings[from.crossing].site_after);
@@ -117,7 +106,7 @@ private:
 
     // To the vertex that is finished next.
     void attach(const EdgeEnd& end, Index site) {
-        const auto vertex = static_cast<Index>(out_.vertices.size());
+        const auto vertex = size_of(out_.vertices);
         out_.vertex_ends.push_back(end);
         out_.vertex_sites.push_back(SiteId(site));
         (end.is_tail ? out_.edges[end.edge].tail : out_.edges[end.edge].head) = vertex;
@@ -126,7 +115,7 @@ private:
     void finish_vertex(const SurfacePoint& point, double distance) {
         out_.vertices.push_back(point);
         out_.vertex_distance.push_back(distance);
-        out_.vertex_offsets.push_back(static_cast<Index>(out_.vertex_ends.size()));
+        out_.vertex_offsets.push_back(size_of(out_.vertex_ends));
     }
 
     // --- Points --------------------------------------------------------------------------------
@@ -134,7 +123,7 @@ private:
     void reserve_points() {
         // A node at the beginning of each arc and at the end of each edge.
         std::size_t most = arcs_.arcs.size() + arcs_.points.size() + joined_.edges.size();
-        for (const std::vector<Index>& loop : boundary_loops_) {
+        for (const std::vector<Index>& loop : parts_.boundary_loops) {
             most += loop.size() + 2 * crossings_along(loop).size();
         }
         out_.points.reserve(most);
@@ -142,7 +131,7 @@ private:
         out_.passages.reserve(most);
     }
 
-    void finish_edge() { out_.edge_points.push_back(static_cast<Index>(out_.points.size())); }
+    void finish_edge() { out_.edge_points.push_back(size_of(out_.points)); }
 
     void draw_edge(const JoinedEdges::Edge& edge) {
         ArcEnd from = edge.first;
@@ -195,11 +184,7 @@ private:
             const Vec2 to = labels_.position_of(cut.to, corners);
             return to_surface(surface_, cut.face, (1 - crossing.at) * from + crossing.at * to);
         }
-        const Index h = crossing.line.half_edge();
-        SurfacePoint point{FaceId(Surface::face(h)), {0, 0, 0}};
-        point.barycentric[h % 3] = 1 - crossing.at;
-        point.barycentric[(h + 1) % 3] = crossing.at;
-        return point;
+        return point_on(crossing.line.half_edge(), crossing.at);
     }
 
     // \param is_across  the curve goes on from the twin of the half-edge that the crossing names.
@@ -233,9 +218,7 @@ private:
 
     // The tail of a half-edge on the boundary.
     void add_mesh_vertex(Index half_edge) {
-        SurfacePoint point{FaceId(Surface::face(half_edge)), {0, 0, 0}};
-        point.barycentric[half_edge % 3] = 1;
-        add_point(point, labels_.vertex_distance[surface_.tail(half_edge)],
+        add_point(point_on(half_edge, 0), labels_.vertex_distance[surface_.tail(half_edge)],
                   {static_cast<std::uint8_t>(half_edge % 3), true});
     }
 
@@ -247,10 +230,10 @@ private:
     }
 
     const Surface& surface_;
-    const std::vector<std::vector<Index>>& boundary_loops_;
-    const EdgeLabels& labels_;
-    const Arcs& arcs_;
-    const JoinedEdges& joined_;
+    const DiagramParts& parts_;
+    const EdgeLabels& labels_ = parts_.labels;
+    const Arcs& arcs_ = parts_.arcs;
+    const JoinedEdges& joined_ = parts_.joined;
     Ticker ticker_;
     Diagram& out_;
 };

@@ -21,6 +21,11 @@ template <typename T>
     return std::span(list).subspan(block.begin, block.count);
 }
 
+template <typename T>
+[[nodiscard]] Index size_of(const std::vector<T>& list) {
+    return static_cast<Index>(list.size());
+}
+
 //! A line on which labels change: a mesh edge, named by one of its half-edges, or a cut.
 struct LineId {
     EitherIndex id;
@@ -50,8 +55,7 @@ struct InnerPoint {
     Index site;
 };
 
-//! An end of a cut: a corner of the face, which may have the same vertex at several, or a point
-//! inside.
+//! A corner of the face, which may have the same vertex at several, or a point inside.
 struct CutEnd {
     Index point;
     Index corner;  //!< 0 to 2; 3: an inner point.
@@ -64,8 +68,7 @@ struct Cut {
     Block row;  //!< Of EdgeLabels::crossings.
 };
 
-//! A face with inner points is cut into triangles at them, so that every cell in it reaches the
-//! boundary of some triangle.
+//! Of a face that is cut at its inner points: every cell in it reaches some boundary.
 struct CutTriangle {
     std::array<CutEnd, 3> points;
     std::array<LineId, 3> sides;  //!< From point k to k + 1; a mesh edge by the face's half-edge.
@@ -77,10 +80,8 @@ struct CutFace {
 };
 
 //! Points are the mesh vertices, then the inner points. Crossings stand in rows, one for each edge
-//! or cut; where a row is empty there is one label, that of both ends.
-//!
-//! The stretches of one label are nodes of a graph, by number: a stretch that ends at a point is
-//! that point; then come the others, by the crossing that they follow along the edge_half or cut.
+//! or cut. Stretches of one label are nodes of a graph: one that ends at a point is that point;
+//! then come the others, by the crossing that they follow along the edge_half or cut.
 struct EdgeLabels {
     std::vector<Index> point_site;        //!< By point; no_index where no site reaches.
     std::vector<double> vertex_distance;  //!< #V.

@@ -1,6 +1,5 @@
-// A stretch [lo, hi] of the segment is labelled by candidates that could win on it. They stand on a
-// stack, those of the stretch at hand on top; a stretch that is cut in two copies its candidates
-// for the left half and labels that first, so that intervals come in their order.
+// The candidates of a stretch [lo, hi] stand on top of a stack. A stretch that is cut in two
+// copies them for the left half and labels that first, so that intervals come in their order.
 #include "agvd/diagram/envelope.h"
 
 #include <algorithm>
@@ -20,17 +19,15 @@ constexpr std::size_t max_splits_each = 8;
 // Distances that differ by less are tied.
 double tie_at(double distance, double length) { return tie_tolerance * (distance + length); }
 
-// Turns a sample at x into one from the left. The segment may pass through the source itself: then
-// the slope changes there.
+// From the left, where the slope changes if the segment passes through the source itself.
 LineSample from_left(const LineRelay& relay, double x, LineSample s) {
     const auto k = static_cast<std::size_t>(s.source);
     if (relay.y[k] == 0 && relay.x[k] == x) s.slope = -1;
     return s;
 }
 
-// Seen from x, two images differ in direction by at most their distance from each other over the
-// distance of either. Distances from images that are near each other are thus nearly parallel:
-// this decides without bisecting whether one is above the other.
+// Whether c is above b by more than their directions, which are nearly parallel, can change: they
+// differ by at most the distance of the images over that of either.
 bool is_parallel_above(const Candidate& c, const Candidate& b, double width, double slack) {
     if (c.lo.source != c.hi.source || b.lo.source != b.hi.source) return false;
     const auto i = static_cast<std::size_t>(c.lo.source);
@@ -87,9 +84,8 @@ double newton_step(const LineSample& a, const LineSample& b) {
     return (a.value - b.value) / (a.slope - b.slope);
 }
 
-// Notation: f_a and f_b are the distances from two sites, each the least over the site's relays.
-// Where the distances from the sites of a and b are equal on the stretch: a is nearer at lo, b at
-// hi. Newton, relay against relay, until no other relay of the two sites is nearer at the root.
+// Where the distances from the sites of a and b are equal: a is nearer at lo, b at hi. Newton,
+// relay against relay, until no other relay of the two sites is nearer at the root.
 double find_equal(std::span<const Candidate> candidates, const Candidate& a, const Candidate& b,
                   const std::array<double, 2>& stretch, double length) {
     assert(a.relay->site != b.relay->site);
@@ -221,8 +217,7 @@ bool cross_once(Envelope& envelope, const Stretch& stretch, const Candidate& bes
     return true;
 }
 
-// Where two relays are about equal, if that is well inside: a third one that comes between them is
-// likely to do so there. Else the middle.
+// Where two relays are about equal, as a third one comes between them there, if well inside.
 double near_crossing(const Candidate& a, const Candidate& b, const Stretch& stretch) {
     const double gap_lo = a.lo.value - b.lo.value;
     const double gap_hi = a.hi.value - b.hi.value;

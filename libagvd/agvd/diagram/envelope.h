@@ -34,10 +34,9 @@ struct EnvelopeScratch {
 
 //! Replaces `out` by the intervals of a segment, in order: neighbours differ, the last end is 1.
 //!
-//! Distances along a straight segment are convex, so a relay whose tangents stay above the chord of
-//! another cannot win. The rest is bisected until one site, or one crossing of two sites, is left.
-//! Sites closer than rounding count as tied, and the lowest index takes them. The first and last
-//! interval get the sites of the ends, with no length if need be, so that all segments at a corner
+//! A relay whose tangents stay above the chord of another cannot win, as distances are convex. The
+//! rest is bisected until one site, or one crossing of two sites, is left. Ties go to the lowest
+//! index. The first and last interval get the sites of the ends, so that all segments at a corner
 //! agree on its site.
 //! \param relays  not empty.
 void label_envelope(std::span<const LineRelay> relays, const LabelledSegment& segment,
@@ -49,11 +48,9 @@ struct SingleCrossing {
     double distance;  //!< From both sites.
 };
 
-//! Where the label changes from site a, at the start of a segment, to site b. Distances through one
-//! relay along a segment are convex: tangents at the change that stay above the chords of the
-//! nearer site's relay prove that there is no other change and no third site between.
-//! \return none if that is not certain: see envelope.h.
-//! Cost: O(relays) and a few square roots each.
+//! Where the label changes from site a, at the start of a segment, to site b, if tangents at the
+//! change against chords prove that there is no other change and no third site between.
+//! \return none if that is not certain: see label_envelope.
 [[nodiscard]] std::optional<SingleCrossing> find_single_crossing(std::span<const LineRelay> relays,
                                                                  double length, Index a, Index b);
 

@@ -1,7 +1,6 @@
 #include "agvd/diagram/face_relays.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "agvd/mesh/surface_points.h"
 
@@ -31,7 +30,6 @@ SurfacePoint to_surface(const Surface& surface, Index face, const Vec2& p) {
 }
 
 CornerDistances corner_distances(const Relay& r, double length, const Vec2& apex) {
-    const auto root = [](double x, double y) { return std::sqrt(x * x + y * y); };
     const double cx = apex.x();
     const double cy = apex.y();
     if (r.y >= 0) {
@@ -54,13 +52,6 @@ CornerDistances corner_distances(const Relay& r, double length, const Vec2& apex
     return result;
 }
 
-void append_planar(const Surface& surface, std::span<const Relay> relays,
-                   std::vector<PlanarRelay>& out) {
-    for (const Relay& relay : relays) {
-        out.push_back(to_planar(relay, to_face_frame(surface, relay.half_edge)));
-    }
-}
-
 std::span<const PlanarRelay> of_site(std::span<const PlanarRelay> relays, Index site) {
     const auto first = std::lower_bound(
         relays.begin(), relays.end(), site,
@@ -71,7 +62,7 @@ std::span<const PlanarRelay> of_site(std::span<const PlanarRelay> relays, Index 
 }
 
 Reach least_reach(std::span<const PlanarRelay> relays, const Vec2& p) {
-    Reach best{std::numeric_limits<double>::infinity(), p, 0};
+    Reach best{infinity, p, 0};
     for (const PlanarRelay& relay : relays) {
         const Reach r = reach(relay, p);
         if (r.distance < best.distance) best = r;
@@ -80,7 +71,7 @@ Reach least_reach(std::span<const PlanarRelay> relays, const Vec2& p) {
 }
 
 Nearest nearest(std::span<const PlanarRelay> relays, const Vec2& p) {
-    Nearest best{no_index, std::numeric_limits<double>::infinity()};
+    Nearest best{no_index, infinity};
     for (const PlanarRelay& relay : relays) {
         const double distance = reach(relay, p).distance;
         if (is_nearer(distance, relay.site, best.distance, best.site))
@@ -98,8 +89,9 @@ PointLabel point_label(const Surface& surface, const Propagation& propagation,
         return {propagation.vertex_site[surface.mesh.triangles[face][0]], {}};
     }
     std::vector<PlanarRelay> planar;
-    append_planar(surface, relays_of(propagation, static_cast<Index>(found - mixed.begin())),
-                  planar);
+    for (const Relay& relay : relays_of(propagation, static_cast<Index>(found - mixed.begin()))) {
+        planar.push_back(to_planar(relay, to_face_frame(surface, relay.half_edge)));
+    }
     const Nearest label = nearest(planar, position_in_frame(surface, point, 3 * face));
     return {SiteId(label.site), label.distance};
 }

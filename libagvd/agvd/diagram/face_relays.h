@@ -33,6 +33,9 @@ struct Reach {
     return a.x() * b.y() - a.y() * b.x();
 }
 
+//! The length of a vector.
+[[nodiscard]] inline double root(double x, double y) { return std::sqrt(x * x + y * y); }
+
 //! Straight where the interval lets the chord through, else bent at its nearer end.
 [[nodiscard]] inline Reach reach(const PlanarRelay& relay, const Vec2& p) {
     const auto from = [&p](const Vec2& source, double weight) -> Reach {
@@ -50,8 +53,7 @@ struct Reach {
 //! The relay of a point that lies in the face itself.
 [[nodiscard]] PlanarRelay point_relay(const Vec2& point, double weight, Index site);
 
-//! The corners of a face in the frame of its first half-edge (half-edge 3 f), which is the face's
-//! own frame wherever a face stands alone.
+//! In the frame of half-edge 3 f: the own frame of a face that stands alone.
 [[nodiscard]] std::array<Vec2, 3> face_corners(const Surface& surface, Index face);
 
 //! A rigid motion of the plane.
@@ -65,13 +67,7 @@ struct Motion {
     }
 };
 
-//! First `first`, then `second`.
-[[nodiscard]] inline Motion compose(const Motion& second, const Motion& first) {
-    return {second(first.axis) - second.origin, second(first.origin)};
-}
-
-//! The surface point at a position in the face's own frame; positions outside are moved to the
-//! nearest edge.
+//! At a position in the face's own frame; outside, at the nearest edge.
 [[nodiscard]] SurfacePoint to_surface(const Surface& surface, Index face, const Vec2& p);
 
 //! From the frame of a half-edge into the frame of its face's first half-edge.
@@ -79,7 +75,6 @@ struct Motion {
 
 //! A relay, moved from its half-edge's frame.
 [[nodiscard]] inline PlanarRelay to_planar(const Relay& relay, const Motion& motion) {
-    const auto root = [](double x, double y) { return std::sqrt(x * x + y * y); };
     return {motion({relay.x, relay.y}),
             motion({relay.begin, 0}),
             motion({relay.end, 0}),
@@ -98,10 +93,6 @@ struct CornerDistances {
 
 //! \param length, apex  of the relay's half-edge.
 [[nodiscard]] CornerDistances corner_distances(const Relay& relay, double length, const Vec2& apex);
-
-//! Appends relays, moved from their half-edges' frames by to_face_frame.
-void append_planar(const Surface& surface, std::span<const Relay> relays,
-                   std::vector<PlanarRelay>& out);
 
 //! Those of one site among relays by ascending site.
 [[nodiscard]] std::span<const PlanarRelay> of_site(std::span<const PlanarRelay> relays, Index site);
@@ -122,8 +113,7 @@ struct PointLabel {
     std::optional<double> distance;  //!< Through the relays; unknown in faces of one label.
 };
 
-//! What a propagation says at any point of the surface: by the relays of its face, or by its one
-//! label.
+//! What a propagation says at a point: by the relays of its face, or by its one label.
 [[nodiscard]] PointLabel point_label(const Surface& surface, const Propagation& propagation,
                                      const SurfacePoint& point);
 
@@ -133,8 +123,7 @@ struct PointLabel {
 // is f(x) = w + sqrt((x - a)^2 + b^2), with the source (a, b) of the last straight piece of the
 // path at distance w from the site: the image, or the end of the interval where paths bend.
 
-// Tolerances of label changes on a segment, as shares of its length. Changes nearer to each other
-// are not told apart.
+// Share of a segment: label changes nearer to each other are not told apart.
 inline constexpr double shortest_interval = 1e-9;
 // At a change the two distances are equal up to this: below it lies rounding.
 inline constexpr double equal_distances = 1e-11;
@@ -147,8 +136,7 @@ struct LineRelay {
     Index site;
 };
 
-//! Distance at a point of the segment, its derivative (at a source itself: that to the right), and
-//! the source of the last straight piece.
+//! Distance, its derivative (at a source: to the right), and the source of the last piece.
 struct LineSample {
     double value, slope;
     int source;

@@ -1,11 +1,8 @@
-// Most lines have one label change, which tangents prove to be the only one; for the others see
-// envelope.h.
+// Most lines have one label change, which tangents prove to be the only one; else see envelope.h.
 //
 // Notation: f_a and f_b are the distances from two sites along the segment [0, length], each the
-// least over the site's relays. [lo, hi] brackets a root of f_a - f_b: a is nearer at lo, b at hi.
-// Newton steps find the root. Tangents at the root against chords to the ends of the segment prove
-// that it is the only one: distances through one relay are convex. f_a and f_b are not, so that
-// chords are those of the relays that are nearest at the root.
+// least over the site's relays. They are not convex, as those through one relay are: chords are
+// those of the relays that are nearest at the root.
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -90,8 +87,7 @@ struct Bracket {
     [[nodiscard]] double middle() const { return (lo + hi) / 2; }
 };
 
-// Newton from x for the nearest relays at x, until one more step is enough: each doubles the
-// digits.
+// Newton for the nearest relays at x, until one more step is enough: each doubles the digits.
 double step_to_root(const Search& search, const Samples& samples, const Bracket& bracket,
                     double x) {
     const LineRelay& relay_a = search.relays[samples.best_a];

@@ -42,19 +42,14 @@ void label_edges(const StageInput& input, EdgeLabels& labels);
 //! Parallel. Cost: the relays near it, a site inside a mixed face, and sorting the face's relays.
 void cut_faces(const StageInput& input, EdgeLabels& labels);
 
-//! Gives mixed faces their arcs, which are not joined yet. Most faces have two or three label
-//! changes, and their own relays suffice. Where these contradict the labels on the edges or each
-//! other, the relays that are the nearest on the edges are used instead.
+//! Gives mixed faces their arcs, which are not joined yet.
 //! \param positions  all of them; or those of some faces, to trace them again.
 //! Parallel.
 void trace_faces(const StageInput& input, std::span<const Index> positions, DiagramParts& parts);
 
-//! Makes cells connected. Exact cells are: a geodesic to the nearest site stays in its cell. With
-//! approximate distances they may have several parts where two sites nearly tie.
-//!
-//! Gives every part of a cell that is not connected to its site to a cell that it borders on,
-//! traces the faces around it again and joins all arcs again, until nothing changes. This ends,
-//! since label changes only vanish.
+//! Makes cells connected: with approximate distances they may have parts where two sites nearly
+//! Gives every part of a cell that is not connected to its site to a cell beside it, and traces the
+//! faces around it again, until nothing changes. This ends, since label changes only vanish.
 //! \return draw_complex() of what comes out.
 //! Cost: that of draw_complex() for most diagrams; on the others that of the cells with islands,
 //! and O(#V + arcs) quick steps.

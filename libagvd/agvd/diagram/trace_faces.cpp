@@ -1,7 +1,6 @@
-// Tries three ways on each triangle, the quickest first: one straight arc; the face's own relays;
-// the relays that are the nearest on the triangle's edges. A way counts only if its arcs fit the
-// labels on the edges and each other; otherwise what it wrote is taken back. The last way always
-// gives a result. What a triangle adds to the areas of cells follows from Green's theorem.
+// Tries three ways on each triangle: one straight arc; the face's own relays; the relays that are
+// the nearest on its edges, which always give a result. The others count only if their arcs fit the
+// labels on the edges and each other. What a triangle adds to areas follows from Green's theorem.
 #include <algorithm>
 
 #include "agvd/core/parallel.h"
@@ -96,13 +95,7 @@ void count_arcs(const Arcs& arcs, std::span<const Breakpoint> breakpoints, const
 class FaceTracer {
 public:
     FaceTracer(const StageInput& input, const EdgeLabels& labels, Arcs& out)
-        : surface_(input.surface),
-          propagation_(input.propagation),
-          labels_(labels),
-          gatherer_(input.surface, input.propagation, labels),
-          chord_tolerance_(input.chord_tolerance),
-          solver_(input.chord_tolerance, out),
-          out_(out) {}
+        : in_(input), labels_(labels), out_(out) {}
 
     void trace(Index mixed_index) {
         begin_face(mixed_index);
@@ -160,7 +153,8 @@ private:
     void trace_triangle(const std::array<Vec2, 3>& corners, Index site) {
         if (std::all_of(sides_.begin(), sides_.end(),
                         [](const TriangleSide& side) { return side.row.count == 0; })) {
-            if (site != no_index) out_.parts.push_back({site, 1, area_of(corners)});
+            const double area = cross(corners[1] - corners[0], corners[2] - corners[0]) / 2;
+            if (site != no_index) out_.parts.push_back({site, 1, area});
             return;
         }
         const TriangleParts parts{out_.parts, out_.parts.size()};
@@ -177,18 +171,13 @@ private:
             if (has_all_relays_ || !solve_by_own_relays(corners)) solve_by_all_relays(corners);
         }
         count_arcs(out_, breakpoints_, before, parts);
-        // Arcs that lie on each other, or on a side, escape a search for crossings, but turn a
-        // piece inside out.
+        // Arcs on each other, or on a side, do not cross, but turn a piece inside out.
         if (!is_plain && has_inverted_part(parts, corners)) {
             solver_.redraw_straight(breakpoints_);
             out_.parts.resize(parts.first);
             out_.parts.insert(out_.parts.end(), boundary_parts_.begin(), boundary_parts_.end());
             count_arcs(out_, breakpoints_, before, parts);
         }
-    }
-
-    [[nodiscard]] static double area_of(const std::array<Vec2, 3>& corners) {
-        return cross(corners[1] - corners[0], corners[2] - corners[0]) / 2;
     }
 
     [[nodiscard]] static bool has_inverted_part(const TriangleParts& parts,
@@ -206,10 +195,10 @@ private:
         const Breakpoint& from = breakpoints_[0];
         const Breakpoint& to = breakpoints_[1];
         if (!joins_straight(relays_of(propagation_, mixed_index_), corners_, from, to,
-                            {largest_disagreement * longest_side(corners), chord_tolerance_})) {
+                            largest_disagreement * longest_side(corners), in_.chord_tolerance)) {
             return false;
         }
-        const auto num_points = static_cast<Index>(out_.points.size());
+        const auto num_points = size_of(out_.points);
         out_.arcs.push_back({face_, from.node, to.node, to.site_after, from.site_after, num_points,
                              0, from.is_across, to.is_across});
         return true;
@@ -238,13 +227,13 @@ private:
         solver_.solve(face_, corners, breakpoints_);
     }
 
-    const Surface& surface_;
-    const Propagation& propagation_;
+    const StageInput& in_;
+    const Surface& surface_ = in_.surface;
+    const Propagation& propagation_ = in_.propagation;
     const EdgeLabels& labels_;
-    RelayGatherer gatherer_;
-    double chord_tolerance_;
-    TriangleSolver solver_;
     Arcs& out_;
+    RelayGatherer gatherer_{surface_, propagation_, labels_};
+    TriangleSolver solver_{in_.chord_tolerance, out_};
 
     // The face at hand.
     Index mixed_index_ = 0;

@@ -49,8 +49,7 @@ public:
         }
         std::make_heap(heap_.begin(), heap_.end());
     }
-    //! Flips until the queue is empty, or `most_flips` flips were made in all.
-    //! \return false if edges are left.
+    //! Until the queue is empty, or `most_flips` were made in all; false if edges are left.
     bool flip_all(std::size_t most_flips) {
         constexpr std::size_t flip_work = 16;  // Ticks of a flip.
         while (!heap_.empty()) {

@@ -1,7 +1,5 @@
-// Describes each face of the base by pieces with a point and an area vector in space. The pieces
-// of a changed face are the parts of the input's faces in it, mapped back through the record; if
-// these are too many, evenly spread points are mapped instead. Faces that are planar in space need
-// one piece. Chunks of faces are processed in parallel and joined in order.
+// A planar face is one piece. Those of other changed faces are the parts of the input's faces in
+// it, mapped back through the record; if these are too many, evenly spread points.
 #include <algorithm>
 #include <cassert>
 #include <cmath>

@@ -1,12 +1,7 @@
-// Removes inner vertices whose angles sum to 2 pi, in parallel. The vertices are divided into the
-// cells of a grid. A cell removes the vertices whose neighbours it owns, and keeps charts and a
-// list of operations of its own; these are joined in the order of the cells, so that the result is
-// the same for any number of threads. Vertices on the rims of cells follow on one thread.
-//
-// Within a cell vertices are removed in rounds: no two neighbours in one round, and vertices of few
-// edges first. So the operations that a point passes stay few.
-#include "agvd/intrinsic/flat_vertices.h"
-
+// Vertices are divided into the cells of a grid. A cell removes those whose neighbours it owns,
+// with charts and operations of its own, which are joined in the order of the cells; vertices on
+// the rims of cells follow on one thread. Within a cell no two neighbours are removed in one round,
+// and vertices of few edges go first, so that a point passes few operations.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -23,8 +18,7 @@ namespace {
 
 // Radians: the rounding of the sum of a vertex's angles in the input.
 constexpr double angle_rounding = 1e-12;
-// The number of vertices of a part of the surface, roughly. Parts let threads work in parallel, and
-// the data of a part fits into the caches.
+// Vertices of a part, roughly: what fits into the caches.
 constexpr double part_size = 1 << 13;
 constexpr Index most_cells = 64;  // Along each axis.
 
@@ -44,9 +38,7 @@ public:
     FlatRemover(Shared& shared, FaceCharts& charts, Index part, Ticker ticker)
         : shared_(shared), part_(part), ticker_(ticker), ring_(shared.surface, charts) {}
 
-    // Works in rounds of vertices no two of which are neighbours. If the vertices of a line were
-    // removed one after the other, each would change the faces of the one before, and points would
-    // pass as many operations as there are vertices.
+    // Rounds keep few the operations that a point passes along a line of vertices.
     // \return the vertices on the rim of the part.
     std::vector<Index> run(std::vector<Index> waiting) {
         std::vector<Index> on_rim;

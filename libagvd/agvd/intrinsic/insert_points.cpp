@@ -1,7 +1,5 @@
-// Inserts points one by one and keeps, for each part of a face of the surface, the points that
-// still wait in it. When a part is cut, orientations in the barycentric coordinates of the old face
-// decide which of the new parts gets each waiting point. The coordinates of the old face are exact
-// for all points, so rounding does not add up.
+// Each part of a face keeps the points that wait in it. Orientations in the barycentric coordinates
+// of the old face, which are exact, decide which part gets each, so that rounding does not add up.
 #include <algorithm>
 #include <unordered_map>
 #include <utility>

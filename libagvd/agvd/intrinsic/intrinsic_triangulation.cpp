@@ -1,9 +1,6 @@
 // Builds the base in the order of docs/algorithm.md, "Intrinsic triangulation": raise degenerate
-// faces, remove flat vertices, flip to Delaunay ([bobenko2007], [fisher2007]), split long edges.
-// FaceHistory records every change and maps points and segments both ways.
-//
-// Splits take the longest edge first and restore the Delaunay condition after each. Edges that
-// flips have made longer are found by another search when the queue is empty.
+// faces, remove flat vertices, flip to Delaunay ([bobenko2007], [fisher2007]), split long edges,
+// longest first. FaceHistory records every change and maps points and segments both ways.
 #include "agvd/intrinsic/intrinsic_triangulation.h"
 
 #include <algorithm>
@@ -12,7 +9,7 @@
 #include <utility>
 
 #include "agvd/intrinsic/delaunay_queue.h"
-#include "agvd/intrinsic/flat_vertices.h"
+#include "agvd/mesh/surface_points.h"
 
 namespace agvd {
 namespace {
@@ -61,9 +58,8 @@ public:
         }
     }
 
-    // \param added  gets the new vertices, on the input.
-    // \return false if flips ended early.
-    bool run(std::size_t flips_per_edge, Index most_splits, std::vector<SurfacePoint>& added) {
+    // Appends the new vertices, on the input. False if flips ended early.
+    bool run(std::vector<SurfacePoint>& added) {
         while (find_long_edges()) {
             while (!queue_.empty()) {
                 const auto [length, key] = queue_.top();
@@ -71,9 +67,9 @@ public:
                 ticker_.tick(split_work);
                 const Index edge = ~key;
                 if (measure(edge) != length) continue;
-                if (added.size() >= most_splits) return true;
+                if (added.size() >= options_.most_splits) return true;
                 split(edge, added);
-                if (!flips_.flip_all(flips_per_edge * surface_.num_edges())) return false;
+                if (!flips_.flip_all(most_flips * surface_.num_edges())) return false;
                 for (const Index e : touched_) push(e);
             }
         }
@@ -101,7 +97,7 @@ private:
 
     void split(Index edge, std::vector<SurfacePoint>& added) {
         const Index h = surface_.edge_half[edge];
-        added.push_back(*history_.carry(Way::Backward, detail::middle_of(h)));
+        added.push_back(*history_.carry(Way::Backward, point_on(h, 0.5)));
         if (options_.unit_at) unit_.push_back(options_.unit_at(added.back()));
         const Index vertex = detail::add_vertex(surface_);  // Its position is set at the end.
         const EdgeSplit made = detail::split_edge(surface_, charts_, h, 0.5, vertex);
@@ -130,23 +126,16 @@ private:
 };
 
 // Frees the spare memory of arrays that have grown with each split: a fifth of the surface.
-void shrink(Surface& surface) {
-    surface.mesh.positions.shrink_to_fit();
-    surface.mesh.triangles.shrink_to_fit();
-    surface.twin.shrink_to_fit();
-    surface.edge.shrink_to_fit();
-    surface.edge_half.shrink_to_fit();
-    surface.length.shrink_to_fit();
-    surface.apex.shrink_to_fit();
-    surface.outgoing.shrink_to_fit();
-    surface.can_be_pseudo_source.shrink_to_fit();
+void shrink(Surface& s) {
+    const auto shrink_all = [](auto&... arrays) { (arrays.shrink_to_fit(), ...); };
+    shrink_all(s.mesh.positions, s.mesh.triangles, s.twin, s.edge, s.edge_half, s.length, s.apex,
+               s.outgoing, s.can_be_pseudo_source);
 }
 
 // For faces with more operations, evenly spread points are used.
 constexpr Index most_steps_back = 16, most_part_steps = 64;
 
-// Area and centroid of a polygon, from the triangles at its first corner; the area as a share of
-// the face.
+// Area, as a share of the face, and centroid, from the triangles at the first corner.
 InputPart measure(const detail::FacePolygon& polygon) {
     const auto& corner = polygon.corner;
     InputPart part{{FaceId(polygon.face), {0, 0, 0}}, 0};
@@ -212,8 +201,7 @@ void IntrinsicTriangulation::change_faces(const IntrinsicOptions& options, Polle
     counts_.is_delaunay = flips.flip_all(most_flips * surface_.num_edges());
     poller.tell(share_of_flips);
     Refinement refinement(surface_, charts, *history_, flips, options, ticker);
-    counts_.is_delaunay =
-        refinement.run(most_flips, options.most_splits, added_) && counts_.is_delaunay;
+    counts_.is_delaunay = refinement.run(added_) && counts_.is_delaunay;
 }
 
 IntrinsicTriangulation::IntrinsicTriangulation(IntrinsicTriangulation&&) noexcept = default;

@@ -1,23 +1,11 @@
-// Each operation updates corners, twins, edges, lengths and charts of the few faces that it
-// touches. The corners of the faces are laid out in one plane from the charts of the faces, which
-// pass rotations on and never compute them from a short side (docs/algorithm.md, "Charts"). A flip
-// applies the test of Lawson's algorithm for intrinsic Delaunay triangulations ([bobenko2007],
-// [fisher2007]).
+// Corners of faces are laid out in one plane from their charts, which pass rotations on and never
+// compute them from a short side (docs/algorithm.md, "Charts"). Flips: [bobenko2007].
 #include "agvd/intrinsic/operations.h"
-
-#include <algorithm>
-#include <cmath>
 
 #include "agvd/core/parallel.h"
 
 namespace agvd::detail {
 namespace {
-
-// Relative to the sine of the sum of the opposite angles, and to lengths: if four corners are
-// closer to a circle than this, the shorter diagonal is taken.
-constexpr double on_circle = 1e-9;
-// A share of the quad: with less the quad has no corner there.
-constexpr double least_share = 1e-13;
 
 double longest_side(const Surface& surface, Index face) {
     return std::max({surface.length_of(3 * face), surface.length_of(3 * face + 1),
@@ -57,8 +45,7 @@ void move_sides(Surface& surface, const std::array<Side, N>& sides,
     }
 }
 
-// Adds elements that get their contents later.
-// \return the number of the first one.
+// Adds elements that get their contents later; returns the first one.
 Index add_faces(Surface& surface, Index count) {
     const Index first = surface.num_faces();
     surface.mesh.triangles.resize(first + count);
@@ -74,9 +61,7 @@ Index add_edge(Surface& surface, double length) {
 }
 
 // Cuts a face from a point of one of its sides to the apex. `at`: the share of the side before the
-// point. The parts of the side get no twins. Corners of the face may be left without an outgoing
-// half-edge.
-// \return the half-edges from the tail to the new vertex and from there to the head.
+// point. The parts of the side get no twins; corners may be left without an outgoing half-edge.
 std::array<Index, 2> cut_face(Surface& surface, FaceCharts& charts, Index half_edge, double at,
                               Index middle, Index near_edge, Index far_edge) {
     const Index face = Surface::face(half_edge);
@@ -164,12 +149,6 @@ Index add_vertex(Surface& surface) {
     return surface.num_vertices() - 1;
 }
 
-SurfacePoint middle_of(Index half_edge) {
-    SurfacePoint middle{FaceId(Surface::face(half_edge)), {0, 0, 0}};
-    middle.barycentric[half_edge % 3] = middle.barycentric[Surface::next(half_edge) % 3] = 0.5;
-    return middle;
-}
-
 void raise_degenerate_faces(Surface& surface, int num_threads, Poller& poller) {
     const auto raise = [&](Index, Index begin, Index end) {
         for (Index f = begin; f < end; ++f) {
@@ -198,41 +177,6 @@ Quad quad_at(const Surface& surface, FaceCharts& charts, Index half_edge) {
             turned_by(beyond, chart.turn[half_edge % 3])};
 }
 
-double Quad::shortening() const { return (apex - across).norm() / head.norm(); }
-
-// The angles opposite to the edge sum to more than pi.
-bool Quad::should_flip() const {
-    const double cos_apex = (-apex).dot(head - apex), sin_apex = cross(head, apex);
-    const double cos_across = (-across).dot(head - across), sin_across = cross(across, head);
-    const double scale =
-        apex.norm() * (head - apex).norm() * across.norm() * (head - across).norm();
-    const double sine = cos_apex * sin_across + sin_apex * cos_across;
-    if (std::abs(sine) > on_circle * scale) return sine < 0;
-    return head.norm() > (1 + on_circle) * (apex - across).norm();
-}
-
-QuadShares Quad::shares() const {
-    const double longest = std::max({head.norm(), apex.norm(), (head - apex).norm()});
-    const double whole = std::max(cross(head, apex), least_doubled_area * longest * longest);
-    return {cross(head - across, apex - across) / whole, cross(across, apex) / whole,
-            -cross(across, head) / whole};
-}
-
-bool Quad::is_convex() const {
-    // A diagonal that is as short as the rounding of the sides may have length 0.
-    if ((apex - across).norm() <= least_length * std::max(apex.norm(), across.norm())) {
-        return false;
-    }
-    const QuadShares share = shares();
-    const double sum = std::abs(share.tail) + std::abs(share.head) - share.apex;
-    return share.tail > least_share * sum && share.head > least_share * sum;
-}
-
-double Quad::quality_behind() const {
-    const Vec2 a = apex - head, b = across - head;
-    return std::abs(cross(a, b)) / (a.squaredNorm() + b.squaredNorm() + (a - b).squaredNorm());
-}
-
 void flip(Surface& surface, FaceCharts& charts, Index half_edge, const Quad& quad) {
     const Index twin = surface.twin[half_edge];
     const Index f = Surface::face(half_edge), g = Surface::face(twin);
@@ -245,8 +189,7 @@ void flip(Surface& surface, FaceCharts& charts, Index half_edge, const Quad& qua
                            side_of(surface, Surface::next(half_edge)),       // b c
                            side_of(surface, Surface::previous(half_edge))};  // c a
     const Vec2 turn = charts.of(f).turn[half_edge % 3];
-    // The charts of both new faces have the directions of the first face. The turns of faces across
-    // do not change, unless these are the two faces.
+    // Both new faces get the directions of the first one; turns across change between the two only.
     std::array<Vec2, 4> turns;
     for (std::size_t i = 0; i < 4; ++i) {
         const Index h = sides[i].half_edge;

@@ -1,8 +1,10 @@
 //! \file
 //! Flips, splits, insertion and removal of vertices in a triangulation given by lengths, in place.
-//! Removed elements leave gaps: faces whose corners are no_index, edges whose edge_half is
-//! no_index, vertices whose outgoing is no_index. Private.
+//! Gaps of removed elements: corners, edge_half or outgoing are no_index. Private.
 #pragma once
+
+#include <algorithm>
+#include <cmath>
 
 #include "agvd/core/progress.h"
 #include "agvd/intrinsic/charts.h"
@@ -14,8 +16,7 @@ namespace agvd::detail {
 //! changes its lengths by less than rounding.
 inline constexpr double least_doubled_area = 0x1p-50;
 
-//! The least length of an edge that an operation makes, as a share of the longest edge beside it:
-//! rounding might make it 0.
+//! The least length of an edge as a share of the longest beside it: rounding might give 0.
 inline constexpr double least_length = 0x1p-50;
 
 //! Sets the three apexes of a face from its chart. The lengths of sides are those of the chart,
@@ -33,8 +34,6 @@ void forget_outgoing(Surface& surface, std::span<const Index> faces);
 
 //! Adds a vertex without faces, at the origin.
 Index add_vertex(Surface& surface);
-//! The middle of a half-edge.
-[[nodiscard]] SurfacePoint middle_of(Index half_edge);
 
 //! Gives a height to every face that has less than `least_doubled_area`. Cost: O(#F).
 void raise_degenerate_faces(Surface& surface, int num_threads, Poller& poller);
@@ -46,15 +45,42 @@ struct Quad {
     Vec2 apex;
     Vec2 across;
 
-    [[nodiscard]] double shortening() const;  //!< The other diagonal's length over the edge's.
-    //! The edge fails the Delaunay condition, or all four corners lie on a circle and the other
-    //! diagonal is shorter.
-    [[nodiscard]] bool should_flip() const;
-    [[nodiscard]] QuadShares shares() const;
+    //! The other diagonal's length over the edge's.
+    [[nodiscard]] double shortening() const { return (apex - across).norm() / head.norm(); }
+    //! The edge fails the Delaunay condition: the angles opposite to it sum to more than pi. Where
+    //! the corners are nearly on a circle: the other diagonal is shorter.
+    [[nodiscard]] bool should_flip() const {
+        constexpr double on_circle = 1e-9;  // Of the sine of the sum, and of lengths.
+        const double cos_apex = (-apex).dot(head - apex), sin_apex = cross(head, apex);
+        const double cos_across = (-across).dot(head - across), sin_across = cross(across, head);
+        const double scale =
+            apex.norm() * (head - apex).norm() * across.norm() * (head - across).norm();
+        const double sine = cos_apex * sin_across + sin_apex * cos_across;
+        if (std::abs(sine) > on_circle * scale) return sine < 0;
+        return head.norm() > (1 + on_circle) * (apex - across).norm();
+    }
+    [[nodiscard]] QuadShares shares() const {
+        const double longest = std::max({head.norm(), apex.norm(), (head - apex).norm()});
+        const double whole = std::max(cross(head, apex), least_doubled_area * longest * longest);
+        return {cross(head - across, apex - across) / whole, cross(across, apex) / whole,
+                -cross(across, head) / whole};
+    }
     //! The quad is convex: both diagonals lie inside.
-    [[nodiscard]] bool is_convex() const;
+    [[nodiscard]] bool is_convex() const {
+        // A diagonal that is as short as the rounding of the sides may have length 0.
+        if ((apex - across).norm() <= least_length * std::max(apex.norm(), across.norm())) {
+            return false;
+        }
+        constexpr double least_share = 1e-13;  // With less the quad has no corner there.
+        const QuadShares share = shares();
+        const double sum = std::abs(share.tail) + std::abs(share.head) - share.apex;
+        return share.tail > least_share * sum && share.head > least_share * sum;
+    }
     //! Of the triangle at the head after a flip: its doubled area over the squares of its sides.
-    [[nodiscard]] double quality_behind() const;
+    [[nodiscard]] double quality_behind() const {
+        const Vec2 a = apex - head, b = across - head;
+        return std::abs(cross(a, b)) / (a.squaredNorm() + b.squaredNorm() + (a - b).squaredNorm());
+    }
 };
 
 //! \param half_edge  has a twin.
@@ -88,8 +114,7 @@ struct EdgeSplit {
 //! Makes a gap of a face.
 void bury(Surface& surface, Index face);
 
-//! Computes the layout of a face after its lengths have changed. If they make no triangle, it gets
-//! the least height.
+//! Lays a face out after its lengths have changed; no triangle gets the least height.
 void renew_face(Surface& surface, FaceCharts& charts, Index face);
 
 //! Cuts face (a, b, c) into (a, b, m), and the new faces (b, c, m) and (c, a, m).
@@ -112,5 +137,17 @@ void remove_from_boundary(Surface& surface, FaceCharts& charts, Index half_edge,
 //! boundary.
 //! \param half_edge  leaves the vertex along the boundary.
 void remove_ear(Surface& surface, Index half_edge);
+
+//! Removes inner vertices without curvature, whose angles sum to 2 pi: the surface stays. Those
+//! with an edge shorter than `min_length` are removed as far as possible, in rounds without two
+//! neighbours; see VertexRing. To be called before all other operations: flips add errors to
+//! angles, and after flips of needles points would pass four times as many operations. Leaves gaps.
+//! \param history  records the operations.
+//! \return the number of vertices removed. Cost: O(#F), and O(log n) for each vertex removed.
+Index remove_flat_vertices(Surface& surface, FaceCharts& charts, FaceHistory& history,
+                           double min_length, int num_threads, Poller& poller);
+
+//! Closes gaps: the last faces and edges get the numbers of removed ones. Charts become invalid.
+void compact_faces(Surface& surface, FaceHistory& history);
 
 }  // namespace agvd::detail

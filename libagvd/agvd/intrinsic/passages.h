@@ -146,9 +146,8 @@ FacePolygon clipped(const FacePolygon& polygon, const Side& side) {
 //! A point of a quad: its shares of a, b, c and d.
 using QuadPoint = std::array<double, 4>;
 
-//! The passage of a point through a flip or split, from one of its faces. With d = q.tail a +
-//! q.head b + q.apex c every corner of the old and new faces is an affine combination of the
-//! corners of another face.
+//! The passage of a point through a flip or split, from one of its faces: every corner is an affine
+//! combination of the corners of another face.
 struct FlipPassage {
     FlipPassage(const FlipRecord& operation, Way way_through, Index slot)
         : op(operation), way(way_through), from(slot), q(operation.shares) {}
@@ -239,9 +238,8 @@ private:
     }
 };
 
-//! The passage of a point through a merge. Let m = q[0] a + q[1] b + q[2] c. For a point s of (a,
-//! b, c), the corner k with the least s[k] / q[k] is opposite to the side at which the point's old
-//! face lies.
+//! The passage of a point through a merge. For a point s of (a, b, c), the corner k with the least
+//! s[k] / q[k] is opposite to the side of its old face.
 struct MergePassage {
     explicit MergePassage(const MergeRecord& merge) : op(merge), q(merge.shares) {}
 
@@ -305,8 +303,7 @@ struct MergePassage {
         FaceSegment segment;
         Index slot = 0;
     };
-    //! Cuts a segment of (a, b, c) where it crosses the edges at m, in its order.
-    //! \return the number of parts.
+    //! Cuts a segment of (a, b, c) at the edges at m, in its order; returns the number of parts.
     Index cut(const FaceSegment& segment, std::array<Part, 3>& parts) const {
         const Shares& begin = segment.begin.barycentric;
         const Shares& end = segment.end.barycentric;

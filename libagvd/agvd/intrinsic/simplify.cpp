@@ -1,13 +1,12 @@
-// Simplifies one component to given points ([liu2023]): makes it a surface of its own, cuts edges
-// until it is simplicial, inserts the points as vertices, and removes all other vertices. A vertex
-// of the result is named by the point that it is, or by its point of the whole surface if it had to
-// stay.
+// Makes the component a surface of its own, cuts edges until it is simplicial, inserts the points
+// as vertices, and removes all others ([liu2023]).
 #include "agvd/intrinsic/simplify.h"
 
 #include <algorithm>
 #include <utility>
 
 #include "agvd/intrinsic/simplify_steps.h"
+#include "agvd/mesh/surface_points.h"
 
 namespace agvd {
 namespace {
@@ -55,9 +54,7 @@ Part part_of(const Surface& whole, std::span<const Index> faces) {
         Triangle t = whole.mesh.triangles[f];
         for (Index k = 0; k < 3; ++k) {
             t[k] = rank_of(vertices, t[k]);
-            SurfacePoint corner{FaceId(f), {0, 0, 0}};
-            corner.barycentric[k] = 1;
-            part.point[t[k]] = corner;
+            part.point[t[k]] = point_on(3 * f + k, 0);
             s.twin.push_back(moved(whole.twin[3 * f + k]));
             s.edge.push_back(rank_of(edges, whole.edge[3 * f + k]));
             s.apex.push_back(whole.apex[3 * f + k]);
@@ -83,7 +80,7 @@ FaceHistory make_simplicial(Part& part, FaceCharts& charts, std::span<const Inde
     for (std::vector<Index> edges; !(edges = detail::edges_to_cut(s)).empty();) {
         for (const Index e : edges) {
             const Index h = s.edge_half[e];
-            SurfacePoint middle = *history.carry(Way::Backward, detail::middle_of(h));
+            SurfacePoint middle = *history.carry(Way::Backward, point_on(h, 0.5));
             middle.face = FaceId(faces[middle.face.value()]);
             part.point.push_back(middle);
             const Index vertex = detail::add_vertex(s);

@@ -16,12 +16,9 @@ struct SimplifiedMesh {
     std::vector<SurfacePoint> extra;
 };
 
-//! Makes points the vertices of a component and removes all other vertices, one by one ([liu2023]):
-//! the lengths around a vertex are scaled until it is flat, its edges are flipped until three are
-//! left (on the boundary: two faces), and it is removed. The result meets the Delaunay condition by
-//! its own lengths, as far as it stays simplicial. Every step keeps a simplicial manifold of the
-//! component's topology. A vertex whose removal would break that stays.
-//! A boundary goes through the points that lie on it, at least three vertices.
+//! Makes points the vertices of a component and removes all other vertices, one by one ([liu2023]),
+//! unless the result would be no simplicial manifold of the component's topology without one. The
+//! result is Delaunay by its own lengths, as far as it stays simplicial.
 //!
 //! \param surface  may be a Delta-complex.
 //! \param faces    ascending: one component of it.

@@ -10,15 +10,12 @@ namespace agvd::detail {
 [[nodiscard]] bool has_edge(const Surface& surface, Index a, Index b);
 
 //! Ascending: edges to cut so that the complex comes closer to a simplicial one: loops, and all but
-//! one of several edges with the same ends; if there are none, one of every face but one with the
-//! same corners. Empty where the complex is simplicial. If all of them are cut at their middles,
-//! none is left after a few rounds. Cost: O(n log n).
+//! one of several edges with the same ends; else one of every face but one with the same corners.
+//! Empty where it is simplicial, as it is after a few rounds of cuts at middles. Cost: O(n log n).
 [[nodiscard]] std::vector<Index> edges_to_cut(const Surface& surface);
 
-//! Inserts points one by one. A point in a face cuts the face into three. A point on an edge cuts
-//! the faces beside it into two. At a vertex that has no earlier point nothing is cut. A point
-//! closer to an edge or a vertex than 1e-9 of a face is taken to lie there; if the vertex there is
-//! another point's, it is moved by that much.
+//! Inserts points one by one, each in a face, on an edge, or at a vertex that has no earlier point.
+//! What is closer than 1e-9 of a face to an edge or vertex lies there, or is moved there.
 //! \param surface  simplicial; stays so.
 //! \return by point: its vertex. Cost: O(log n) for each point in practice.
 [[nodiscard]] std::vector<Index> insert_points(Surface& surface, FaceCharts& charts,
@@ -34,9 +31,8 @@ namespace agvd::detail {
 //! The vertex must have no edge to itself. Cost: O(edges there).
 [[nodiscard]] bool flatten(Surface& surface, FaceCharts& charts, Index vertex, double target);
 
-//! Removes every vertex whose number is no_index, the flattest first, and keeps the rest Delaunay.
-//! A vertex stays where the complex would not stay simplicial without it. See
-//! simplify().
+//! Removes every vertex whose number is no_index, the flattest first, unless the complex would not
+//! stay simplicial, and keeps the rest Delaunay.
 //! \param surface  simplicial; left with gaps.
 void remove_vertices(Surface& surface, FaceCharts& charts, const std::vector<Index>& number);
 

@@ -1,9 +1,7 @@
 // Removes vertices in the order of (curvature + a small constant) times mean edge length
-// ([liu2023]). The lengths around the vertex are scaled by one factor until its angles sum to 2 pi
-// (pi on the boundary), which is a conformal change ([springborn2008]). Its edges are flipped away,
-// the one that gives the best triangle first, until three faces (two on the boundary) are left,
-// which merge. The rest is kept Delaunay, and no flip may repeat an edge. Vertices that cannot be
-// removed in this way are tried again with the lengths of straight edges in space.
+// ([liu2023]). The lengths around one are scaled until it is flat ([springborn2008]), its edges are
+// flipped away, the best triangle first, until three faces (two on the boundary) are left, which
+// merge. Those that stay are tried again with the lengths of straight edges in space.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -17,8 +15,7 @@ namespace {
 
 constexpr double angle_tolerance = 1e-10;
 constexpr int most_steps = 60;
-// The share of the range of factors that is left out at both ends: faces there are nearly
-// degenerate.
+// Share of the range of factors left out at both ends, where faces are nearly degenerate.
 constexpr double margin = 1e-3;
 
 // With edges scaled by s the corner between a and b across from c has the cosine p - q w, w = 1/s².
@@ -40,8 +37,7 @@ Angle angle_at(const std::vector<Corner>& corners, double w) {
     return sum;
 }
 
-// The angle grows with w. Newton's method is used, and bisection where a step would leave the
-// range.
+// The angle grows with w: Newton, and bisection where a step would leave the range.
 double solve(const std::vector<Corner>& corners, double target, double low, double high) {
     double w = std::clamp(1.0, low, high);
     for (int step = 0; step < most_steps; ++step) {
@@ -134,34 +130,33 @@ private:
         ring_.clear();
         const double angle = cone_angle(surface_, v), wanted = flat_angle(v);
         const bool is_boundary = surface_.is_boundary_vertex(v);
-        collect_faces(v);
-        if (is_boundary && faces_.size() == 1) return cut_ear(v);
+        collect_spokes(v);
+        if (is_boundary && spokes_.size() == 1) return cut_ear(v);
         if (lengths_ == Lengths::OnSurface && std::abs(angle - wanted) > flat_tolerance &&
             !flatten(surface_, charts_, v, wanted)) {
             return;
         }
         const std::size_t fewest = is_boundary ? 2 : 3;
         bool is_free = true;
-        while (faces_.size() > fewest && is_free) is_free = flip_away(v);
+        while (spokes_.size() > fewest && is_free) is_free = flip_away(v);
         is_free = is_free && may_drop(v, is_boundary);
-        for (const Index f : faces_) {
-            for (const Index w : surface_.mesh.triangles[f]) {
+        for (const Index h : spokes_) {
+            for (const Index w : surface_.mesh.triangles[Surface::face(h)]) {
                 if (w != v) ring_.push_back(w);
             }
         }
-        const std::vector<Index> faces = faces_;
-        if (is_free) drop(v, is_boundary);
-        for (const Index f : is_free ? std::vector<Index>{faces[0]} : faces) push_sides(f);
-        if (!is_free) ring_.clear();
+        if (is_free) {
+            drop(v, is_boundary);
+            push_sides(Surface::face(spokes_[0]));
+        } else {
+            for (const Index h : spokes_) push_sides(Surface::face(h));
+            ring_.clear();
+        }
     }
 
-    void collect_faces(Index v) {
-        faces_.clear();
+    void collect_spokes(Index v) {
         spokes_.clear();
-        for_each_outgoing(surface_, v, [&](Index h) {
-            faces_.push_back(Surface::face(h));
-            spokes_.push_back(h);
-        });
+        for_each_outgoing(surface_, v, [&](Index h) { spokes_.push_back(h); });
     }
 
     // Flips the edge at v whose flip gives the best triangle without v.
@@ -180,12 +175,11 @@ private:
         }
         if (best == no_index) return false;
         flip_edge(best);
-        collect_faces(v);
+        collect_spokes(v);
         return true;
     }
 
-    // The quality of the triangle at the head after the flip: twice its area over the squares of
-    // its sides.
+    // As Quad::quality_behind().
     [[nodiscard]] double quality_behind(Index h, const Quad& quad) const {
         if (lengths_ == Lengths::OnSurface) return quad.quality_behind();
         const Vec3& a = surface_.mesh.positions[surface_.head(h)];
@@ -284,7 +278,7 @@ private:
     std::priority_queue<Waiting> queue_;
     Lengths lengths_ = Lengths::OnSurface;
     double shortest_ = 0;
-    std::vector<Index> ring_, faces_, spokes_;
+    std::vector<Index> ring_, spokes_;
 };
 
 }  // namespace
@@ -299,7 +293,7 @@ double cone_angle(const Surface& surface, Index vertex) {
 
 bool flatten(Surface& surface, FaceCharts& charts, Index vertex, double target) {
     std::vector<Corner> corners;
-    double low = 0, high = std::numeric_limits<double>::infinity();
+    double low = 0, high = infinity;
     for_each_outgoing(surface, vertex, [&](Index h) {
         const double a = surface.length_of(h), b = surface.length_of(Surface::previous(h));
         const double c = surface.length_of(Surface::next(h));

@@ -9,11 +9,9 @@
 
 namespace agvd::detail {
 
-//! The ring of faces around an inner vertex without curvature, counter-clockwise. To remove the
-//! vertex, edges at it are flipped until three are left, or four of which two are one straight
-//! line, and the faces around merge. The flips are found in one plane, in sectors of the ring.
-//! Faces are written once, when it is known that the vertex can be removed: that takes a tenth less
-//! time than to write every flip.
+//! The ring of faces around an inner vertex without curvature, counter-clockwise, laid out in one
+//! plane. To remove the vertex, edges at it are flipped until three are left, or four of which two
+//! are one straight line. Faces are written once, when it is known that the vertex can be removed.
 //!
 //! Notation: m is the vertex at (0, 0). A sector lies between two consecutive spokes, edges from m
 //! to its neighbours; the rim of a sector is the side of its face opposite to m.
@@ -54,8 +52,7 @@ public:
     [[nodiscard]] std::span<const Index> corners() const { return corners_; }
 
 private:
-    // A share of the faces' size: two edges of one straight line bend by at most this, by the
-    // rounding of charts.
+    // A share of the faces' size: straight lines bend by this at most, by rounding.
     static constexpr double straight_enough = 1e-14;
 
     // The side of a face opposite to the vertex, and its neighbour beyond.
@@ -112,8 +109,7 @@ private:
         return true;
     }
 
-    // All new faces get the chart of the first face. A face beyond a rim may belong to the ring,
-    // too.
+    // All new faces get the chart of the first. A face beyond a rim may be in the ring, too.
     void turn_glued_rims() {
         for (Sector& sector : sectors_) {
             for (std::size_t k = 0; k < half_edge_.size(); ++k) {

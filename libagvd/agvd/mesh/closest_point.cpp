@@ -1,11 +1,8 @@
-// Finds the nearest point of a mesh with a tree of bounding boxes that halves the faces at the
-// median of their centres. A query visits the nearer child first and skips boxes that are farther
-// than the best point so far. Ties go to the lowest face: sides are measured in an order that does
-// not depend on the face, so that all faces at an edge give the same bits.
+// A tree of boxes that halves the faces at the median of their centres. Ties go to the lowest
+// face: sides are measured from the lower end, so that all faces give the same bits.
 #include "agvd/mesh/closest_point.h"
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 #include <tuple>
 
@@ -20,8 +17,7 @@ constexpr Index leaf_size = 2;
 // edges, which carry rounding errors, are inside and ties are found.
 constexpr double padding_share = 1e-15;
 
-// A face is a needle if the square of twice its area over the fourth power of its length is at most
-// this.
+// Of a needle: the square of twice its area over the fourth power of its length.
 constexpr double needle = 1e-8;
 // A point with a barycentric coordinate below this may lie on the side.
 constexpr double near_side = 1e-6;
@@ -37,8 +33,7 @@ void take_nearer(ClosestPoint& best, const ClosestPoint& other) {
     }
 }
 
-// The ends are taken in an order that does not depend on the face, so that all faces of an edge
-// compute the same.
+// From the lower end.
 ClosestPoint closest_point_on_side(const std::array<Vec3, 3>& corners, FaceId face, std::size_t k,
                                    const Vec3& query) {
     std::size_t from = k, to = (k + 1) % 3;
@@ -75,7 +70,7 @@ ClosestPoint closest_point_on_triangle(const std::array<Vec3, 3>& corners, FaceI
     const double longest_sq = std::max(u.squaredNorm(), v.squaredNorm());
     const bool is_needle = !(normal_sq > needle * longest_sq * longest_sq);
     ClosestPoint best;
-    best.distance_sq = std::numeric_limits<double>::infinity();
+    best.distance_sq = infinity;
     for (std::size_t k = 0; k < 3; ++k) {
         if (!is_needle && b[(k + 2) % 3] > near_side) continue;
         take_nearer(best, closest_point_on_side(corners, face, k, query));
@@ -181,11 +176,10 @@ bool ClosestPointTree::is_within(const Vec3& point, double distance) const {
     return search(point, most_sq, most_sq).distance_sq <= most_sq;
 }
 
-// Looks at what is no farther than `most_sq`, and ends at the first point that is no farther than
-// `enough_sq`.
+// Among points no farther than `most_sq`, up to the first no farther than `enough_sq`.
 ClosestPoint ClosestPointTree::search(const Vec3& point, double most_sq, double enough_sq) const {
     ClosestPoint best;
-    best.distance_sq = std::numeric_limits<double>::infinity();
+    best.distance_sq = infinity;
     const auto distance_sq = [&](Index node) {
         return box_distance_sq(nodes_[node].low, nodes_[node].high, point);
     };

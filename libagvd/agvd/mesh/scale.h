@@ -11,8 +11,8 @@ namespace agvd {
 
 //! Of a mesh, along the axes. Without points: low is above high.
 struct MeshBox {
-    Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity());  //!< Least coordinates.
-    Vec3 high = -low;                                                    //!< Largest ones.
+    Vec3 low = Vec3::Constant(infinity);  //!< Least coordinates.
+    Vec3 high = -low;                     //!< Largest ones.
 
     //! Whether no point was added.
     [[nodiscard]] bool is_empty() const { return low.x() > high.x(); }

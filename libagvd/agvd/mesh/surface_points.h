@@ -21,15 +21,21 @@ namespace agvd {
 //! the face's height. If it were nearer, windows through the edge would consist of rounding.
 [[nodiscard]] std::optional<Index> half_edge_of(const SurfacePoint& point);
 
+//! The point at a share of the way along a half-edge, as a point of its face; 0: the tail.
+[[nodiscard]] inline SurfacePoint point_on(Index half_edge, double at) {
+    SurfacePoint point{FaceId(Surface::face(half_edge)), {0, 0, 0}};
+    point.barycentric[half_edge % 3] = 1 - at;
+    point.barycentric[(half_edge + 1) % 3] = at;
+    return point;
+}
+
 //! The same point of an edge's interior, seen from the face across `half_edge` (which must exist).
 [[nodiscard]] SurfacePoint across_edge(const Surface& surface, const SurfacePoint& point,
                                        Index half_edge);
 
-//! Calls visit(SurfacePoint) for all names of a point: one for each corner around a vertex, one for
-//! each side of an edge, and the point itself inside a face. A point lies on an edge only if a
-//! coordinate is exactly 0. A face is visited several times if it has the vertex at several
-//! corners, or is glued to itself along the edge. Order: at a vertex that of the one-ring, else the
-//! given point first.
+//! Calls visit(SurfacePoint) for all names of a point: one for each corner around a vertex, in the
+//! order of the one-ring; one for each side of an edge (a coordinate is exactly 0), the given one
+//! first; else the point itself. A face may be visited several times.
 template <typename Visit>
 void for_each_view(const Surface& surface, const SurfacePoint& point, const Visit& visit) {
     const auto& b = point.barycentric;
@@ -97,9 +103,8 @@ struct SurfaceKey {
 
 [[nodiscard]] SurfaceKey key_of(const Surface& surface, const SurfacePoint& point);
 
-//! The points that do not lie exactly where an earlier one does, ascending. As sites the other
-//! points own nothing, since ties go to the earlier site. Points of two parts of the surface at one
-//! position in space are different. Cost: O(#points log #points).
+//! The points that do not lie exactly where an earlier one does, ascending: as sites the others own
+//! nothing. Points of two parts of the surface at one position differ. Cost: O(n log n).
 [[nodiscard]] std::vector<Index> distinct_points(const Surface& surface,
                                                  std::span<const SurfacePoint> points);
 

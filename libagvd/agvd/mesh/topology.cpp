@@ -1,6 +1,5 @@
-// Groups the sides of faces by edge to check that a mesh is manifold and oriented, and counts
-// vertices, edges, faces and boundary loops of each component. With known connectivity the checks
-// are not needed, and all is counted by twins.
+// Groups the sides of faces by edge to check that a mesh is manifold and oriented, and to count.
+// With known connectivity the checks are not needed, and all is counted by twins.
 #include "agvd/mesh/topology.h"
 
 #include <algorithm>

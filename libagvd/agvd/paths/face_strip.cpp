@@ -1,10 +1,7 @@
-// A strip is a list of crossed half-edges. StripBuilder appends to it by turning around the current
-// point, from face to face, if that is a vertex or lies on an edge. A view of a point is its
-// position in one of the faces that have it.
+// StripBuilder turns around the current point, from face to face, if it is a vertex or on an edge.
 #include "agvd/paths/face_strip.h"
 
 #include <cassert>
-#include <limits>
 #include <optional>
 #include <string>
 
@@ -18,7 +15,7 @@ namespace {
 std::optional<SurfacePoint> nearest_view(const Surface& surface, const SurfacePoint& point,
                                          const SurfacePoint& from) {
     std::optional<SurfacePoint> nearest;
-    double least = std::numeric_limits<double>::infinity();
+    double least = infinity;
     for_each_view(surface, point, [&](const SurfacePoint& view) {
         if (view.face != from.face) return;
         const double distance = face_distance(surface, from, view);
@@ -57,54 +54,45 @@ public:
     }
 
 private:
+    // Turns by the shorter way to a view that is the goal. False if there is none.
     template <typename IsGoal>
-    bool turn_to(const IsGoal& is_goal);
+    bool turn_to(const IsGoal& is_goal) {
+        if (is_goal(here_)) return true;
+        const std::optional<Index> corner = corner_of(surface_, here_);
+        if (!corner) {
+            const std::optional<Index> h = half_edge_of(here_);
+            if (!h || surface_.twin[*h] == no_index) return false;
+            cross(surface_, *h, strip_.crossed);
+            here_ = across_edge(surface_, here_, *h);
+            return is_goal(here_);
+        }
+        // Alternates between both directions, so the way found is the shorter one.
+        const Index start = *corner;
+        Index left = start, right = start;  // Leaving the vertex; no_index: at the boundary.
+        for (Index steps = 1;; ++steps) {
+            if (left != no_index) left = surface_.twin[Surface::previous(left)];
+            if (right != no_index) right = surface_.twin[right];
+            if (right != no_index) right = Surface::next(right);
+            const bool is_left = left != no_index && is_goal(point_on(left, 0));
+            const bool is_right = right != no_index && is_goal(point_on(right, 0));
+            if (is_left || is_right) {
+                Index h = start;
+                for (Index i = 0; i < steps; ++i) {
+                    const Index out = is_left ? Surface::previous(h) : h;
+                    cross(surface_, out, strip_.crossed);
+                    h = is_left ? surface_.twin[out] : Surface::next(surface_.twin[out]);
+                }
+                here_ = point_on(h, 0);
+                return true;
+            }
+            if (left == start || (left == no_index && right == no_index)) return false;
+        }
+    }
 
     const Surface& surface_;
     FaceStrip strip_;
     SurfacePoint here_;  // The current point, in the strip's last face.
 };
-
-// Turns around the current point, by the shorter way, to a view that is the goal. False if there is
-// none.
-template <typename IsGoal>
-bool StripBuilder::turn_to(const IsGoal& is_goal) {
-    if (is_goal(here_)) return true;
-    const std::optional<Index> corner = corner_of(surface_, here_);
-    if (!corner) {
-        const std::optional<Index> h = half_edge_of(here_);
-        if (!h || surface_.twin[*h] == no_index) return false;
-        cross(surface_, *h, strip_.crossed);
-        here_ = across_edge(surface_, here_, *h);
-        return is_goal(here_);
-    }
-    const auto at = [](Index leaving) {
-        SurfacePoint view{FaceId(Surface::face(leaving)), {0, 0, 0}};
-        view.barycentric[leaving % 3] = 1;
-        return view;
-    };
-    // Alternates between both directions, so the way found is the shorter one.
-    const Index start = *corner;
-    Index left = start, right = start;  // Leaving the vertex; no_index: at the boundary.
-    for (Index steps = 1;; ++steps) {
-        if (left != no_index) left = surface_.twin[Surface::previous(left)];
-        if (right != no_index) right = surface_.twin[right];
-        if (right != no_index) right = Surface::next(right);
-        const bool is_left = left != no_index && is_goal(at(left));
-        const bool is_right = right != no_index && is_goal(at(right));
-        if (is_left || is_right) {
-            Index h = start;
-            for (Index i = 0; i < steps; ++i) {
-                const Index out = is_left ? Surface::previous(h) : h;
-                cross(surface_, out, strip_.crossed);
-                h = is_left ? surface_.twin[out] : Surface::next(surface_.twin[out]);
-            }
-            here_ = at(h);
-            return true;
-        }
-        if (left == start || (left == no_index && right == no_index)) return false;
-    }
-}
 
 }  // namespace
 

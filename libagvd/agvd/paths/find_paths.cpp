@@ -1,6 +1,5 @@
-// Paths that are straightened then: trace() follows the straight line to where a site lies by the
-// distances of an edge, descend() goes down the distances from vertex to vertex, search() is an A*
-// search along edges.
+// trace() follows the straight line to a site, descend() goes down the distances from vertex to
+// vertex, search() is an A* search along edges; then paths are straightened.
 #include "agvd/paths/geodesic_path.h"
 
 #include <algorithm>
@@ -38,10 +37,8 @@ std::vector<Start> corners_around(const Surface& surface, const SurfacePoint& po
     std::vector<Start> corners;
     for_each_view(surface, point, [&](const SurfacePoint& view) {
         for (Index k = 0; k < 3; ++k) {
-            SurfacePoint corner{view.face, {0, 0, 0}};
-            corner.barycentric[k] = 1;
-            corners.push_back(
-                {face_distance(surface, view, corner), surface.tail(3 * view.face.value() + k)});
+            const Index h = 3 * view.face.value() + k;
+            corners.push_back({face_distance(surface, view, point_on(h, 0)), surface.tail(h)});
         }
     });
     std::sort(corners.begin(), corners.end());
@@ -79,8 +76,7 @@ Way descend(const Surface& surface, const SiteDistances& distances, const SiteGo
     }
 }
 
-// A straight line, which starts on the left of a half-edge and ends at the image of a site on its
-// right, in the frame of the half-edge.
+// From the left of a half-edge to a site's image on its right, in the frame of the half-edge.
 struct Ray {
     Index half_edge;
     Vec2 from, image;
@@ -103,13 +99,13 @@ std::optional<FaceStrip> trace(const Surface& surface, const SiteGoal& goal,
         ray.from = end - ray.from;
         ray.image = end - ray.image;
         const Vec2 way = ray.image - ray.from, to_apex = apex - ray.from;
-        const bool is_left = way.x() * to_apex.y() - way.y() * to_apex.x() > 0;  // The apex.
+        const bool is_left = cross(way, to_apex) > 0;  // The apex.
         ray.half_edge = is_left ? Surface::next(inside) : Surface::previous(inside);
         const Vec2 tail = is_left ? end : apex, head = is_left ? apex : Vec2(0, 0);
         const Vec2 along = (head - tail).normalized();
         for (Vec2* moved : {&ray.from, &ray.image}) {
             const Vec2 step = *moved - tail;
-            *moved = {step.dot(along), along.x() * step.y() - along.y() * step.x()};
+            *moved = {step.dot(along), cross(along, step)};
         }
     }
     return std::nullopt;
@@ -131,8 +127,7 @@ std::optional<Ray> ray_across(const Surface& surface, const SiteDistances& dista
     return Ray{half_edge, from, {x, -y}};
 }
 
-// A* search along edges from the faces of one point to those of another. Empty if none arrives.
-// Ties go to the lower vertex.
+// Between the faces of two points. Empty if none arrives. Ties go to the lower vertex.
 Way search(const Surface& surface, const SurfacePoint& from, const SurfacePoint& to,
            Ticker& ticker) {
     struct Reached {

@@ -1,7 +1,5 @@
 //! \file
-//! Buckets of items, in order of their numbers: the store below the queues of all engines. A bucket
-//! holds a range of distances, so a bucket queue replaces a heap: adding and removing an item takes
-//! constant time, and items of one bucket come in the order in which they were added.
+//! Buckets of items by number: what the queues of all engines have in place of a heap.
 #pragma once
 
 #include <algorithm>
@@ -14,9 +12,8 @@
 
 namespace agvd {
 
-//! Any number of buckets, of which one is open. Items of a bucket leave in the order in which they
-//! came. Only the buckets of a window of ring_size numbers are arrays; items beyond the window wait
-//! in one list. An array that has been emptied is used again for the next new bucket.
+//! Items of a bucket leave in the order in which they came. Only buckets within a window of
+//! ring_size numbers are arrays, used again when emptied; items beyond it wait in one list.
 template <typename Item>
 class BucketRing {
 public:

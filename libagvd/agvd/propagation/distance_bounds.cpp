@@ -1,8 +1,6 @@
-// A label-correcting search for the nearest site over the arcs of ArcGraph: edges, and the straight
-// lines across an edge from apex to apex. It proceeds in slabs of distance; the vertices of a slab
-// are divided into chunks, which threads search. A vertex holds distance and site in one 64-bit
-// number, the distance in the upper half, which threads lower atomically. The least such number is
-// unique, so the result does not depend on the order of the threads.
+// A label-correcting search over the arcs of ArcGraph in slabs of distance, whose vertices threads
+// search in chunks. A vertex holds distance and site in one 64-bit number, which threads lower
+// atomically: the least one is unique, whatever the order of the threads.
 #include "agvd/propagation/distance_bounds.h"
 
 #include <algorithm>
@@ -23,8 +21,7 @@ constexpr float unreached = std::numeric_limits<float>::infinity();
 // First lengths are rounded up by more than all roundings of the exact distance.
 constexpr float length_rounding = 1 + 0x1p-20F;
 
-// A sum of two numbers >= 0 that is not below the exact sum: the roundings of thousands of sums
-// must not make a path of short arcs too short.
+// Not below the exact sum: roundings must not make a path of thousands of arcs too short.
 float sum_rounded_up(float a, float b) {
     const float sum = a + b;
     const float larger = std::max(a, b), smaller = std::min(a, b);
@@ -32,8 +29,7 @@ float sum_rounded_up(float a, float b) {
     return std::bit_cast<float>(std::bit_cast<std::uint32_t>(sum) + (is_short ? 1U : 0U));
 }
 
-// Distance and site in one number, in the order of (distance, site): floats >= 0 are ordered like
-// their bits.
+// In the order of (distance, site): floats >= 0 are ordered like their bits.
 using Key = std::uint64_t;
 
 Key to_key(float distance, Index site) {

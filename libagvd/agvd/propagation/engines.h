@@ -10,11 +10,8 @@ namespace agvd {
 //! the order of distance. Real meshes stay below 700.
 inline constexpr Index default_work_cap = 1 << 11;
 
-//! The window engine: exact or error-bounded propagation.
-//!
-//! Every site is propagated on its own, as far as upper bounds of the distances allow. Threads run
-//! different sites. The result of a site depends on nothing but the site and the bounds.
-//! Cost: about O(n sqrt(n / t)) time for exact distances, O(n) for error-bounded ones, O(n) space.
+//! The window engine: every site on its own, as far as upper bounds of the distances allow. Cost:
+//! about O(n sqrt(n / t)) time for exact distances, O(n) for error-bounded ones, O(n) space.
 [[nodiscard]] Propagation propagate_windows(const Surface& surface, SurfaceLayout layout,
                                             std::span<const SurfacePoint> sites,
                                             const PropagationOptions& options,

@@ -12,8 +12,7 @@ namespace {
 // Arcs are lengthened by this, which exceeds all roundings of an exact distance.
 constexpr float arc_rounding = 1 + 0x1p-20F;
 
-// The straight line from the apex of a half-edge's face to the apex across it; below 0 where it
-// misses the edge.
+// From the apex of a half-edge's face straight to that across; below 0 where it misses the edge.
 double flip_length(const Corners& corners, Index half_edge) {
     const double length = corners.length(half_edge);
     const Vec2 above = corners.apex(half_edge);
@@ -24,8 +23,7 @@ double flip_length(const Corners& corners, Index half_edge) {
     return (above - below).norm();
 }
 
-// The loop runs over edges: one over half-edges would skip one in two. `is_shared`: other threads
-// add arcs, too.
+// By edges: a loop over half-edges would skip half. `is_shared`: other threads add arcs, too.
 template <bool is_shared>
 void add_arcs(const Surface& surface, const Corners& corners, Index begin, Index end,
               ArcGraph& graph) {

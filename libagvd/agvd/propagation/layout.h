@@ -51,9 +51,8 @@ private:
     std::unique_ptr<Corner[]> corners_;  // A vector would write everything twice.
 };
 
-//! The arcs are the edges of a surface, and the straight lines between the apexes of two
-//! neighbouring faces where these lines cross the shared edge. The arcs of a vertex are stored side
-//! by side. Lengths are floats, rounded up by more than the rounding of any path along them.
+//! Edges, and straight lines between the apexes of two neighbouring faces where these cross the
+//! shared edge. Lengths are floats, rounded up by more than the rounding of any path along them.
 struct ArcGraph {
     struct Arc {
         Index head;

@@ -2,7 +2,9 @@
 //! Which sites a face holds.
 #pragma once
 
+#include <algorithm>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "agvd/mesh/surface_points.h"
@@ -15,28 +17,6 @@ struct PlacedSite {
     SurfacePoint point;
 };
 
-//! The placed sites of each face. A site on an edge is listed once for each side of the edge. A
-//! site that lies where an earlier one does is not listed.
-class SitePlacement {
-public:
-    SitePlacement() = default;
-    //! \throw InvalidSites as check_sites.
-    SitePlacement(const Surface& surface, std::span<const SurfacePoint> sites);
-
-    //! All sites lie at vertices.
-    [[nodiscard]] bool is_empty() const { return placed_.empty(); }
-    [[nodiscard]] std::span<const PlacedSite> in_face(Index face) const {
-        if (!holds_site_[face]) return {};
-        return find_in_face(face);
-    }
-
-private:
-    [[nodiscard]] std::span<const PlacedSite> find_in_face(Index face) const;
-
-    std::vector<PlacedSite> placed_;  // By (face, site).
-    std::vector<bool> holds_site_;    // #F: a quick test, since most faces hold no site.
-};
-
 //! Calls each(point, half_edge) for the faces that hold a point which lies at no vertex: one, or
 //! both sides of the edge on which it lies. The half-edge is that edge, or no_index.
 template <typename Each>
@@ -46,5 +26,52 @@ void for_each_side(const Surface& surface, const SurfacePoint& point, const Each
     if (half_edge == no_index || surface.twin[half_edge] == no_index) return;
     each(across_edge(surface, point, half_edge), surface.twin[half_edge]);
 }
+
+//! The placed sites of each face. A site on an edge is listed once for each side of the edge. A
+//! site that lies where an earlier one does is not listed.
+class SitePlacement {
+public:
+    SitePlacement() = default;
+    //! \throw InvalidSites as check_sites.
+    SitePlacement(const Surface& surface, std::span<const SurfacePoint> sites) {
+        check_sites(surface, sites);
+        std::vector<Index> chosen;
+        for (Index s = 0; s < sites.size(); ++s) {
+            if (!vertex_of(surface, sites[s])) chosen.push_back(s);
+        }
+        for (const Index i : distinct_points(surface, points_of(sites, chosen))) {
+            const Index s = chosen[i];
+            for_each_side(surface, sites[s], [&](const SurfacePoint& point, Index) {
+                placed_.push_back({s, point});
+            });
+        }
+        std::stable_sort(placed_.begin(), placed_.end(),
+                         [](const PlacedSite& a, const PlacedSite& b) {
+                             return std::tie(a.point.face, a.site) < std::tie(b.point.face, b.site);
+                         });
+        holds_site_.assign(surface.num_faces(), false);
+        for (const PlacedSite& placed : placed_) holds_site_[placed.point.face.value()] = true;
+    }
+
+    //! All sites lie at vertices.
+    [[nodiscard]] bool is_empty() const { return placed_.empty(); }
+    [[nodiscard]] std::span<const PlacedSite> in_face(Index face) const {
+        if (!holds_site_[face]) return {};
+        return find_in_face(face);
+    }
+
+private:
+    [[nodiscard]] std::span<const PlacedSite> find_in_face(Index face) const {
+        const auto first =
+            std::lower_bound(placed_.begin(), placed_.end(), face,
+                             [](const PlacedSite& p, Index f) { return p.point.face.value() < f; });
+        auto last = first;
+        while (last != placed_.end() && last->point.face.value() == face) ++last;
+        return {first, last};
+    }
+
+    std::vector<PlacedSite> placed_;  // By (face, site).
+    std::vector<bool> holds_site_;    // #F: a quick test, since most faces hold no site.
+};
 
 }  // namespace agvd

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "agvd/core/error.h"
-#include "agvd/intrinsic/flat_vertices.h"
 #include "agvd/intrinsic/operations.h"
 #include "agvd/mesh/surface.h"
 #include "agvd/mesh/surface_points.h"

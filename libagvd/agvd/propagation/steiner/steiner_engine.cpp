@@ -1,10 +1,8 @@
 // Propagates over Steiner points, uniform ones or, for a given error, inserted ones.
 //
-// For a given error each round propagates, compares the vertices with the exact distances of the
-// window engine, and doubles the points on the edges of the faces that the paths of bad vertices
-// cross. If a vertex does not improve, all faces that a path of its exact length can cross get more
-// points. All points are kept until a round ends, since paths are followed back. After the last
-// round, or when the error is out of reach, it throws.
+// For a given error each round compares the vertices with the exact distances of the window engine,
+// and doubles the points on the edges of the faces that the paths of bad vertices cross; if one
+// does not improve, of all faces that a path of its exact length can cross.
 #include "agvd/propagation/engines.h"
 
 #include <algorithm>
@@ -46,8 +44,7 @@ public:
         }
     }
 
-    // Marks the edges of all faces that a shortest path from a site to a vertex can cross.
-    // \param distance  #V: from the nearest site.
+    // The same for all faces that a path of the vertex's distance (#V) can cross.
     void mark_between(std::span<const double> distance, Index vertex) {
         std::vector<Index> waiting{Surface::face(surface_.outgoing[vertex])};
         visited_for_[waiting[0]] = vertex;
@@ -65,8 +62,7 @@ public:
         }
     }
 
-    // Halves the spacing on the marked edges, as far as there is room, and removes the marks.
-    // False if there was no room.
+    // Halves the spacing on the marked edges; false if there was no room.
     [[nodiscard]] bool insert() {
         bool has_room = false;
         for (Index e = 0; e < points_.size(); ++e) {
@@ -96,8 +92,8 @@ private:
         });
     }
     // A point x of the path has d(x) + |x - vertex| <= d(vertex), and a corner of its face is
-    // nearer to x than `reach` times the longest side. Distances in space are used: those of
-    // vertices do not exceed distances over the surface, even if faces do not lie in space.
+    // nearer to x than `reach` times the longest side. Distances in space do not exceed those on
+    // the surface.
     [[nodiscard]] bool may_be_crossed(Index face, std::span<const double> distance,
                                       Index vertex) const {
         constexpr double reach =

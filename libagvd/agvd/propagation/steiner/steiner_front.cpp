@@ -1,18 +1,13 @@
 // Sources: [meng2023] Algorithm 1, Sec. 4.3 and 5.2.
 //
-// Symbols: m = counts_[edge], Q = queue_, lambda n = retirement_interval; d(a), d(b), |e| as named.
+// A Steiner point stands for a window around it, seen from its parent: it serves only the targets
+// across its edge in the fan through both windows. Vertices serve their whole one-ring, so a path
+// of the graph reaches every target, and d(x) <= (d(a) + d(b) + |e|) / 2 holds on every edge.
 //
-// A Steiner point represents a window around it, seen from its parent. So it serves only the
-// targets across its edge inside the fan through both windows. Vertices serve their whole one-ring.
-// So a path of the graph reaches every target, and d(x) <= (d(a) + d(b) + |e|) / 2 holds on every
-// edge.
-//
-// Faces behind the front retire: their relays are made, and their Steiner points are given back.
-// Inside a face, a node whose parent lies on the same face is dominated by that parent (triangle
-// inequality), and one that came through a neighbour is dominated by its parent's image, unfolded
-// across the shared edge. So the relays of a face are the parents' images: the joint diagram with
-// the neighbours' Steiner points ([meng2023] Sec. 5.3), without the points that cannot win. Faces
-// retire in an order that depends on lambda; the result does not.
+// Faces behind the front retire: their relays are made, and their points are given back. In a face
+// a node whose parent lies on it is dominated by the parent, and one that came through a neighbour
+// by the parent's image across the shared edge: so a face's relays are the parents' images
+// ([meng2023] Sec. 5.3). The order of retirement depends on lambda; the result does not.
 #include "agvd/propagation/steiner/steiner_front.h"
 
 #include <algorithm>
@@ -261,8 +256,7 @@ void SteinerFront::serve_onward(Index edge, Index point) {
                  here, node.distance, node.site, FaceRing::slot(1, j));
 }
 
-// The position of the path's previous node in the frame of node.from. `here`: the position of the
-// node in that frame.
+// The path's previous node in the frame of node.from, where the node itself lies at `here`.
 Vec2 SteinerFront::slot_position(const SteinerNode& node, const Vec2& here) const {
     if (node.parent_slot != FaceRing::site_slot) {
         return FaceRing::position(surface_, counts_, node.from, node.parent_slot);
@@ -360,8 +354,7 @@ void SteinerFront::collect(Index face) {
     }
 }
 
-// Adds the images, in the frame of h, of the parents in the neighbour from which nodes on h
-// were reached.
+// Adds the images of the parents in the neighbour from which nodes on h were reached.
 void SteinerFront::collect_across(Index h, Index twin) {
     const double length = surface_.length_of(h);
     const auto mirrored = [length](const Vec2& p) { return Vec2(length - p.x(), -p.y()); };

@@ -18,17 +18,15 @@
 
 namespace agvd {
 
-//! The targets that a Steiner point serves across its edge: a filter like the simplified windows of
-//! [meng2021]. Targets [begin, end) on the far side of a face, numbered counter-clockwise: 1 to m
-//! are the points on the next half-edge, m + 1 is the apex, and from m + 2 on the points on the
-//! previous half-edge follow.
+//! The targets [begin, end) that a Steiner point serves across its edge ([meng2021]), numbered
+//! counter-clockwise on the far side of a face: 1 to m on the next half-edge, m + 1 the apex, then
+//! those on the previous half-edge.
 struct TargetRange {
     Index begin;
     Index end;
 };
 
-//! A face in the frame of one of its half-edges. The m points on each of the two other sides divide
-//! it into m + 1 intervals.
+//! A face in the frame of a half-edge. m points divide each other side into m + 1 intervals.
 struct FarSide {
     double length;  //!< Of the half-edge.
     Vec2 apex;
@@ -73,15 +71,12 @@ struct FrontEntry {
     auto operator<=>(const FrontEntry&) const = default;
 };
 
-//! The queue of searches that serve every node once: it pops in the order (distance, site, node).
-//! (WindowQueue is for searches that may serve an item again, and needs no heap.) Nodes wait
-//! unsorted in buckets of equal distance range. Only the open bucket is a heap, small enough for
-//! the first cache levels, and a node that improves within its bucket is not pushed again. The
-//! caller skips the stale entries on pop. Nothing may be pushed below the last pop.
+//! The queue of searches that serve every node once, in the order (distance, site, node);
+//! WindowQueue is for those that may serve an item again. Only the open bucket is a heap; a node
+//! that improves within its bucket is not pushed again. The caller skips stale entries.
 class FrontQueue {
 public:
-    //! \param bucket_width > 0, in mesh units; a matter of speed only, but no distance may exceed
-    //!                     2^31 widths.
+    //! \param bucket_width > 0, mesh units; no distance may exceed 2^31 widths.
     explicit FrontQueue(double bucket_width) : per_width_(1 / bucket_width) {}
 
     //! \param queued_in  the node's own memory of the bucket it waits in; no_index at first.
@@ -136,13 +131,11 @@ private:
     BucketRing<Index> buckets_;     // Numbered from 1.
 };
 
-//! One propagation over given Steiner points: run(), then finish(). A node stores the face that its
-//! path came through and its parent, the previous node on the boundary of that face. Between the
-//! two calls the nodes of faces that have not retired can be read.
+//! One propagation over given Steiner points: run(), then finish(). Between the two the nodes of
+//! faces that have not retired can be read.
 class SteinerFront {
 public:
-    //! \param counts  outlives the front, as the other arguments do; NodeNumbers must suffice for
-    //! it.
+    //! \param counts  outlives the front, as the others do; NodeNumbers must suffice for it.
     SteinerFront(const Surface& surface, std::span<const SurfacePoint> sites,
                  const SteinerCounts& counts);
 

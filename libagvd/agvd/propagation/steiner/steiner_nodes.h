@@ -1,14 +1,11 @@
 //! \file
-//! The nodes of the Steiner graph ([meng2023] Sec. 4.1): the vertices, and evenly spaced points on
-//! each edge. Nodes are numbered by formula, vertices first; m points divide an edge into m + 1
-//! equal parts. The number of points may differ from edge to edge. The nodes of an edge are a block
-//! of memory, which is taken when the front arrives and given back when both faces are done.
+//! The nodes of the Steiner graph ([meng2023] Sec. 4.1): vertices, and m evenly spaced points on
+//! each edge, in a block of memory that is taken when the front arrives and given back behind it.
 #pragma once
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <numeric>
 #include <vector>
@@ -19,7 +16,7 @@ namespace agvd {
 
 //! The state of one node: a record of 24 bytes, since its fields are read together.
 struct SteinerNode {
-    double distance = std::numeric_limits<double>::infinity();
+    double distance = infinity;
     Index site = no_index;
     //! The half-edge, in the face that the path came through, on which the node lies (a vertex: at
     //! whose tail it lies); no_index for a vertex that is a site.
@@ -143,8 +140,7 @@ public:
 
     [[nodiscard]] bool is_retired(Index edge) const { return first_[edge] == retired; }
 
-    //! The nodes of a live edge, in the direction of its edge_half. They are made on first use. The
-    //! edge must have points.
+    //! Of a live edge that has points, in the direction of its edge_half; made on first use.
     [[nodiscard]] SteinerNode* nodes(Index edge) {
         if (first_[edge] == never_used) first_[edge] = take_block(counts_[edge]);
         return node_at(first_[edge]);

@@ -1,10 +1,6 @@
-// Windows that wait at a half-edge become part of its lower envelope; then each window that has not
-// been sent on meets the apex of the face behind the edge, is divided there, and goes on.
-//
-// Windows that lose to the bounds of the edge's ends are dropped: one comparison, where the paths
-// from both ends meet, decides for the whole interval. Windows mostly come in order along the edge,
-// and one cut between neighbours is enough; the others are inserted one by one. At last neighbours
-// that have not been served are merged as far as the error allows.
+// Windows that wait at a half-edge become part of its lower envelope, unless they lose to the
+// bounds of its ends; then they are divided at the apex of the face behind it, and go on. They
+// mostly come in order, and one cut between neighbours is enough; others are inserted one by one.
 #include "agvd/propagation/window/window_front.h"
 
 #include <algorithm>
@@ -67,8 +63,7 @@ Index gather(WindowFront& front, Index waiting, Index envelope) {
     return all;
 }
 
-// Merges neighbours that are not served, as far as the error allows.
-// \return how many windows are left.
+// Merges neighbours that are not served, as far as the error allows; returns how many are left.
 Index merge_neighbours(WindowFront& front, std::span<Window> windows) {
     Index kept = 0;
     for (Index i = 1; i < windows.size(); ++i) {
@@ -100,8 +95,7 @@ Index settle(WindowFront& front, Index run, Index count) {
     return run;
 }
 
-// Inserts the windows of a run from index i on into the envelope that the first `kept` are: they
-// do not come in order.
+// Inserts the windows from index i on, out of order, into the envelope that the first `kept` are.
 Index insert_rest(WindowFront& front, Index run, Index kept, Index i, const WindowFace& face) {
     const std::span<Window> windows = front.store[run];
     const double middle = meeting_point(face);
@@ -173,59 +167,11 @@ Division split(const Window& w, double ray, double at_apex, EdgeRecord& edge) {
     return division;
 }
 
-}  // namespace
-
-void take_in_windows(WindowFront& front, EdgeRecord& edge, const WindowFace& face) {
-    assert(edge.half_edge == face.half_edge && edge.waiting != no_index);
-    const Index waiting = std::exchange(edge.waiting, no_index);
-    Index run = waiting;
-    if (edge.windows != no_index || front.store.next(waiting) != no_index) {
-        run = gather(front, waiting, edge.windows);
-        edge.windows = no_index;
-    }
-    const std::span<Window> windows = front.store[run];
-    const double middle = meeting_point(face);
-    Index kept = 0;
-    for (Index i = 0; i < windows.size(); ++i) {
-        Window& w = windows[i];
-        // The envelope's own are served and stay.
-        if (!w.is_served && is_beaten(w, face, middle)) continue;
-        if (!comes_in_order(windows.first(kept), w)) {
-            edge.windows = insert_rest(front, run, kept, i, face);
-            return;
-        }
-        if (w.begin == w.end) continue;
-        if (kept < i) windows[kept] = w;
-        ++kept;
-    }
-    edge.windows = settle(front, run, kept);
-}
-
-Division divide(WindowFront& front, const Window& w, EdgeRecord& edge, const WindowFace& face) {
-    const double ray = (w.x * face.apex_y - w.y * face.apex_x) / (face.apex_y - w.y);
-    const double slack =
-        grazing * std::min(face.length, std::min(w.at_begin, w.at_end) - w.weight) +
-        frame_rounding * face.length;
-    if (ray < w.begin - slack) {
-        reach_bent(front, face, w.at_begin, w.begin, w.error);
-    } else if (ray > w.end + slack) {
-        reach_bent(front, face, w.at_end, w.end, w.error);
-    } else {
-        const double at_apex = reach_apex(front, w, ray, face);
-        if (w.begin < ray && ray < w.end) return split(w, ray, at_apex, edge);
-    }
-    if (ray <= w.begin) return {{&w, w.begin, false}, {}};
-    return {{}, {&w, w.end, false}};
-}
-
-namespace {
-
 // Real meshes stay below 700. Around a spike that is 10^9 times as long as wide, windows circle
 // until rounding ends it: a million of them, each copied a thousand times.
 constexpr Index most_windows = 1 << 11;
 
-// Fewer where a distance's rounding is more than the face is wide: no window tells there where it
-// is.
+// Fewer where a distance's rounding exceeds the width of the face.
 Index most_windows_through(const WindowFront& front, const EdgeRecord& edge,
                            const WindowFace& face) {
     constexpr Index most_without_digits = 32;
@@ -277,6 +223,49 @@ void pass_on(WindowFront& front, const WindowFace& face, const HalfEdgeEnds& to)
 }
 
 }  // namespace
+
+void take_in_windows(WindowFront& front, EdgeRecord& edge, const WindowFace& face) {
+    assert(edge.half_edge == face.half_edge && edge.waiting != no_index);
+    const Index waiting = std::exchange(edge.waiting, no_index);
+    Index run = waiting;
+    if (edge.windows != no_index || front.store.next(waiting) != no_index) {
+        run = gather(front, waiting, edge.windows);
+        edge.windows = no_index;
+    }
+    const std::span<Window> windows = front.store[run];
+    const double middle = meeting_point(face);
+    Index kept = 0;
+    for (Index i = 0; i < windows.size(); ++i) {
+        Window& w = windows[i];
+        // The envelope's own are served and stay.
+        if (!w.is_served && is_beaten(w, face, middle)) continue;
+        if (!comes_in_order(windows.first(kept), w)) {
+            edge.windows = insert_rest(front, run, kept, i, face);
+            return;
+        }
+        if (w.begin == w.end) continue;
+        if (kept < i) windows[kept] = w;
+        ++kept;
+    }
+    edge.windows = settle(front, run, kept);
+}
+
+Division divide(WindowFront& front, const Window& w, EdgeRecord& edge, const WindowFace& face) {
+    const double ray = (w.x * face.apex_y - w.y * face.apex_x) / (face.apex_y - w.y);
+    const double slack =
+        grazing * std::min(face.length, std::min(w.at_begin, w.at_end) - w.weight) +
+        frame_rounding * face.length;
+    if (ray < w.begin - slack) {
+        reach_bent(front, face, w.at_begin, w.begin, w.error);
+    } else if (ray > w.end + slack) {
+        reach_bent(front, face, w.at_end, w.end, w.error);
+    } else {
+        const double at_apex = reach_apex(front, w, ray, face);
+        if (w.begin < ray && ray < w.end) return split(w, ray, at_apex, edge);
+    }
+    if (ray <= w.begin) return {{&w, w.begin, false}, {}};
+    return {{}, {&w, w.end, false}};
+}
 
 void serve_edge(WindowFront& front, Index record) {
     EdgeRecord& edge = front.edges.records[record];

@@ -1,9 +1,6 @@
 //! \file
-//! Windows: a beam of straight shortest paths where it crosses an edge, the memory of windows, and
-//! the parts of a window that leave the face behind the edge on the other side. The face is laid
-//! out in the frame of the half-edge through which windows enter. A child of a window is the part
-//! of its beam that leaves through one of the two other sides, in the frame beyond that side. It is
-//! dropped if it is no wider than rounding, or if paths by the corners around it are shorter.
+//! Windows: beams of straight shortest paths where they cross an edge; their memory; and their
+//! children: the parts of a beam that leave the face behind the edge through its other sides.
 #pragma once
 
 #include <algorithm>
@@ -56,9 +53,8 @@ struct Window {
 static_assert(sizeof(Window) == 64);
 static_assert(std::is_trivial_v<Window>);  // New memory is not initialized.
 
-//! Runs of windows, known by number. A run has room for the next power of two and does not move. A
-//! run that was given back goes to a free list of its size. It is used again while it is still in
-//! the cache.
+//! Runs of windows, known by number. A run has room for the next power of two and does not move;
+//! given back, it is used again for its size while it is still in the cache.
 class WindowStore {
 public:
     //! Gives all runs back; keeps the memory.
@@ -68,8 +64,7 @@ public:
         next_block_ = 0;
         room_ = {};
     }
-    //! \param count  > 0.
-    //! \return the number of a run, whose windows are to be written.
+    //! \return the number of a run, whose windows (> 0) are to be written.
     [[nodiscard]] Index take(Index count) {
         const auto size_class = static_cast<int>(std::bit_width(count - 1));
         Index& free_run = free_runs_[static_cast<std::size_t>(size_class)];
@@ -127,8 +122,7 @@ private:
         std::size_t size;
     };
 
-    // Blocks grow with what is in use, so that little is wasted both by short runs and by long
-    // ones.
+    // Blocks grow with what is in use, so that little is wasted.
     [[gnu::noinline]] void open_block(std::size_t size) {
         constexpr std::size_t least = 64, most = 4096;
         while (next_block_ < blocks_.size() && blocks_[next_block_].size < size) ++next_block_;
@@ -152,8 +146,7 @@ private:
 //! the distance of the image if that is less, counts as straight.
 inline constexpr double grazing = 1e-10;
 
-//! A share of the edge: if a site is nearer to a vertex than this, rounding may hide which faces it
-//! sees past the vertex.
+//! A share of the edge: of a site nearer to a vertex, rounding may hide which faces it sees.
 inline constexpr double near_vertex = 1e-4;
 
 //! A vector in the frame whose x axis is the unit vector `axis`.
@@ -161,31 +154,26 @@ inline constexpr double near_vertex = 1e-4;
     return {axis.x() * v.x() + axis.y() * v.y(), axis.x() * v.y() - axis.y() * v.x()};
 }
 
-//! Sine of the angle of a beam. A narrower beam is dropped: its width is nothing but rounding. What
-//! it would have reached is reached along the beams beside it, by paths longer by the square of
-//! this.
+//! Sine of the angle of a beam. A narrower one is dropped as rounding: the beams beside it reach
+//! the same by paths longer by the square of this.
 inline constexpr double negligible_beam = 1e-13;
 
-//! A share of a distance and an edge: two ways to compute a distance may differ by this much after
-//! thousands of faces, and beside a vertex. A bound along edges must not remove the window of the
-//! same path.
+//! A share of a distance and an edge by which two ways to compute a distance may differ: a bound
+//! along edges must not remove the window of the same path.
 inline constexpr double path_rounding = 1e-12;
 
 //! A share of the edge: the error of coordinates after some changes of frame.
 inline constexpr double frame_rounding = 1e-14;
 
 //! Where the paths along the edge from its two ends meet, clamped to an interval. A window that is
-//! beaten there is beaten on all of the interval: by the path from the tail before that point, by
-//! the path from the head behind it.
+//! beaten there is beaten on all of the interval.
 inline double meeting_point(double tail_bound, double head_bound, double length, double begin,
                             double end) {
     return std::min(std::max(begin, (head_bound + length - tail_bound) / 2), end);
 }
 
-//! The face above a half-edge: tail at (0, 0), head at (length, 0). Windows leave it through the
-//! next half-edge (right) and the previous one (left); the frames of their twins start at the apex
-//! and at the tail. Numbers instead of vectors, since compilers split vectors and join them again,
-//! which stalls.
+//! The face above a half-edge: tail at (0, 0), head at (length, 0). Windows leave through the next
+//! half-edge (right) and the previous one (left). Numbers: compilers split and rejoin vectors.
 struct WindowFace {
     WindowFace(const Corners& corners, Index base_half_edge)
         : half_edge(base_half_edge),
@@ -228,8 +216,7 @@ struct Rivals {
     double corner_sq;  //!< Squared distance of that end from the corner.
 };
 
-//! Whether a child is kept: it is wide enough, and no path around the ends of its edge or past the
-//! corner behind it is shorter.
+//! Whether a child is wide enough, and no path around its edge or the corner behind is shorter.
 inline bool lives(const Window& child, const Rivals& rivals) {
     const auto& [begin_bound, end_bound, length, spare, corner_sq] = rivals;
     const double to_begin = child.at_begin - child.weight;
@@ -259,10 +246,8 @@ inline Window part_behind(const Window& w, double x, double y, double begin, dou
 }
 
 //! Writes the part that goes on through the next half-edge. In the frame beyond it the apex is at
-//! 0, and a point of the base at a distance s before the head is at (length, 0) - s (right_x,
-//! sine).
-//!
-//! \return false if the child is dropped. There are no branches, since they could not be predicted.
+//! 0, and a point of the base s before the head is at (length, 0) - s (right_x, sine).
+//! \return false if the child is dropped. Without branches, which could not be predicted.
 inline bool pass_right(const WindowPart& part, const WindowFace& face, Window& child) {
     const Window& w = *part.window;
     const double length = face.next.length;

@@ -1,11 +1,7 @@
-// Runs the windows ([mitchell1987]) of one site after the other, each only as far as the bounds
-// allow, and collects distances and relays. Sites run in batches of parallel tasks. A task uses the
-// memory of a worker and hands its results over; they are taken in a fixed order, so that bytes do
-// not depend on threads.
-//
-// Windows are kept as relays in the faces near a change of label in the bounds. Where a site
-// reaches a face that the bounds give to another site, its windows are strays: the other site runs
-// once more to keep its windows there (docs/algorithm.md, "Window engine").
+// Runs the windows ([mitchell1987]) of each site as far as the bounds allow, in batches of
+// parallel tasks, whose results are taken in a fixed order. Windows are kept as relays in the
+// faces near a change of label in the bounds. Where a site reaches a face of another one by the
+// bounds, that one runs once more (docs/algorithm.md, "Window engine").
 #include "agvd/propagation/engines.h"
 
 #include <algorithm>
@@ -26,7 +22,7 @@ namespace {
 
 // Windows of a second site may come to a face if its bound exceeds that of the nearest site by at
 // most this share. That is as much as bounds exceed distances. With less, more sites run twice.
-constexpr double slack = 0.08;
+constexpr double bound_excess = 0.08;
 
 // The exact border may lie this far from the border of the bounds, as a share of the distance from
 // the site. Where that is less than two rings of faces, nothing is widened.
@@ -60,12 +56,11 @@ void widen(const Surface& surface, const Corners& corners, const DistanceBounds&
     const auto reach = [&](Index vertex, float distance) {
         if (!(distance < across[vertex])) return;
         across[vertex] = distance;
-        if (!(distance <= (1 + slack) * bounds.distance[vertex])) return;
+        if (!(distance <= (1 + bound_excess) * bounds.distance[vertex])) return;
         marks[vertex] = static_cast<std::uint8_t>(marks[vertex] | 2);
         front.push_back(vertex);
     };
-    // Reaches the neighbours of one side of the border. The last neighbour of a boundary vertex is
-    // left out: the rings of other vertices find it.
+    // On one side of the border; rings of other vertices find what the boundary hides.
     const auto reach_neighbours = [&](Index v, float distance, bool is_own_side) {
         for_each_outgoing(surface, v, [&](Index h) {
             const Index neighbour = corners.head(h);
@@ -82,15 +77,13 @@ void widen(const Surface& surface, const Corners& corners, const DistanceBounds&
     }
 }
 
-// Marks the faces where windows of several sites are expected: those within two rings of a change
-// of label, and those where a path from the other side of the change is nearly as short as the
-// bound. On few faces the borders of exact distances lie farther off. Returns 1 for the marked
-// faces.
-std::vector<std::uint8_t> faces_near_borders(const Surface& surface, const Corners& corners,
-                                             const DistanceBounds& bounds) {
+// 1 for the faces where windows of several sites are expected: within two rings of a change of
+// label, or where a path from across the change is nearly as short as the bound.
+Marks faces_near_borders(const Surface& surface, const Corners& corners,
+                         const DistanceBounds& bounds) {
     Marks marks = mark_two_rings(surface, bounds);
     widen(surface, corners, bounds, marks);
-    std::vector<std::uint8_t> faces;
+    Marks faces;
     faces.reserve(surface.num_faces());
     for (const auto& [a, b, c] : surface.mesh.triangles) {
         faces.push_back((marks[a] | marks[b] | marks[c]) != 0 ? 1 : 0);
@@ -98,8 +91,7 @@ std::vector<std::uint8_t> faces_near_borders(const Surface& surface, const Corne
     return faces;
 }
 
-// Sites run in batches. The results of a batch are taken in, and progress is told, before the next
-// batch starts.
+// Between batches results are taken in and progress is told.
 constexpr Index most_batches = 8;
 constexpr Index least_batch = 64;
 constexpr Index tasks_of_a_batch = 32;
@@ -127,13 +119,8 @@ public:
           corners_(std::move(corners)),
           sites_(sites),
           options_(options),
-          max_error_(options.max_error.value_or(default_max_error)),
           work_cap_(work_cap),
-          placement_(surface, sites),
-          borders_(faces_near_borders(surface, *corners_, bounds)),
-          bounds_(std::move(bounds.distance)),
-          labels_(std::move(bounds.site)),
-          logs_(surface.num_faces()) {}
+          bounds_(std::move(bounds)) {}
 
     Propagation run() {
         result_.vertex_distance.assign(surface_.num_vertices(), infinity);
@@ -142,14 +129,13 @@ public:
         propagate_all();
         take_bounds();
         propagate_again();
-        result_.peak_bytes = corners_->bytes() + bounds_.capacity() * sizeof(float) +
-                             labels_.capacity() * sizeof(Index) + common_bytes();
+        result_.peak_bytes = corners_->bytes() + bounds_.distance.capacity() * sizeof(float) +
+                             bounds_.site.capacity() * sizeof(Index) + common_bytes();
         for (const auto& front : free_fronts_) result_.peak_bytes += front->bytes();
         free_fronts_.clear();
         corners_.reset();
-        std::vector<float>().swap(bounds_);
-        std::vector<std::uint8_t>().swap(borders_);
-        std::vector<Index>().swap(labels_);
+        bounds_ = {};
+        Marks().swap(borders_);
         const std::size_t log_bytes = common_bytes();
         write_mixed_faces(surface_, placement_, std::move(logs_), options_.num_threads, poller_,
                           result_);
@@ -167,9 +153,7 @@ private:
                logs_.bytes();
     }
 
-    // The order in which sites run, and in which their relays are stored for a face: by the faces
-    // of the sites. Consecutive faces are neighbours on most meshes, so that caches hold what is
-    // needed.
+    // The order in which sites run and their relays are stored: neighbours share the cache.
     [[nodiscard]] bool comes_before(Index a, Index b) const {
         return std::tie(sites_[a].face, a) < std::tie(sites_[b].face, b);
     }
@@ -210,7 +194,7 @@ private:
             result.relays = RelayLogs(surface_.num_faces());
             for (Index i = begin; i < end; ++i) {
                 const auto keeps_face = [&](Index face) { return keeps(order[i], face); };
-                run_front(*front, sites_[order[i]], bounds_, work_cap_, keeps_face);
+                run_front(*front, sites_[order[i]], bounds_.distance, work_cap_, keeps_face);
                 collect(order[i], *front, keeps_face, result);
             }
             result.vertices.shrink_to_fit();
@@ -231,8 +215,7 @@ private:
         return tasks;
     }
 
-    // A front that no task holds. Tasks use it one after the other, since it is as large as the
-    // index arrays of the mesh.
+    // A front that no task holds: it is as large as the index arrays of the mesh.
     std::unique_ptr<WindowFront> take_front() {
         const std::scoped_lock lock(mutex_);
         if (free_fronts_.empty()) {
@@ -265,7 +248,7 @@ private:
 
     // The site of a face away from borders.
     [[nodiscard]] Index label_of(Index face) const {
-        return labels_[surface_.mesh.triangles[face][0]];
+        return bounds_.site[surface_.mesh.triangles[face][0]];
     }
 
     // Tasks are taken in a fixed order, on which ties depend.
@@ -279,13 +262,13 @@ private:
         }
     }
 
-    // Vertices that no window reached get their bounds. Bounds are lengths of real paths, too. No
-    // window came because it would have been longer.
+    // Vertices that no window reached get their bounds, lengths of real paths: no window is
+    // shorter.
     void take_bounds() {
-        for (Index v = 0; v < bounds_.size(); ++v) {
-            if (result_.vertex_site[v].is_valid() || labels_[v] == no_index) continue;
-            result_.vertex_distance[v] = bounds_[v];
-            result_.vertex_site[v] = SiteId(labels_[v]);
+        for (Index v = 0; v < surface_.num_vertices(); ++v) {
+            if (result_.vertex_site[v].is_valid() || bounds_.site[v] == no_index) continue;
+            result_.vertex_distance[v] = bounds_.distance[v];
+            result_.vertex_site[v] = SiteId(bounds_.site[v]);
             result_.vertices_off_windows.push_back(v);
         }
     }
@@ -330,15 +313,15 @@ private:
     std::shared_ptr<const Corners> corners_;
     std::span<const SurfacePoint> sites_;
     const PropagationOptions& options_;
-    Poller poller_{options_.progress};
-    double max_error_;
     Index work_cap_;
-    SitePlacement placement_;
-    std::vector<std::uint8_t> borders_;  // #F: 1 where all windows are kept.
-    std::vector<float> bounds_;          // #V, of the nearest site.
-    std::vector<Index> labels_;          // #V: the sites of the bounds.
+    DistanceBounds bounds_;
+    Poller poller_{options_.progress};
+    double max_error_ = options_.max_error.value_or(default_max_error);
+    SitePlacement placement_{surface_, sites_};
+    // #F: 1 where all windows are kept.
+    Marks borders_ = faces_near_borders(surface_, *corners_, bounds_);
     std::vector<Relay> strays_;  // As in TaskResult; then all relays of late faces; then none.
-    RelayLogs logs_;
+    RelayLogs logs_{surface_.num_faces()};
     std::mutex mutex_;
     std::vector<std::unique_ptr<WindowFront>> free_fronts_;
     Propagation result_;

@@ -1,11 +1,6 @@
-// The lower envelope of windows along a half-edge, and the merging of windows.
-//
-// Inserting a window compares it with every old window that it overlaps (fight()), and writes the
-// pieces of both that win. Two windows of different weight can change positions twice: with images
-// (x, y) and weights w, the distances w + sqrt((t - x)^2 + y^2) are equal at roots of a quadratic.
-// In most cases the signs at the ends of the interval decide, or tangents against chords, since the
-// distances are convex; then no root is computed. Where the closed form has lost its digits, regula
-// falsi (Illinois) finds the root.
+// Two windows of different weight can change positions twice: their distances w + sqrt((t - x)^2 +
+// y^2) are equal at roots of a quadratic. Mostly signs at the ends of the interval decide, or
+// tangents against chords, since distances are convex.
 #include "agvd/propagation/window/window_envelope.h"
 
 #include <algorithm>
@@ -25,9 +20,6 @@ struct Duel {
     int num_cuts = 0;
     std::array<double, 2> cuts{};
 };
-
-//! \param low, high  an interval that both cover. Where they tie, b wins, unless only a is served.
-[[nodiscard]] Duel fight(const Window& a, const Window& b, double low, double high);
 
 // Where the distances of two windows are equal: the roots of a quadratic, ascending. Squaring adds
 // points where the difference of the distances has the other sign: callers check.
@@ -120,6 +112,7 @@ bool may_win_between(const Window& loser, Ends interval, Ends lost, Ends won) {
     return tangent < chord;
 }
 
+// \param low, high  an interval that both cover. Where they tie, b wins, unless only a is served.
 Duel fight(const Window& a, const Window& b, double low, double high) {
     assert(low < high);
     assert(std::max(a.begin, b.begin) <= low && high <= std::min(a.end, b.end));
@@ -209,9 +202,9 @@ void begin_at(Window& window, double begin) {
     window.begin = is_rounding(begin, window.end) ? window.end : begin;
 }
 
-// Whether `last` is the beam of a vertex and `next` a beam that passes the vertex. The two tie
-// along the ray that touches the vertex. The beam of the vertex is wider by `grazing`; if it kept
-// the ray, the two would overlap on every edge from there on.
+// Whether `last` is the beam of a vertex and `next` one that passes it. They tie along the ray
+// that touches the vertex; if the first kept it, the two would overlap on every edge from there
+// on.
 bool gives_way(const Window& last, const Window& next, const Duel& duel) {
     constexpr double narrow = 1e-8;
     return duel.is_tie && duel.num_cuts == 0 && !last.is_served && next.weight < last.weight &&

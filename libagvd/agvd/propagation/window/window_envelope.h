@@ -13,10 +13,8 @@ namespace agvd {
 //! Whether windows are disjoint and in order, and none is empty. For assertions.
 [[nodiscard]] bool is_envelope(std::span<const Window> windows);
 
-//! Makes two overlapping windows disjoint, if one cut suffices. That is nearly always so where
-//! windows come in order. If nothing is left of the second window, it ends where it begins.
-//!
-//! \return false if more cuts are needed; then the windows stay as they are.
+//! Makes two overlapping windows disjoint, if one cut suffices, as it nearly always does where
+//! windows come in order. If nothing is left of the second one, it ends where it begins.
 [[nodiscard]] bool cut_where_they_change(Window& last, Window& next);
 
 //! Adds a window to an envelope: disjoint windows, in order. Where two windows tie, the one that is
@@ -27,12 +25,9 @@ namespace agvd {
 void insert_window(const Window& window, std::vector<Window>& scratch,
                    std::vector<Window>& envelope);
 
-//! Replaces two windows that touch by one, if that stays within the error. The outermost rays of
-//! the new window are theirs and meet in its image, and both beams lie between them. Its distances
-//! lie below theirs by at most the error that is added. The difference to either window is monotone
-//! over that window's interval, since the directions agree at the outer end and nowhere else: so
-//! its values at the ends of the intervals bound it.
-//!
+//! Replaces two windows that touch by one, if that stays within the error. Its outermost rays are
+//! theirs and meet in its image; its distances lie below theirs by at most the error that is added,
+//! which the values at the ends of the intervals bound, since the differences are monotone.
 //! \param max_error  relative to the least distance over the interval.
 [[nodiscard]] std::optional<Window> merge_windows(const Window& left, const Window& right,
                                                   double max_error);

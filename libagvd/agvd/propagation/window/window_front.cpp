@@ -1,16 +1,11 @@
-// Sources: [mitchell1987] windows, [chen1990] one angle, one split, [xin2009] filters. What
-// differs: windows die by bounds that all sites share, half-edges wait in buckets and are served
-// with all their windows at once, and every half-edge keeps the lower envelope of its windows.
-//
-// A pseudo-source emits windows only into its shadow: the directions that make at least pi with the
-// arrival on both sides. Its sides are found by unfolding the faces around the vertex, without
-// computing angles.
+// Sources: [mitchell1987] windows, [chen1990] one angle, one split, [xin2009] filters. Here,
+// windows die by bounds that all sites share, and half-edges are served with all their windows at
+// once.
 //
 // A half-edge may be closed if all that could still come there would be beaten by the bounds of its
-// ends. No path that is still to come is shorter than the distance of the current bucket. What
-// windows say may be less by their errors; more than one error is allowed for, since vertices hand
-// errors on. No point of the half-edge is farther than half the way around both its
-// ends. So all results are those of a run that keeps everything.
+// ends: paths to come are no shorter than the current bucket, but for errors, of which more than
+// one is allowed for, and no point of it is farther than half the way around both ends. No result
+// changes by that.
 #include "agvd/propagation/window/window_front.h"
 
 #include <algorithm>
@@ -24,9 +19,8 @@ namespace agvd {
 
 namespace {
 
-// Arrivals within each other's error may each make a vertex a pseudo-source, and send each other
-// back and forth between vertices that lie closer than the error. After so many pseudo-sources the
-// whole fan of the vertex is emitted, which holds what any further one would emit.
+// Arrivals within each other's error may send windows back and forth between vertices. After so
+// many pseudo-sources a vertex emits its whole fan, which holds what any further one would.
 constexpr Index max_pseudo_sources = 32;
 
 // Directions around a vertex, counter-clockwise.
@@ -36,8 +30,7 @@ struct Fan {
     Index first;  // Leaves the vertex; its face is the first one.
     // The same of the last face; no_index: to the boundary, or all around.
     Index last = no_index;
-    // Rays that bound the fan in its first and last face, in the frames of `first` and `last`;
-    // none: the whole face.
+    // Rays that bound the fan in these two faces, in their frames; none: the whole face.
     std::optional<Vec2> from = {}, to = {};
 };
 
@@ -114,8 +107,7 @@ Fan fan_around(const WindowFront& front, Index record) {
             front.surface.outgoing[v.vertex]};
 }
 
-// Sends windows through the edges opposite to the vertex, and reaches the ends of these edges.
-// False if the boundary comes before the last face.
+// Through the edges opposite to the vertex. False if the boundary comes before the last face.
 bool emit_fan(WindowFront& front, const Fan& fan) {
     Index h = fan.first;
     do {
@@ -237,6 +229,51 @@ void close_or_watch(WindowFront& front, Index record) {
     if (previous.twin != no_index) __builtin_prefetch(&front.edges.record_of[previous.twin]);
 }
 
+// Sends windows from the site into all directions.
+void emit_from_site(WindowFront& front, const SurfacePoint& site) {
+    const Surface& surface = front.surface;
+    if (const auto vertex = vertex_of(surface, site)) {
+        const Index record = vertex_record(front, *vertex);
+        VertexRecord& v = front.vertices.records[record];
+        v.low = v.upper = v.bound = 0;
+        if (surface.outgoing[*vertex] != no_index) (void)emit_fan(front, fan_around(front, record));
+        return;
+    }
+    for_each_side(surface, site, [&](const SurfacePoint& point, Index half_edge) {
+        emit_from_face(front, point, half_edge);
+    });
+    emit_from_near_vertices(front, site);
+}
+
+// Sends windows into the shadow behind a saddle or boundary vertex: the directions that make an
+// angle of pi or more with the arrival on both sides.
+void emit_from_pseudo_source(WindowFront& front, const PseudoSource& source) {
+    const VertexRecord& v = front.vertices.records[source.vertex];
+    if (!(source.distance <= v.bound * (1 + grazing))) return;
+    if (front.max_error == 0 && source.distance > v.low) return;
+    Fan fan = fan_around(front, source.vertex);
+    if (source.half_edge == no_index) {
+        (void)emit_fan(front, fan);
+        return;
+    }
+    const Index vertex = v.vertex;
+    const Index outgoing = fan.first;
+    const ShadowSide right = right_side_of_shadow(front.corners, source);
+    const ShadowSide left = left_side_of_shadow(front.corners, source);
+    fan.last = left.half_edge;
+    fan.to = left.ray;
+    if (right.half_edge != no_index) {
+        fan.first = right.half_edge;
+        fan.from = right.ray;
+        if (emit_fan(front, fan)) return;
+    }
+    if (left.half_edge == no_index) return;
+    // The part behind the boundary; asked last, as it is seldom in the cache.
+    fan.first = front.surface.is_boundary_vertex(vertex) ? outgoing : left.half_edge;
+    fan.from = std::nullopt;
+    (void)emit_fan(front, fan);
+}
+
 // False if the cap was passed; what the front then holds means nothing.
 bool run_in_order(WindowFront& front, WindowQueue::Order order, const SurfacePoint& site,
                   Index work_cap) {
@@ -278,49 +315,6 @@ void reach_vertex(WindowFront& front, Index record, const Arrival& arrival) {
         {record, half_edge, arrival.direction.x(), arrival.direction.y(), distance});
     Index bucket = no_index;
     front.queue.push(FrontItem::pseudo_source(source), distance, bucket);
-}
-
-void emit_from_site(WindowFront& front, const SurfacePoint& site) {
-    const Surface& surface = front.surface;
-    if (const auto vertex = vertex_of(surface, site)) {
-        const Index record = vertex_record(front, *vertex);
-        VertexRecord& v = front.vertices.records[record];
-        v.low = v.upper = v.bound = 0;
-        if (surface.outgoing[*vertex] != no_index) (void)emit_fan(front, fan_around(front, record));
-        return;
-    }
-    for_each_side(surface, site, [&](const SurfacePoint& point, Index half_edge) {
-        emit_from_face(front, point, half_edge);
-    });
-    emit_from_near_vertices(front, site);
-}
-
-void emit_from_pseudo_source(WindowFront& front, const PseudoSource& source) {
-    const VertexRecord& v = front.vertices.records[source.vertex];
-    if (!(source.distance <= v.bound * (1 + grazing))) return;
-    if (front.max_error == 0 && source.distance > v.low) return;
-    Fan fan = fan_around(front, source.vertex);
-    if (source.half_edge == no_index) {
-        (void)emit_fan(front, fan);
-        return;
-    }
-    const Index vertex = v.vertex;
-    const Index outgoing = fan.first;
-    const ShadowSide right = right_side_of_shadow(front.corners, source);
-    const ShadowSide left = left_side_of_shadow(front.corners, source);
-    fan.last = left.half_edge;
-    fan.to = left.ray;
-    if (right.half_edge != no_index) {
-        fan.first = right.half_edge;
-        fan.from = right.ray;
-        if (emit_fan(front, fan)) return;
-    }
-    if (left.half_edge == no_index) return;
-    // The part behind the boundary. Whether the vertex lies on it is asked last: seldom in the
-    // cache.
-    fan.first = front.surface.is_boundary_vertex(vertex) ? outgoing : left.half_edge;
-    fan.from = std::nullopt;
-    (void)emit_fan(front, fan);
 }
 
 void close_edges(WindowFront& front) {

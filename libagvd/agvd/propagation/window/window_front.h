@@ -1,7 +1,6 @@
 //! \file
 //! Exact or error-bounded distances from one site, as far as it can be the nearest: windows through
-//! a bucketed queue of half-edges. What a run knows of vertices, half-edges and pseudo-sources are
-//! plain structs, on which free functions work, the passes of a run.
+//! a bucketed queue of half-edges. The state is plain structs, a pass is a free function.
 #pragma once
 
 #include <algorithm>
@@ -176,13 +175,11 @@ struct WindowFront {
     WindowStore store = {};
     WatchList watched = {};
     FrontScratch scratch = {};
-    //! Largest error of a window that was merged in the last run over its least distance; 0 if none
-    //! was.
+    //! Largest error of a merged window of the last run over its least distance.
     double relative_error = 0;
     std::size_t num_served = 0;  //!< Windows served in the last run.
 
-    //! The surface and its corners outlive the front. The default of small_run fits into the caches
-    //! as it is.
+    //! The first two outlive the front. The default of small_run fits into the caches.
     WindowFront(const Surface& on, const Corners& its_corners, double largest_error,
                 Ticker ticker_of_thread = {}, Index most_kept = 2048)
         : surface(on),
@@ -309,13 +306,6 @@ struct Arrival {
 //! Takes in a path that arrives at a vertex. Makes a pseudo-source if the path may bend there.
 void reach_vertex(WindowFront& front, Index record, const Arrival& arrival);
 
-//! Sends windows from the site into all directions.
-void emit_from_site(WindowFront& front, const SurfacePoint& site);
-
-//! Sends windows into the shadow behind a saddle or boundary vertex: the directions that make an
-//! angle of pi or more with the arrival on both sides.
-void emit_from_pseudo_source(WindowFront& front, const PseudoSource& source);
-
 //! Merges the windows that wait, each run of them in ascending order, into the envelope of the
 //! half-edge. Windows that are beaten by the bounds of the half-edge's ends are dropped.
 //!
@@ -323,19 +313,16 @@ void emit_from_pseudo_source(WindowFront& front, const PseudoSource& source);
 //! Cost: linear where windows come in order, as they nearly always do.
 void take_in_windows(WindowFront& front, EdgeRecord& edge, const WindowFace& face);
 
-//! Reaches the apex of the face, and decides which part of a window goes on to the right and to the
-//! left.
+//! Reaches the apex of the face, and decides which parts of a window go on to both sides.
 [[nodiscard]] Division divide(WindowFront& front, const Window& w, EdgeRecord& edge,
                               const WindowFace& face);
 
-//! Takes in the windows that wait, and sends on through the face what has not been sent on. Drops
-//! what waits if 2^11 windows have been sent on in the order of distance; the run's relative error
-//! is infinite then.
+//! Takes in the windows that wait, and sends on what has not been sent on. Drops what waits if 2^11
+//! windows were sent on in the order of distance; the relative error is infinite then.
 void serve_edge(WindowFront& front, Index record);
 
-//! Closes the watched half-edges that the queue's current bucket has left behind: their windows and
-//! records are used again. That changes no result of the run but which windows are there at the
-//! end.
+//! Closes the watched half-edges that the current bucket has left behind: their windows and records
+//! are used again. No other result of the run changes.
 void close_edges(WindowFront& front);
 
 //! Propagates from one site. Windows die where `bounds` are lower.

@@ -29,9 +29,7 @@ struct FrontItem {
 //! Items by distance. Any order gives the same distances up to rounding.
 //!
 //! An item that waits in a bucket remembers it in `queued_in`; no_index: it does not wait. When its
-//! distance improves it is pushed into an earlier bucket, and its old entry stays: take() tells the
-//! two apart. (The FrontQueue of the Steiner engine is for searches that serve every node once, and
-//! so must pop the nearest.)
+//! distance improves it is pushed into an earlier bucket; take() tells its old entry apart.
 class WindowQueue {
 public:
     enum class Order : std::uint8_t {
