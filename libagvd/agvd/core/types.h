@@ -72,30 +72,36 @@ class EitherIndex {
 public:
     //! Neither.
     constexpr EitherIndex() = default;
+    //! An index of the first array.
     [[nodiscard]] static constexpr EitherIndex first(Index index) {
         assert(index < second_bit);
         return EitherIndex(index);
     }
+    //! An index of the second array.
     [[nodiscard]] static constexpr EitherIndex second(Index index) {
         assert(index < second_bit - 1);
         return EitherIndex(index | second_bit);
     }
 
+    //! Whether it is an index of either.
     [[nodiscard]] constexpr bool is_valid() const { return word_ != no_index; }
     //! \pre is_valid()
     [[nodiscard]] constexpr bool is_second() const {
         assert(is_valid());
         return word_ >= second_bit;
     }
+    //! \pre !is_second()
     [[nodiscard]] constexpr Index first() const {
         assert(!is_second());
         return word_;
     }
+    //! \pre is_second()
     [[nodiscard]] constexpr Index second() const {
         assert(is_second());
         return word_ - second_bit;
     }
 
+    //! Equal indices of the same array.
     friend constexpr bool operator==(const EitherIndex&, const EitherIndex&) = default;
 
 private:

@@ -82,6 +82,7 @@ struct Surface {
     }
     //! The apex from the positions. Not finite if the half-edge has length 0.
     [[nodiscard]] Vec2 apex_in_space(Index half_edge) const;
+    //! False for isolated vertices.
     [[nodiscard]] bool is_boundary_vertex(Index vertex) const {
         return outgoing[vertex] != no_index && twin[outgoing[vertex]] == no_index;
     }

@@ -254,6 +254,7 @@ void write_mesh(const std::filesystem::path& path, const MeshView& mesh,
                                       const MeshAttributes& attributes,
                                       const Progress& progress = {});
 
+//! The same, in the format that the extension names.
 [[nodiscard]] inline std::string format_mesh(const std::filesystem::path& path,
                                              const MeshView& mesh, const MeshAttributes& attributes,
                                              const Progress& progress = {}) {
@@ -265,6 +266,7 @@ void write_mesh(const std::filesystem::path& path, const MeshView& mesh,
 //! \return what they were: "vertex quality", "face label", "corner texcoord", "material colours", ...
 //! \throw IoError  the format is unknown.
 std::vector<std::string> remove_unwritable(const MeshPath& path, MeshAttributes& attributes);
+//! The same, for the format that the extension names.
 inline std::vector<std::string> remove_unwritable(const std::filesystem::path& path,
                                                   MeshAttributes& attributes) {
     return remove_unwritable(MeshPath{path}, attributes);

@@ -21,39 +21,40 @@ struct EvenEdges {};
 struct AdaptiveEdges {};
 //! > 0, mesh units: for each of the caller's vertices.
 struct VertexLengths {
-    std::vector<double> values;
+    std::vector<double> values;  //!< One each.
 };
 //! > 0, mesh units: for each of the caller's faces. Where faces meet, the least counts.
 struct FaceLengths {
-    std::vector<double> values;
+    std::vector<double> values;  //!< One each.
 };
 //! > 0, for each of the caller's vertices: vertices per area, in any unit.
 struct VertexDensities {
-    std::vector<double> values;
+    std::vector<double> values;  //!< One each.
 };
 
 //! Lengths are scaled so that RemeshOptions::num_samples vertices come out.
 struct NumSamples {};
 //! > 0, mesh units: the mean edge of the result.
 struct MeanEdge {
-    double length = 0;
+    double length = 0;  //!< See above.
 };
 //! > 0: faces of the result, up to a few along the boundary.
 struct NumFaces {
-    Index number = 0;
+    Index number = 0;  //!< See above.
 };
 //! > 0, mesh units: lengths are those of length_for_error. Needs AdaptiveEdges.
 struct MaxError {
-    double error = 0;
+    double error = 0;  //!< See above.
 };
 //! > 0, mesh units: the result and the input lie no farther from each other, and edges are
 //! adaptive. Excludes lengths and densities.
 struct MaxDistance {
-    double distance = 0;
+    double distance = 0;  //!< See above.
 };
 //! VertexLengths or FaceLengths count as they are, not scaled.
 struct CountOfLengths {};
 
+//! Where edges are how long, and what gives their number. `{}` gives even edges.
 struct Sizing {
     //! Where edges are how long.
     std::variant<EvenEdges, AdaptiveEdges, VertexLengths, FaceLengths, VertexDensities> edges = {};
@@ -64,7 +65,9 @@ struct Sizing {
     //! >= 1. Over a distance d targets grow by at most d times its logarithm.
     double gradation = 1.3;
 
+    //! Whether `edges` is EvenEdges.
     [[nodiscard]] bool is_even() const { return std::holds_alternative<EvenEdges>(edges); }
+    //! Whether `edges` is AdaptiveEdges.
     [[nodiscard]] bool is_adaptive() const { return std::holds_alternative<AdaptiveEdges>(edges); }
 };
 
