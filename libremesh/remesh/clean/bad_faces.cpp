@@ -11,11 +11,10 @@
 namespace remesh::detail {
 namespace {
 
-// Faces with the same three corners. Of those oriented alike one stays. If two of opposite
-// orientation are left, they may be the walls of two bodies that touch: a wall is a set of such
-// pairs, and its rim tells. Where bodies touch, an edge of the rim has two faces of each body. An
-// edge of a sheet drawn from both sides has the pair alone, and a wall repeated by mistake leaves
-// an odd number.
+// Faces with the same three corners: of those oriented alike one stays. Two of opposite orientation
+// may be the walls of two bodies that touch: then an edge of the rim of all such pairs has two
+// faces of each body. At a sheet drawn from both sides it has the pair alone; a repeated wall
+// leaves an odd number.
 class DuplicateFaces {
 public:
     DuplicateFaces(Soup& soup, std::span<const EdgeSide> sides)
@@ -142,9 +141,8 @@ void flip(Soup& soup, std::vector<Index>& twin, Index h) {
     join(3 * f + 1, 3 * g + 2);
 }
 
-// Removes degenerate faces: their area is zero in double, as their corners lie on one line. Such a
-// face fills the slit between its longest edge and its two other edges. Flipping the longest edge
-// splits the neighbour across it at the third corner instead, so that no hole is left.
+// A face without area in double fills the slit between its longest edge and the two others.
+// Flipping that edge splits the neighbour instead: no hole is left.
 class DegenerateFaces {
 public:
     DegenerateFaces(Soup& soup, std::vector<Index>& twin)

@@ -1,6 +1,5 @@
-// Carries points between a mesh and its cleaned version: bit for bit where the face kept its
-// corners, otherwise to the closest point, on pieces of the same face first. Edges are carried by
-// their middles.
+// Bit for bit where the face kept its corners, otherwise to the closest point, on pieces of the
+// same face first. Edges are carried by their middles.
 #include "remesh/clean/carry.h"
 
 #include <algorithm>
@@ -20,9 +19,8 @@
 namespace remesh {
 namespace {
 
-// As a share of the box diagonal of the cleaned mesh. A site farther from the mesh lies where
-// cleaning left no surface. Positions are accurate to 1e-16 of the largest coordinate, so that
-// meshes far from the origin pass too.
+// As a share of the diagonal: a site farther from the mesh lies where cleaning left no surface.
+// Positions are accurate to 1e-16 of the largest coordinate.
 constexpr double tolerance_share = 1e-9;
 
 std::array<Vec3, 3> corners_of(const MeshView& mesh, Index face) {

@@ -11,10 +11,8 @@
 
 namespace remesh {
 
-//! The same points on `clean.mesh`; `clean` must come from clean_input(mesh). A face that has kept
-//! its corners keeps the coordinates bit for bit, so that sites on vertices and edges stay there; a
-//! site on a face that was split or dropped goes to the closest point. Coordinates whose sum is 1
-//! only to the decimals of a file are divided by it.
+//! The same points on `clean.mesh`, of clean_input(mesh): bit for bit on a face that has kept its
+//! corners, otherwise at the closest point. Coordinates are divided by their sum if it is not 1.
 //! \throw InvalidSites  a site's face does not exist, its coordinates are not barycentric, or
 //!        its face was dropped and no other surface is there (within 1e-9 of the box diagonal); the
 //!        text names the site.
@@ -40,7 +38,6 @@ namespace remesh {
                                                     const Surface& surface);
 
 //! Finds edges between faces of different labels.
-//!
 //! \param face_labels  of the faces of the mesh that clean_input() got.
 //! \param face_origin  #F of the surface: see CleanResult.
 //! \return #E of the surface: 1 for such edges. Cost: O(#E).

@@ -111,7 +111,6 @@ struct CleanedView {
 //!
 //! An input without these defects comes back unchanged, bit for bit and in the same order. Kept
 //! vertices and faces keep their order; copies of vertices come last.
-//!
 //! \throw InvalidInput  an index is out of range, a coordinate is not finite, the mesh is out
 //!        of scale (see check_scale) or too far from the origin, a piece is not orientable
 //!        (each names the element), or no face is left.

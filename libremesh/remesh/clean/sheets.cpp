@@ -1,13 +1,7 @@
-// Orients faces and decides which belong together.
-//
-// Gives each patch one orientation. A patch is a set of faces connected through edges of exactly
-// two faces.
-//
-// Decides which faces belong together at non-manifold edges and vertices: the flattest pairs.
-// Vertices are then copied until vertex indices alone give these pairs. Among equally flat pairs
-// the one that bounds a convex wedge is taken, so that boxes that touch along an edge stay apart.
-// Where faces of opposite orientation lie on each other, bodies touch in a wall, which may go on
-// flat: there the pairs are those with a body between them.
+// Patches (faces connected through edges of exactly two faces) get one orientation. At other edges
+// the flattest pairs belong together, among equals those of a convex wedge, so that boxes that
+// touch along an edge stay apart. Where bodies touch in a wall, the pairs are those with a body
+// between them. Vertices are copied until indices alone give these pairs.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -20,9 +14,8 @@
 namespace remesh::detail {
 namespace {
 
-// If this share of a closed patch agrees, its orientation is kept; otherwise the patch is turned
-// outward. The first keeps the inner wall of a hollow body, the second serves files without any
-// orientation.
+// If this share of a closed patch agrees (such as the inner wall of a hollow body), its orientation
+// is kept; otherwise it is turned outward, for files without any.
 constexpr double clear_majority = 0.75;
 
 struct Patch {
@@ -88,9 +81,8 @@ bool first_side_yields(const Soup& soup, const Patch& patch, const std::vector<b
 // square.
 constexpr std::size_t most_sheets = 64;
 
-// Between equally flat pairs the one that bounds a convex wedge wins, so that two boxes that touch
-// along an edge stay two boxes. Far above rounding, far below differences that flatness should
-// decide.
+// Between equally flat pairs the one that bounds a convex wedge wins. Far above rounding, far below
+// differences that flatness should decide.
 constexpr double convex_bonus = 1e-3;
 
 // Faces at a smaller angle (radians) lie on each other: coordinates in single precision give 1e-5
@@ -259,10 +251,9 @@ std::vector<Index> pair_sheets(Soup& soup, std::span<const EdgeSide> sides) {
     return twin;
 }
 
-// A sheet may meet itself along an edge while its faces are connected around both ends. Then it
-// keeps one vertex at each end, and the edge stays double. The first round cuts such edges open, so
-// that indices may pair their faces the other way. Later rounds cut all edges of faces that are
-// still in conflict: these share no edge any more.
+// A sheet may meet itself along an edge while its faces are connected around both ends: the edge
+// stays double. The first round cuts such edges open; later rounds cut all edges of faces still in
+// conflict.
 void split_vertices(Soup& soup, std::vector<Index>& twin) {
     separate_fans(soup, twin);
     const CleanCounts& counts = soup.counts;  // Without these no edge is double.

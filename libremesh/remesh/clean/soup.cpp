@@ -1,7 +1,5 @@
-// Runs the passes of soup.h in their order, after a quick check whether the input needs none.
-// Sorted edge sides are made again only after passes that changed a triangle. Most passes look at
-// all edges by sorting their sides (a half-edge with the numbers of its two ends), because a soup
-// has no connectivity yet.
+// Runs the passes of soup.h after a quick check whether the input needs none. Sides are sorted
+// again only after passes that changed a triangle.
 #include "remesh/clean/clean_input.h"
 
 #include <algorithm>

@@ -1,9 +1,8 @@
 //! \file
 //! The mesh under repair, its half-edges grouped by edge, and the passes of clean_input over them.
 //!
-//! As in Surface, half-edge 3 f + k runs from corner k to corner k + 1 of face f. A twin
-//! array holds the half-edge across, or no_index; unlike vertex indices it says which of the faces
-//! at a non-manifold edge or vertex belong to one sheet.
+//! Half-edges are those of Surface. A twin array holds the half-edge across, or no_index: which of
+//! the faces at a non-manifold edge or vertex belong to one sheet.
 #pragma once
 
 #include <optional>
@@ -42,11 +41,9 @@ void check_elements(const MeshView& mesh, Ticker ticker = {});
 
 //! For each wanted vertex the first one at its position; no_index for the others.
 //!
-//! Equal positions are one position. So are positions that differ by a millionth of the mesh's
-//! longest side at most, and by a hundredth of each edge there: programs that write coordinates
-//! with six or seven digits leave such gaps. A grid finds them; vertices with less than an eighth
-//! of the reach that most have would crowd its cells, so these have to be equal.
-//!
+//! Positions are one if they are equal, or differ by a millionth of the mesh's longest side at most
+//! and by a hundredth of each edge there: files with six or seven digits leave such gaps. Vertices
+//! with less than an eighth of the usual reach must be equal, as they would crowd the grid.
 //! \param is_wanted  #V: vertices of the boundary.
 //! \param tolerance  above 0: the limits are this length, if that is more, and half of each edge.
 //! Cost: O(#F + #wanted).
@@ -89,7 +86,6 @@ void fill_holes(Soup& soup, Index most_edges);
 
 //! Triangulates a hole as CGAL's triangulate_hole_polyline does: the largest dihedral angle, then
 //! the area, is as small as it can be.
-//!
 //! \param rim     the corners, in the order of the triangles to make.
 //! \param beyond  the third corner of the face at each side of the rim; as many.
 //! \return indices into rim; no triangles if none were found; unset in a build without CGAL.

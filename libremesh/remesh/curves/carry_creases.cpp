@@ -1,6 +1,5 @@
-// Gaps are closed by Dijkstra's algorithm along weak edges, from each open end to the first vertex
-// of the set or the boundary that lies ahead of it. The shortest gaps are closed first. The open
-// ends that are left then follow weak edges that turn little.
+// Gaps are closed by Dijkstra's algorithm along weak edges, the shortest first. Open ends that are
+// left follow weak edges that turn little.
 #include <algorithm>
 #include <numbers>
 #include <optional>

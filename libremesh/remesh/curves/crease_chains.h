@@ -63,24 +63,19 @@ private:
 
 //! The angle between the normals on both sides of each edge, radians in [0, pi]; 0 on the boundary.
 //!
-//! A face lower than `narrow` has no reliable normal, as rounding of its corners turns it. It is
-//! joined with the neighbour that fits it best until the patch is not narrow. All edges of the
-//! patch get the normal of its vector area. That is the vector area of the patch's outline, so the
-//! noise of the faces inside cancels. Edges inside a patch get 0.
-//!
+//! A face lower than `narrow` has no reliable normal: it is joined with the neighbour that fits
+//! best until the patch is not narrow. All edges of the patch get the normal of its vector area,
+//! where noise cancels; edges inside get 0.
 //! \param narrow  mesh units, >= 0: least height over the longest side.
 //! \return #E.
 //! Cost: O(#F + k log k), k = narrow faces.
 [[nodiscard]] std::vector<double> edge_angles(const Surface& surface, double narrow,
                                               int num_threads, Poller& poller);
 
-//! For each edge of the set: how much the surface around it turns, radians; 0 for other edges. It
-//! is the root of the sum of angle squared times length over all edges outside the set within
-//! `reach`, on both sides, per length of the set's edge. So the many small turns of round faces and
-//! fillets count little, noise counts about as much as the noisy edge itself, and edges between
-//! coplanar faces do not count. The reach is the length of the set's edges if that is longer, but
-//! at most four times `reach`.
-//!
+//! For each edge of the set: how much the surface around it turns, radians; 0 for others. The root
+//! of the sum of angle squared times length over edges outside the set within `reach`, per length
+//! of the set's edge: many small turns count little, noise as much as the noisy edge. The reach is
+//! the length of the set's edges if longer, at most four times `reach`.
 //! \param angles  #E, radians.
 //! \return #E.
 //! Cost: O(#V + k log k), k = edges within reach.
@@ -96,7 +91,6 @@ struct CarryRules {
 
 //! Joins open ends to vertices ahead of them by the shortest path of weak edges, shortest paths
 //! first. No gap is longer than the chain that ends there.
-//!
 //! \param angles  #E, radians.
 //! Cost: O(#E + k log k), k = weak edges within reach of an end.
 void close_gaps(CreaseSet& set, const std::vector<double>& angles, const CarryRules& rules,
@@ -104,7 +98,6 @@ void close_gaps(CreaseSet& set, const std::vector<double>& angles, const CarryRu
 
 //! Extends chains at open ends along weak edges that turn by less than 45 degrees, by at most their
 //! own length.
-//!
 //! Cost: O(#E).
 void extend_ends(CreaseSet& set, const std::vector<double>& angles, const CarryRules& rules,
                  Poller& poller);
@@ -122,7 +115,6 @@ struct PruningRules {
 };
 
 //! Removes chains with open ends, then networks, that fall short of the rules.
-//!
 //! \param weights  #E, >= 0.
 //! Cost: O(#E + k log k), k = edges of the set.
 void prune(CreaseSet& set, const std::vector<double>& weights, const PruningRules& rules,
@@ -132,10 +124,8 @@ void prune(CreaseSet& set, const std::vector<double>& weights, const PruningRule
 
 namespace remesh {
 
-//! Seams part the surface into charts. Those around a chart narrower than 2.5 spacings, as twice
-//! its area over the length of its seams tells, are left out, the narrowest first; then chains with
-//! a free end that are shorter than two spacings.
-//!
+//! Leaves out seams around charts narrower than 2.5 spacings (twice the area over the length), the
+//! narrowest first; then chains with a free end shorter than two spacings.
 //! \param is_crease  #E: a chain that ends on these, or on the boundary, has no free end there;
 //!                   empty: there are none.
 //! \param spacing    of the sites, mesh units.

@@ -1,6 +1,5 @@
-// Corners, points and tangents of curves. A position on a curve is a length along it in mesh units;
-// Curve::up_to gives the edge at a position. A vertex is a corner if both the polyline and longer
-// chords turn sharply there, so that noise makes no corners.
+// A vertex is a corner if both the polyline and longer chords turn sharply there, so that noise
+// makes none.
 #include "remesh/curves/curve_network.h"
 
 #include <algorithm>
@@ -16,8 +15,7 @@ constexpr double least_turn = std::numbers::pi / 4;
 constexpr double corner_reach = 0.5;
 
 double turn(const Vec3& before, const Vec3& here, const Vec3& after) {
-    const Vec3 in = here - before, out = after - here;
-    return std::atan2(in.cross(out).norm(), in.dot(out));
+    return angle_between(here - before, after - here);
 }
 
 // The edge at a position of the curve, and the share of the edge before that position.

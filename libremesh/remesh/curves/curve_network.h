@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -14,6 +15,11 @@
 #include "remesh/curves/find_creases.h"
 
 namespace remesh {
+
+//! Radians in [0, pi].
+[[nodiscard]] inline double angle_between(const Vec3& a, const Vec3& b) {
+    return std::atan2(a.cross(b).norm(), a.dot(b));
+}
 
 //! Vertices and edges of a surface that its mesh keeps.
 struct LockedElements {
@@ -38,7 +44,6 @@ struct JunctionSet {
 
 //! Finds junctions: edges whose ends have the same origins were one edge. Positions do not count.
 //! Edges with the same faces on both sides are left out: they lie inside walls of two bodies.
-//!
 //! \param vertex_origin  #V: see CleanResult; empty: each vertex is its own.
 //! Cost: O(#V + #E + k log k), k = edges at vertices that have copies.
 [[nodiscard]] JunctionSet find_junctions(const Surface& surface,
@@ -83,11 +88,9 @@ struct Curve {
     [[nodiscard]] Index vertex(const Surface& surface, std::size_t i, std::size_t side = 0) const;
 };
 
-//! Every edge belongs to at most one curve. Nodes are vertices where the number of edges of the
-//! network is not two, where boundary and crease meet, or where a junction connects its sheets
-//! differently on both sides of the vertex. Corners are nodes too: the network turns there by at
-//! least 45 degrees and keeps that turn over half a spacing. So are locked vertices; those that lie
-//! inside faces of the result are nodes without a curve.
+//! Every edge belongs to at most one curve. Nodes are vertices where not two edges of the network
+//! meet, boundary and crease meet, or a junction connects its sheets in another way; corners (see
+//! corners_of_curve); and locked vertices, which may be nodes without a curve.
 struct CurveNetwork {
     std::vector<Index> nodes;   //!< Vertices of the surface, ascending; of copies the first.
     std::vector<Curve> curves;  //!< By lowest edge.
@@ -99,7 +102,6 @@ struct CurveNetwork {
 };
 
 //! Finds the network of a surface.
-//!
 //! \param is_crease  #E: 1 for the edges of creases. Boundary edges and junctions always belong to
 //!                   the network.
 //! \param spacing    > 0, mesh units: of the sites.
@@ -114,9 +116,8 @@ struct CurveNetwork {
 [[nodiscard]] Curve curve_of_loop(const Surface& surface, std::vector<Index> loop);
 
 //! The vertices (see Curve::vertex) where a curve turns by at least 45 degrees, both at the vertex
-//! itself and between the chords to the points half a spacing before and after it. So a rough curve
-//! has no corners that sites at this spacing could not follow. Of several within half a spacing
-//! only the sharpest counts; within half a spacing of an end, none.
+//! and between the chords to half a spacing before and after it: a rough curve has none. Of several
+//! within half a spacing the sharpest counts; so near to an end, none.
 //! \return ascending.
 //! Cost: O(k log k + k c), c = corners.
 [[nodiscard]] std::vector<std::size_t> corners_of_curve(const Surface& surface, const Curve& curve,
@@ -129,7 +130,6 @@ struct CurveNetwork {
 }
 
 //! A point of a curve, given in the face on one side of it.
-//!
 //! \param along  in [0, length]; taken modulo the length on closed curves.
 //! \param side   index into its sides.
 //! Cost: O(log n).
@@ -148,7 +148,6 @@ struct CutSurface {
 };
 
 //! Cuts a surface along edges, which become boundary edges on both sides.
-//!
 //! \param is_cut  #E: 1 for edges to cut; boundary edges may be among them.
 //! \param num_threads  >= 0; 0: all cores. The result is the same for any number.
 //! \throw Cancelled  the progress callback returned false.

@@ -1,6 +1,5 @@
-// Sites lie at even distances on each curve, in a measure that counts spacings: a length counts
-// more where the curve turns much. Notation: `along` is a position in mesh units, `count` the same
-// position in spacings (spacings_along).
+// `along` is a position in mesh units, `count` the same in spacings, which count more where the
+// curve turns much.
 #include "remesh/curves/curve_sites.h"
 
 #include <algorithm>
@@ -27,8 +26,8 @@ double turn_over(const Surface& surface, const Curve& curve, double along, doubl
     };
     const double reach = std::min(length / 2, curve.length() / 4);
     const Vec3 here = at(along);
-    const Vec3 in = here - at(along - reach), out = at(along + reach) - here;
-    return 2 * std::atan2(in.cross(out).norm(), in.dot(out)) * length / (2 * reach);
+    const double angle = angle_between(here - at(along - reach), at(along + reach) - here);
+    return 2 * angle * length / (2 * reach);
 }
 
 // Where a curve has how many spacings behind it; linear in between.

@@ -32,7 +32,6 @@ struct CurveSites {
 using UnitAt = std::function<double(const SurfacePoint&)>;
 
 //! Measures a curve in spacings. Its sites belong at even distances in this measure.
-//!
 //! \return #edges + 1: spacings before each edge, then of the whole curve. An edge counts as its
 //! length over the spacing, and up to twice that where the curve turns by more than 30 degrees over
 //! a spacing.
@@ -66,7 +65,6 @@ using UnitAt = std::function<double(const SurfacePoint&)>;
 [[nodiscard]] Index num_junction_vertices(const CurveNetwork& network, const CurveSites& sites);
 
 //! Places at even distances in the measure of spacings_along.
-//!
 //! \param intervals  #curves, >= 1.
 //! \return #curves: ascending, mesh units; without the ends of the curve.
 [[nodiscard]] std::vector<std::vector<double>> even_positions(const Surface& surface,
@@ -84,7 +82,6 @@ using UnitAt = std::function<double(const SurfacePoint&)>;
                                         std::span<const std::vector<double>> along);
 
 //! Moves all copies of a group that is not a node to another position of its curve.
-//!
 //! \param curve  of the group.
 void move_along(const Curve& curve, Index group, double along, CurveSites& sites);
 
@@ -100,7 +97,6 @@ struct ChainEdge {
 [[nodiscard]] std::vector<DirectedEdge> ends_of(std::span<const ChainEdge> chain);
 
 //! The same for each part of the surface, each in ascending order.
-//!
 //! \param part_of  gives the part of a site: Index -> Index below num_parts.
 template <typename PartOf>
 [[nodiscard]] std::vector<std::vector<DirectedEdge>> chain_by_part(std::span<const ChainEdge> chain,
@@ -122,12 +118,8 @@ template <typename PartOf>
                                                  const CurveSites& sites);
 
 //! A triangle between an interval of a curve and one k times as long has an angle of at most 1/k.
-//! So if the first interval after a node is more than eight times as long as the shortest one
-//! there, it is divided in equal proportions. For two corners .08 apart where the spacing is 2.6
-//! (65004), the smallest angle goes from 1.2 to 8.6 degrees with three or four sites at each.
-//! Intervals are not divided if the short curve joins two curves that run side by side: sites do
-//! not widen a narrow strip (58011 loses .01 of its mean quality).
-//!
+//! So a first interval after a node that is more than eight times the shortest one there is divided
+//! in equal proportions, unless the short curve ends a narrow strip, which sites do not widen.
 //! \param along  #curves: positions between the ends of each, ascending; edited in place.
 //! Cost: O(curves + sites).
 void guard_corners(const Surface& surface, const CurveNetwork& network,

@@ -1,7 +1,5 @@
-// Dihedral angles, and how much the surface turns around creases. Joins narrow faces with
-// neighbours into patches that are not narrow: a union-find over the sides of narrow faces, in
-// order of merit. The angle at an edge is that between the vector areas of the two patches.
-// `narrow` is a height in mesh units.
+// Joins narrow faces with neighbours into patches by a union-find over their sides, in order of
+// merit. `narrow` is a height, mesh units.
 #include <algorithm>
 #include <cmath>
 #include <queue>
@@ -11,15 +9,12 @@
 #include "agvd/core/union_find.h"
 #include "agvd/mesh/surface.h"
 #include "remesh/curves/crease_chains.h"
+#include "remesh/curves/curve_network.h"
 
 namespace remesh::detail {
 namespace {
 
 constexpr Index edges_per_task = 4096;
-
-double angle_between(const Vec3& a, const Vec3& b) {
-    return std::atan2(a.cross(b).norm(), a.dot(b));
-}
 
 // Faces joined into patches. A patch is named by its root.
 struct Patches {
@@ -74,10 +69,9 @@ std::vector<Index> find_narrow_faces(const Surface& surface, const Patches& patc
     return faces;
 }
 
-// A side of a narrow face, and the merit of joining the face across it. Long sides come first: only
-// across them a needle gains height. Sides to faces of the same direction come before others: a
-// needle in a plane belongs to that plane. The needle's own direction may be rounding, so a long
-// side to a face of another direction still counts for a tenth.
+// A side of a narrow face, and the merit of joining the face across it: its length, less if the
+// face across has another direction. The needle's own direction may be rounding, so such a side
+// still counts for a tenth.
 struct SharedSide {
     double merit;
     Index edge;

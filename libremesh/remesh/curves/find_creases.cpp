@@ -1,7 +1,5 @@
-// Edges above the angle are candidates; edge_angles() keeps needles from raising false ones. Each
-// candidate is weighed by its sharpness and by how much the surface around it turns
-// (surrounding_turn). The share of noisy candidates sets how strict pruning is: little on parts,
-// much on scans. The steps are listed in the header. All lengths are in spacings unless stated.
+// The share of noisy candidates sets how strict pruning is: little on parts, much on scans. Lengths
+// are in spacings unless stated.
 #include "remesh/curves/find_creases.h"
 
 #include <algorithm>
@@ -15,9 +13,8 @@
 namespace remesh {
 namespace {
 
-// Faces lower than this have no reliable normal. Rounding to float moves vertices by some 3e-6
-// spacings at 2000 sites. With 3e-3 the creases at two positions of a part with fillets depended on
-// its triangles.
+// Faces lower than this have no reliable normal: rounding to float moves vertices by some 3e-6
+// spacings at 2000 sites. With 3e-3 fillets depended on the triangles.
 constexpr double narrow = 1e-3;
 // How far around a crease the surface is examined.
 constexpr double reach = 0.5;
@@ -67,9 +64,8 @@ struct Noise {
     double edge_length = 0;  // Mean.
 };
 
-// An edge is noisy if the surface around it turns as much as the edge itself. If noise is so strong
-// that most edges are above the angle, no other edges are left around them; then most chains are
-// short.
+// An edge is noisy if the surface around it turns as much. Under strong noise most edges are above
+// the angle and no others are left around them; then most chains are short.
 Noise find_noise(const detail::CreaseSet& set, const std::vector<double>& angles,
                  const std::vector<double>& surrounding, double shortest, Poller& poller) {
     const std::vector<double>& length = set.surface().length;

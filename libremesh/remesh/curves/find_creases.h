@@ -35,21 +35,16 @@ struct CreaseOptions {
 
 //! Finds the edges of creases.
 //!
-//! 1. Edges above the angle are candidates. A face too narrow for a reliable normal takes that of
-//! its
-//!    neighbours.
-//! 2. The weight of an edge is larger the sharper it is, and smaller if the surface around it
-//!    turns as sharply.
-//!    The share of such edges in the candidates' length tells parts from scans.
+//! 1. Edges above the angle are candidates. A face too narrow takes its neighbours' normal.
+//! 2. An edge weighs more the sharper it is, and less if the surface around it turns as sharply.
+//! The
+//!    share of such edges tells parts from scans.
 //! 3. Gaps of up to a spacing are closed along edges of at least 5/8 of the angle.
-//! 4. A chain with an open end is removed if its length times weight is below a spacing, or below
-//!    three if both ends are open. Then networks of too little weight are removed; scans need
-//!    a much larger weight.
+//! 4. Chains with open ends whose length times weight is below a spacing (three, if both are open)
+//!    are removed, then networks of too little weight: much more is needed on scans.
 //! 5. The open ends that are left continue along edges of at least 5/8 of the angle.
 //!
-//! All criteria are lengths, not numbers of edges, so all triangulations of a surface give the same
-//! creases.
-//!
+//! All criteria are lengths, so all triangulations of a surface give the same creases.
 //! \return #E: 1 for the edges of creases; 0 for boundary edges.
 //! \throw InvalidOption  an option out of range.
 //! \throw Cancelled      the progress callback returned false.

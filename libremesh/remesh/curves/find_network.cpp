@@ -1,6 +1,5 @@
-// Follows all sides of a curve from edge to edge. At a vertex a side continues along the next edge
-// of the network in the same fan of faces. A first pass finds curves without corners; a second one
-// ends them at the corners found on these.
+// A side continues along the next edge of the network in the same fan of faces. A second pass ends
+// curves at their corners.
 #include <algorithm>
 #include <numeric>
 

@@ -22,10 +22,8 @@ struct GluedMesh {
     std::vector<Index> first_of_group;
 };
 
-//! Makes the vertices of a group one. If an inner edge of a patch joins the same groups as an edge
-//! of another patch, the glued edge would have more than two faces; such an inner edge is flipped
-//! if possible.
-//!
+//! Makes the vertices of a group one. An inner edge of a patch that joins the same groups as an
+//! edge of another patch is flipped if possible: the glued edge would have more than two faces.
 //! \param group   #V: equal for copies at one position. Two groups are to have at most one edge.
 //! \param vertex  #V: equal for the copies of a group that become one vertex; empty: all of them.
 //! Cost: O(n log n).
@@ -34,7 +32,6 @@ struct GluedMesh {
 
 //! A round of flips of inner edges of patches, so that fewer edges of the glued mesh are repeated:
 //! one flip for each repeated edge.
-//!
 //! \param triangles    edited in place.
 //! \param vertex       #V: the vertex of the glued mesh.
 //! \param is_repeated  tells of the sides of an edge of the glued mesh whether there are too many.
@@ -50,11 +47,9 @@ using DirectedEdge = std::pair<Index, Index>;  //!< From, to.
 //! Cost: O(n log n).
 [[nodiscard]] std::vector<DirectedEdge> rim_of(std::span<const Triangle> triangles);
 
-//! Fills gaps between chain and rim with triangles, without a change of topology. There are two
-//! kinds. If the cell of an inner site meets a curve, no triangle joins the two sites of the curve
-//! next to it, and the rim passes through the inner site. If the cell of a site on the curve has no
-//! Voronoi vertex (at a sharp corner), the site has no triangle, and the rim bypasses it.
-//!
+//! Fills gaps between chain and rim with triangles, without a change of topology: where the cell of
+//! an inner site meets a curve, the rim passes through that site; where a site of the curve (at a
+//! sharp corner) has no triangle, the rim bypasses it.
 //! \param chain  edges that the rim is to have.
 //! Cost: O(n log n).
 void close_rim(std::span<const DirectedEdge> chain, std::vector<Triangle>& triangles);
@@ -64,7 +59,6 @@ void close_rim(std::span<const DirectedEdge> chain, std::vector<Triangle>& trian
                                                     std::span<const Index> first);
 
 //! Merges the vertices of each group into the first one.
-//!
 //! \param group  #V.
 //! \return the vertices that stay, ascending; these are the new vertices in order. Cost: O(n).
 std::vector<Index> weld_sheets(std::span<const Index> group, TriangleMesh& mesh);

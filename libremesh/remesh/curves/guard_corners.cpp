@@ -1,6 +1,5 @@
-// Looks at the first intervals of all curves at each node. Intervals that are much longer than the
-// shortest one there are divided at positions in geometric progression, unless they bound a narrow
-// strip.
+// Looks at the first intervals of all curves at each node: those much longer than the shortest are
+// divided.
 #include "remesh/curves/curve_sites.h"
 
 #include <algorithm>

@@ -1,6 +1,5 @@
-// Where sheets are cut apart: junctions of the input, and cuts along curves. Edges of a surface
-// with the same origins at both ends were one edge before cleaning. Their ends are joined by a
-// union-find: these are the copies of a vertex at a junction. All other copies met in a point only.
+// Edges with the same origins at both ends were one before cleaning. A union-find joins their ends;
+// all other copies met in a point only.
 #include <algorithm>
 #include <array>
 #include <numeric>

@@ -14,10 +14,8 @@
 namespace remesh {
 
 //! Triangles of site indices, oriented like the surface. A Voronoi vertex of degree k > 3 (or
-//! several joined by degenerate Voronoi edges) gives a k-gon, triangulated with diagonals that
-//! repeat no edge if possible. Sites without a cell, and cells without a Voronoi vertex, occur in
-//! no triangle. The caller checks the topology (analyze_topology).
-//!
+//! several joined) gives a k-gon, with diagonals that repeat no edge if possible. The caller checks
+//! the topology. Sites without a cell or Voronoi vertex occur in no triangle.
 //! \throw Cancelled  the progress callback returned false.
 //! Cost: O(size of the complex) and a sort.
 [[nodiscard]] std::vector<Triangle> build_dual(const Surface& surface, const Diagram& diagram,
@@ -62,7 +60,6 @@ struct DelaunayResult {
 //! condition, if the flip is safe: the new edge meets the condition, the mesh stays a simplicial
 //! complex with the same boundary, no vertex gets fewer than three edges (two on the boundary), and
 //! in space no edge around becomes sharper than 60 degrees, or than the sharpest one there before.
-//!
 //! \param points     the vertices on the surface.
 //! \param positions  the same in space; no two are farther apart than on the surface.
 //! \param triangles  vertex indices. Edges without exactly two sides in opposite directions are

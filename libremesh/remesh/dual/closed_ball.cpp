@@ -1,6 +1,5 @@
-// Tests the closed-ball property of the diagram ([edelsbrunner1997]) in four passes: cells (discs),
-// cells at the boundary, pairs of cells, triples of cells. Each violation names the points at which
-// new sites help: where cells reach farthest, or in the middle of an arc that must not be.
+// Four passes: cells, cells at the boundary, pairs, triples ([edelsbrunner1997]). Each violation
+// names points at which new sites help.
 #include "remesh/dual/closed_ball.h"
 
 #include <algorithm>

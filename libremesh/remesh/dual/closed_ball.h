@@ -37,10 +37,9 @@ struct BoundaryFixes {
     std::vector<SurfacePoint> added;
 };
 
-//! The boundary vertices of the dual are the sites whose cells meet the boundary. They must lie on
-//! it: an inner site whose cell meets the boundary moves to the middle of its longest arc there.
-//! Corners must stay: the site nearest to a corner moves to it; if that site is at another corner,
-//! a new site is placed at this one. Both lists are empty if nothing is to be done.
+//! An inner site whose cell meets the boundary moves to the middle of its longest arc there. The
+//! site nearest to a corner moves to it; if that is at another corner, a new site is placed. Both
+//! lists are empty if nothing is to be done.
 //!
 //! Each move turns an inner site into a boundary site or fills a corner, and neither is undone.
 //! \param corners  boundary vertices.
@@ -54,7 +53,6 @@ struct BoundaryFixes {
 [[nodiscard]] std::vector<Index> farthest_voronoi_vertices(const Diagram& diagram);
 
 //! The farthest Voronoi vertices of the largest cells, the largest cell first, each once.
-//!
 //! \param count  at most so many.
 //! Cost: O(size of the complex + #sites log #sites).
 [[nodiscard]] std::vector<Index> points_in_largest_cells(const Diagram& diagram, std::size_t count);

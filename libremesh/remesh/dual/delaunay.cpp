@@ -1,6 +1,5 @@
-// Every edge has the length of a locally shortest path between its ends. Edges whose opposite
-// angles, by these lengths, sum to more than pi are flipped in passes, until a pass flips none.
-// Notation: edge (a, b) lies in triangles (a, b, c) and (b, a, d).
+// Edges that fail by the lengths of locally shortest paths are flipped in passes. Edge (a, b) lies
+// in triangles (a, b, c) and (b, a, d).
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -16,8 +15,6 @@ namespace {
 
 // Radians. Two right angles opposite an edge are Delaunay.
 constexpr double delaunay_tolerance = 1e-6;
-// A flip may always leave this cosine between the normals of two triangles.
-constexpr double gentle_fold = 0.5;
 constexpr int max_passes = 100;
 // Relative to the longest side, as lengths are sums of a few square roots.
 constexpr double length_tolerance = 1e-12;
@@ -158,33 +155,20 @@ private:
         return true;
     }
 
-    [[nodiscard]] Vec3 normal(Index a, Index b, Index c) const {
-        return (positions_[b] - positions_[a]).cross(positions_[c] - positions_[a]).normalized();
-    }
-
-    // Whether the flip would make an edge here sharper than gentle_fold and than all were before.
     [[nodiscard]] bool folds(const Quad& quad) const {
-        const auto [a, b, c, d] = std::array{quad.a, quad.b, quad.c, quad.d};
-        const Vec3 old_first = normal(a, b, c), old_second = normal(b, a, d);
-        const Vec3 new_first = normal(c, a, d), new_second = normal(d, b, c);
-        if (new_first.isZero() || new_second.isZero()) return true;  // No area.
-        double before = old_first.dot(old_second);
-        double after = new_first.dot(new_second);
-        const auto compare = [&](Index half_edge, const Vec3& old_normal, const Vec3& new_normal) {
-            const Index rim = mesh_.edge(half_edge);
-            if (!mesh_.is_inner(rim)) return;
-            const auto& sides = mesh_.sides(rim);
-            const Index across = sides[0] == half_edge ? sides[1] : sides[0];
-            const Triangle& t = mesh_.triangles()[across / 3];
-            const Vec3 beyond = normal(t[0], t[1], t[2]);
-            before = std::min(before, beyond.dot(old_normal));
-            after = std::min(after, beyond.dot(new_normal));
+        const auto unit = [&](const Triangle& t) -> Vec3 {
+            const Vec3& origin = positions_[t[0]];
+            return (positions_[t[1]] - origin).cross(positions_[t[2]] - origin).normalized();
         };
-        compare(quad.bc, old_first, new_second);
-        compare(quad.ca, old_first, new_first);
-        compare(quad.ad, old_second, new_first);
-        compare(quad.db, old_second, new_second);
-        return !(after >= std::min(before, gentle_fold));
+        const std::array rim{quad.bc, quad.ca, quad.ad, quad.db};
+        return flip_folds({quad.a, quad.b, quad.c, quad.d}, unit,
+                          [&](std::size_t i) -> std::optional<Vec3> {
+                              const Index edge = mesh_.edge(rim[i]);
+                              if (!mesh_.is_inner(edge)) return std::nullopt;
+                              const auto& sides = mesh_.sides(edge);
+                              const Index across = sides[0] == rim[i] ? sides[1] : sides[0];
+                              return unit(mesh_.triangles()[across / 3]);
+                          });
     }
 
     Ticker ticker_;

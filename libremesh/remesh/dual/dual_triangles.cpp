@@ -1,6 +1,5 @@
-// The ends of degenerate Voronoi edges are contracted to one point. The cells around each point
-// form a polygon, which is cut into triangles by removing ears whose diagonal is not an edge of the
-// dual yet.
+// Ends of degenerate Voronoi edges become one point. The polygon of the cells around each is cut by
+// removing ears whose diagonal is new.
 #include "remesh/dual/build_dual.h"
 
 #include <algorithm>

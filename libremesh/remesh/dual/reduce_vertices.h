@@ -1,6 +1,6 @@
 //! \file
-//! Removes vertices one by one without changing the topology: to a number, and what thinned patches
-//! have too many. Private to remeshing.
+//! Removes vertices one by one without changing the topology: to a number, and what simplified
+//! patches have too many. Private to remeshing.
 #pragma once
 
 #include <cstdint>
@@ -13,11 +13,10 @@
 
 namespace remesh {
 
-//! Collapses edges of an oriented 2-manifold, shortest first, until `target` vertices are left: one
-//! end is removed, the other keeps its position. Every step meets the link condition ([dey1999]),
-//! so the result is a manifold with the same components, genera and boundary loops. A boundary
-//! vertex is removed only along its loop. Unless the target cannot be reached otherwise, faces keep
-//! their orientation in space and a minimum quality, and the vertices of `keep` stay.
+//! Collapses edges of an oriented 2-manifold, shortest first, until `target` vertices are left;
+//! ends that stay keep their positions. Every step meets the link condition ([dey1999]), so the
+//! topology stays. Unless it cannot be reached otherwise, faces keep their orientation and a
+//! minimum quality, and the vertices of `keep` stay.
 //!
 //! It stops above the target if no edge is left to collapse. Closed components of genus g then have
 //! at most max(4, 26 g - 4) vertices, whatever their number before ([joret2010]).
@@ -30,20 +29,18 @@ namespace remesh {
                                                  std::span<const std::uint8_t> keep = {},
                                                  const Progress& progress = {});
 
-//! Applies thin, then removes the extra vertices that it leaves by collapses, if all of them
+//! Applies simplify(), then removes the extra vertices that it leaves by collapses, if all of them
 //! can be removed. On a curve no patch may have a vertex that the patch across the curve lacks.
-//!
 //! \param surface  may be a Delta-complex.
 //! \param faces    ascending: one component of it.
 //! \param points   in these faces, no two at one position.
-//! Cost: as thin.
-[[nodiscard]] SimplifiedMesh thin_patch(const Surface& surface, std::span<const Index> faces,
-                                        std::span<const SurfacePoint> points);
+//! Cost: as simplify().
+[[nodiscard]] SimplifiedMesh simplify_patch(const Surface& surface, std::span<const Index> faces,
+                                            std::span<const SurfacePoint> points);
 
 //! Removes extra vertices on the boundary as far as topology allows. A vertex often stays because
 //! an inner edge joins its two neighbours on the boundary: then this edge is flipped first.
-//!
-//! \param points  those that the patch was thinned to.
+//! \param points  those that the patch was simplified to.
 //! Cost: O(n log n) for each extra vertex on the boundary.
 void free_rim(const Surface& surface, std::span<const SurfacePoint> points, SimplifiedMesh& patch);
 

@@ -365,7 +365,7 @@ private:
         std::vector<SurfacePoint> points = points_of(sites_, sites);
         dual_.site.insert(dual_.site.end(), sites.begin(), sites.end());
         SimplifiedMesh part = placed_.chain.empty() ? simplify(surface_, faces, points)
-                                                    : thin_patch(surface_, faces, points);
+                                                    : simplify_patch(surface_, faces, points);
         if (domain_.has_locked()) free_rim(surface_, points, part);
         points.insert(points.end(), part.extra.begin(), part.extra.end());
         dual_.points.insert(dual_.points.end(), points.begin(), points.end());

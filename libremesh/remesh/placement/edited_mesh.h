@@ -10,6 +10,7 @@
 
 #include "agvd/mesh/surface.h"
 #include "remesh/curves/glue.h"
+#include "remesh/dual/flippable_mesh.h"
 #include "remesh/placement/placement.h"
 #include "remesh/placement/shape_quality.h"
 #include "remesh/sites/walk.h"
@@ -20,10 +21,8 @@ namespace remesh::detail {
 //! turns by more than 60 degrees, and no edge becomes sharper than both 60 degrees and the edges
 //! around it were. Edits that would break these rules change nothing.
 //!
-//! Faces, vertices and fans go to a journal before they change, so that edits can be undone in
-//! reverse order. Each edit first checks that the topology stays (for a collapse by the link
-//! condition, [dey1999]), that normals and dihedral angles change little, and that hard edges stay
-//! near the boundary of the surface.
+//! Faces, vertices and fans go to a journal before they change. A collapse checks the link
+//! condition ([dey1999]).
 class EditedMesh {
 public:
     struct Face {
@@ -281,7 +280,7 @@ public:
     }
 
 private:
-    // Cosine of the largest turn of a normal, and of the angle up to which every edge may be sharp.
+    // Cosine of the largest turn of a normal.
     static constexpr double gentle_turn = 0.5;
     // Share of the edge's length: a new vertex farther from the middle lies on another part of the
     // surface.
@@ -353,28 +352,17 @@ private:
         return std::any_of(fans_[a].begin(), fans_[a].end(),
                            [&](Index f) { return has_corner(f, b); });
     }
-    // Whether a flip would make an edge sharper than gentle_turn and than all edges of the quad
-    // were.
     [[nodiscard]] bool folds(Index h, Index twin) const {
-        const Index a = tail(h), b = head(h), c = apex(h), d = apex(twin);
+        const std::array rim{Surface::next(h), Surface::previous(h), Surface::next(twin),
+                             Surface::previous(twin)};
         const auto unit = [&](const Triangle& t) -> Vec3 { return normal_of(t).normalized(); };
-        const Vec3 old_first = unit({a, b, c}), old_second = unit({b, a, d});
-        const Vec3 new_first = unit({c, a, d}), new_second = unit({d, b, c});
-        if (new_first.isZero() || new_second.isZero()) return true;
-        double before = old_first.dot(old_second), after = new_first.dot(new_second);
-        const auto compare = [&](Index side, const Vec3& old_normal, const Vec3& new_normal) {
-            if (is_hard(side)) return;
-            const Index across = half_edge(head(side), tail(side));
-            if (across == no_index) return;
-            const Vec3 beyond = unit(faces_[across / 3].corner);
-            before = std::min(before, beyond.dot(old_normal));
-            after = std::min(after, beyond.dot(new_normal));
-        };
-        compare(Surface::next(h), old_first, new_second);
-        compare(Surface::previous(h), old_first, new_first);
-        compare(Surface::next(twin), old_second, new_first);
-        compare(Surface::previous(twin), old_second, new_second);
-        return !(after >= std::min(before, gentle_turn));
+        return flip_folds({tail(h), head(h), apex(h), apex(twin)}, unit,
+                          [&](std::size_t i) -> std::optional<Vec3> {
+                              if (is_hard(rim[i])) return std::nullopt;
+                              const Index across = half_edge(head(rim[i]), tail(rim[i]));
+                              if (across == no_index) return std::nullopt;
+                              return unit(faces_[across / 3].corner);
+                          });
     }
     [[nodiscard]] bool may_collapse(Index gone, Index into) const {
         if (mobility(gone) == Mobility::Fixed) return false;

@@ -31,8 +31,7 @@ Chain chain_of(const Surface& surface, const Curve& curve, const CurveSites& sit
 }
 
 // What the curve between two vertices of the chain adds to the right side of each: the integral of
-// the vector from the chain to the curve, weighted by the vertex's linear hat function. Zero if the
-// curve is straight.
+// the vector from chain to curve, weighted by the vertex's linear hat function.
 std::array<Vec3, 2> pulls(const Surface& surface, const Curve& curve, const Chain& chain,
                           std::size_t i) {
     const double begin = chain.along[i], end = chain.along[i + 1];

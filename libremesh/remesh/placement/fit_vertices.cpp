@@ -1,11 +1,7 @@
-// Each round solves linear least squares for the moves x of the vertices, with nearest points and
-// normals kept. The terms are the distances of samples of the surface from the planes of their
-// triangles, A (h - sum_k b_k n.x_k)^2; the distances of vertices and of middles of triangles from
-// the surface; and the cost of moves along the mesh, which is lowest where triangles are
-// equilateral.
-//
-// A: area that a sample stands for. n: normal of its triangle. h: distance from the triangle's
-// plane along n (Gap::from_plane). b_k: barycentric coordinates of the triangle's nearest point.
+// Each round solves linear least squares for the moves x of the vertices: distances of samples from
+// the planes of their triangles, A (h - sum_k b_k n.x_k)^2; of vertices and middles from the
+// surface; and the cost of moves along the mesh. A: area of a sample; n: normal of its triangle; h:
+// distance from the plane along n; b_k: barycentric coordinates of the nearest point.
 #include "remesh/placement/placement.h"
 
 #include <algorithm>
@@ -35,9 +31,8 @@ constexpr double across_cost = 1e-3;
 // cell's area.
 constexpr double longest_vertex_move = 0.15;
 constexpr double longest_pull = 0.2;
-// Weights of the distances of vertices and middles of triangles from the surface, relative to those
-// of the surface from the mesh. They keep vertices away from points far off the surface where
-// planes meet.
+// Weights of the distances of vertices and middles from the surface, relative to those of the
+// surface from the mesh: vertices stay near where planes meet far off.
 constexpr double vertex_weight = 0.25;
 constexpr double middle_weight = 0.25;
 // If the nearest point of the triangles is farther than the plane by this factor, the mesh ends

@@ -1,6 +1,5 @@
-// Vertices of bad triangles try steps along the surface in a few directions and lengths, the worst
-// triangles first. A step is kept if the worst triangle around the vertex gains more quality than
-// it costs to leave the planes of the cell ([garland1997]).
+// Vertices of bad triangles try steps along the surface, the worst first; one is kept if it gains
+// more quality than it costs to leave the planes of the cell ([garland1997]).
 #include "remesh/placement/placement.h"
 
 #include <algorithm>
@@ -24,16 +23,14 @@ constexpr double poor_quality = 0.66;
 // around the vertex; at other distances in proportion to the square.
 constexpr double plane_cost = 30;
 constexpr int most_rounds = 8;
-// A fixed side shorter than short_side times the mean edge length, or the target length, makes its
-// triangle slim wherever the third corner is. Vertices within three spacings would crowd around it,
-// so the quality of its triangle is divided by slim_quality.
+// A fixed side shorter than short_side mean edges (or target lengths) makes its triangle slim: its
+// quality is divided by slim_quality, as vertices would crowd around it.
 constexpr double short_side = 0.25;
 constexpr double slim_quality = 0.3;
 // Least gain in quality of a move.
 constexpr double least_gain = 1e-4;
-// The walks of all steps cross at most so many faces, per face of the surface and vertex of the
-// mesh. Around long spikes a walk circles through thousands of faces; elsewhere they cross at most
-// 2 a face or 370 a vertex.
+// Most faces that all walks cross, per face of the surface and vertex of the mesh. Around long
+// spikes they circle; elsewhere they cross at most 2 a face or 370 a vertex.
 constexpr std::size_t most_crossings_per_face = 20;
 constexpr std::size_t most_crossings_per_vertex = 600;
 
@@ -138,7 +135,6 @@ private:
     }
 
     // Takes a step if it helps.
-    //
     // \param length  mean length of the edges around the vertex.
     bool try_step(Index v, const Vec3& step, double length, double& worst) {
         const SurfacePoint before = mesh_.points[v];

@@ -14,9 +14,8 @@
 
 namespace remesh::detail {
 
-//! Searches the faces around the nearest vertex in a few cells only, then walks from face to face
-//! while the distance falls, no farther than the base's edges there are long. This is quick and
-//! never leads to the far side of a wall.
+//! Searches the faces around the nearest vertex in a few cells, then walks from face to face while
+//! the distance falls: quick, and never to the far side of a wall.
 class NearestInCells {
 public:
     //! \param base            outlives this.

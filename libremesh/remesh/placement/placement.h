@@ -29,7 +29,6 @@ struct PlacedMesh {
 
 //! Least squares along each crease of the distances between points of the curve and of the chain at
 //! the same arc length. Nodes stay, and so do the vertices of junctions and kept boundaries.
-//!
 //! \param surface  that of the network, whole or cut.
 //! \return #groups: from each site to the best position of its vertex.
 //! Cost: O(vertices of the curves + groups).
@@ -53,13 +52,10 @@ struct CellSample {
                                                    std::span<const Index> nearest_vertex,
                                                    Index num_vertices, const Progress& progress);
 
-//! Moves vertices so that the triangles, not their corners, lie as near to the surface as possible.
-//! Least squares of the distances of the surface's vertices (if they are few, also of points inside
-//! faces) from the planes of their triangles, and of vertices and middles of triangles from the
-//! surface. Planes do not restrict moves along them: there a vertex is drawn to where its triangles
-//! are equilateral. Where planes meet at an angle the vertex slides to their edge. Vertices on the
-//! boundary and those marked in `stays` stay, and no triangle turns over.
-//!
+//! Moves vertices so that the triangles, not their corners, lie as near to the surface as possible,
+//! by least squares. Along planes a vertex is drawn to where its triangles are equilateral; where
+//! planes meet it slides to their edge. Vertices on the boundary and those marked in `stays` stay,
+//! and no triangle turns over.
 //! \param nearest_vertex, samples  see sample_cells().
 //! \param num_threads     >= 0; 0: all cores. The result is the same for any number.
 //! \param least_way       >= 0, mesh units: distances up to this between mesh and surface are
@@ -81,11 +77,9 @@ void fit_vertices(const IntrinsicTriangulation& base, std::span<const Index> nea
                                                               Index num_vertices, int num_threads,
                                                               const Progress& progress);
 
-//! Moves the corners of triangles of low quality or with a small angle along the surface in small
-//! steps; their offsets stay. A step is taken if the worst triangle around the vertex gains more
-//! than it costs to leave the planes of the surface nearby, so that vertices at a crease stay
-//! there. All other vertices and those on the boundary stay. No triangle turns over.
-//!
+//! Moves the corners of triangles of low quality along the surface in small steps; their offsets
+//! stay. A step is taken if the worst triangle around gains more than it costs to leave the planes
+//! nearby: vertices at a crease stay there. The boundary stays, and no triangle turns over.
 //! \param input  PreparedSurface::input().
 //! \param sizes  target lengths of the edges; null: all are equal.
 //! \param stays  #V of the mesh: 1 for vertices that stay; or empty.
@@ -102,11 +96,9 @@ enum class Mobility : std::uint8_t { Free, Boundary, Fixed };
 
 }  // namespace detail
 
-//! Works on the worst triangles first. Flips an edge, slides vertices over the surface and along
-//! its boundary, or splits an edge and collapses another one elsewhere, or the reverse, if the
-//! worst triangle touched gets better. Keeps the number of vertices, the topology and the hard
-//! edges, but not the order of vertices.
-//!
+//! Flips edges, slides vertices, or splits an edge and collapses another one elsewhere, the worst
+//! triangles first, where the worst one touched gets better. Keeps the number of vertices (not
+//! their order), the topology and the hard edges.
 //! \param surface   where the points of the mesh lie.
 //! \param mobility  #V: Fixed ones stay; those on hard edges are not Free.
 //! \param hard      edges that are not flipped; must include all edges of a single face.
@@ -122,10 +114,8 @@ std::vector<Index> repair_shape(const Surface& surface, std::span<const detail::
 [[nodiscard]] bool is_flat(std::span<const Vec3> positions, const Triangle& triangle);
 
 //! Flips the longest edge of each triangle without area, so that its third corner divides the
-//! neighbour beyond instead. The points of the surface stay where they are. A triangle stays whose
-//! longest edge lies on the boundary, whose corners coincide, or whose flip would break the
-//! topology.
-//!
+//! neighbour beyond. It stays if that edge lies on the boundary, its corners coincide, or the
+//! topology would break.
 //! \param positions  #V.
 //! \param triangles  an oriented manifold; its boundary stays.
 //! Cost: O(#triangles); O(#triangles log #triangles) if there are any.

@@ -1,6 +1,5 @@
 // Repairs bad triangles, the worst first: by a flip or slides, otherwise by the best collapse or
-// split. Collapses leave spare vertices, splits need some. At the end the count is balanced: spare
-// vertices split long edges, missing ones are collapsed where triangles are good.
+// split. At the end the count is balanced elsewhere.
 #include "remesh/placement/placement.h"
 
 #include <algorithm>
@@ -234,7 +233,6 @@ public:
     // First balances the count at the end, when the number of missing vertices is known: it is
     // below the number of splits. If that fails, starts again and removes a vertex after each
     // split.
-    //
     // \return whether the mesh has changed; it does not if the count cannot be kept.
     bool run() {
         const EditedMesh::Mark start = mesh_.mark();

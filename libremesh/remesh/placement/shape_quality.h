@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "agvd/mesh/mesh.h"
-#include "agvd/mesh/surface.h"
 #include "remesh/names.h"
 
 namespace remesh::detail {
@@ -34,13 +33,6 @@ inline constexpr double sine_weight = low_quality / 0.597;
                     sine_weight * sine);
 }
 
-//! The unit normal of the surface at a point.
-[[nodiscard]] inline Vec3 facing_at(const Surface& surface, const SurfacePoint& point) {
-    const auto& p = surface.mesh.positions;
-    const auto& [a, b, c] = surface.mesh.triangles[point.face.value()];
-    return (p[b] - p[a]).cross(p[c] - p[a]).normalized();
-}
-
 //! Appends eight unit vectors orthogonal to `normal`, which is not zero.
 inline void add_directions(const Vec3& normal, std::vector<Vec3>& directions) {
     constexpr int count = 8;
@@ -52,7 +44,6 @@ inline void add_directions(const Vec3& normal, std::vector<Vec3>& directions) {
 }
 
 //! Tries steps of three lengths in all directions, and repeats each length while it helps.
-//!
 //! \param length    the mean length of the edges around the vertex.
 //! \param try_step  try_step(step) moves the vertex and returns true if that is better.
 //! \return true if a step was taken.

@@ -128,9 +128,8 @@ public:
 
 private:
     static constexpr double least_step_gain = 1e-3;
-    // A slide takes some 16 steps of at most an edge's length. Where its walks cross more edges of
-    // the surface than these would on faces of even size, or more than the least number, it counts
-    // as several slides. At spikes walks run around for ever.
+    // A slide takes some 16 steps of an edge's length at most; where its walks cross more edges
+    // than usual, as around spikes, it counts as several.
     static constexpr double steps_of_slide = 16;
     static constexpr std::size_t least_crossings = 100;
     // A slide ends when it counts as so many more.

@@ -33,7 +33,6 @@ struct TriangleQuality {
 
 //! Measures any mesh, manifold or not. Edges with one face or more than two are not tested for the
 //! Delaunay condition, and vertices in no face do not count.
-//!
 //! \param mesh  #V x 3 finite positions, #F x 3 indices in range; without faces all is 0.
 //! Cost: O(n log n).
 //! \throw Cancelled  the progress callback returned false.
@@ -41,10 +40,8 @@ struct TriangleQuality {
                                                 const Progress& progress = {});
 
 //! Pairs of faces (lower, higher), sorted, that meet in more than the vertices or the edge they
-//! share by index: they cross, touch, fold onto each other along their edge, or have the same
-//! corners. Decided exactly on the coordinates. Faces without area are skipped. Any mesh, manifold
-//! or not.
-//!
+//! share by index, or have the same corners. Exact on the coordinates, for any mesh. Faces without
+//! area are skipped.
 //! \param num_threads  >= 0; 0: all cores. Any number gives the same pairs.
 //! \throw Cancelled  the progress callback returned false.
 //! \return unset in a build without CGAL, whose box intersection and exact predicates are used.
@@ -91,7 +88,6 @@ struct SurfaceDistance {
 
 //! Compares two surfaces by stratified area-uniform samples and by their vertices. Faces without
 //! area are skipped.
-//!
 //! \return unset in a build without CGAL, whose AABB tree finds the closest points.
 //! \throw InvalidOption  samples < 1 or num_threads < 0.
 //! \throw InvalidInput   no face of a mesh has area.
@@ -100,13 +96,9 @@ struct SurfaceDistance {
 [[nodiscard]] std::optional<SurfaceDistance> surface_distance(
     const MeshView& original, const MeshView& result, const EvaluationOptions& options = {});
 
-//! An edge is sharp if its two faces meet at more than 40 degrees or if it has more than two faces;
-//! it is blunt above 25 degrees, so that an edge that is a little rounder in the other mesh is not
-//! missed. Points with equal coordinates count as one.
-//!
-//! A face of the original lower than 1e-6 diagonals (of the result 1e-9) has no direction: its
-//! edges take the normal of the face across its longest other side, so that slivers make no sharp
-//! edges.
+//! An edge is sharp if its faces meet at more than 40 degrees or are more than two, and blunt above
+//! 25 degrees. Points with equal coordinates count as one. A face of the original lower than 1e-6
+//! diagonals (of the result 1e-9) takes the normal of the face across its longest other side.
 struct FeatureCoverage {
     double length = 0;  //!< Of the original's sharp edges, mesh units.
     //! Share of it within .1 % of the diagonal of the result's blunt edges; 1 if there is none.
@@ -131,7 +123,6 @@ struct FeatureCoverage {
 
 //! Measures how well a result keeps the sharp edges and corners of the original. Shares refer to 20
 //! 000 points at equal distances along the edges.
-//!
 //! \param original, result  any triangles, manifold or not; indices in range, positions finite.
 //! \return nothing if the original has neither sharp edges nor corners.
 //! \throw Cancelled  the progress callback returned false.

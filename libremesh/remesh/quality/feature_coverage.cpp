@@ -1,6 +1,5 @@
-// Compares sharp edges by points: points at equal distances along the sharp edges of one mesh
-// count as covered if they lie near the blunt edges of the other. Corners count as kept if a
-// vertex of the result is near.
+// Points at equal distances along the sharp edges of one mesh count as covered near the blunt edges
+// of the other.
 #include "remesh/quality/evaluate.h"
 
 #include <algorithm>
@@ -12,6 +11,7 @@
 #include "agvd/core/random.h"
 #include "agvd/mesh/any_mesh.h"
 #include "agvd/mesh/scale.h"
+#include "remesh/curves/curve_network.h"
 #include "remesh/quality/point_distances.h"
 
 namespace remesh {
@@ -27,10 +27,6 @@ constexpr double near = 1e-3, very_near = 2e-4, near_corner = 5e-4;
 constexpr double narrow_original = 1e-6, narrow_result = 1e-9;
 
 constexpr Index num_points = 20'000;
-
-double angle_between(const Vec3& a, const Vec3& b) {
-    return std::atan2(a.cross(b).norm(), a.dot(b));
-}
 
 constexpr int most_steps = 6;  // Over narrow faces.
 

@@ -1,7 +1,5 @@
-// Finds pairs of faces with intersecting boxes (CGAL's box_self_intersection_d), then tests each
-// pair with exact predicates. Uses vertex indices instead of a half-edge structure, so that it
-// works on non-manifold meshes: the test depends on the corners that two faces have in common.
-// Candidates are tested in batches of bounded memory, in parallel chunks.
+// Exact predicates on pairs of faces whose boxes intersect, by vertex indices, so that it works on
+// non-manifold meshes. Candidates are tested in batches of bounded memory.
 #include "remesh/quality/evaluate.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>

@@ -1,6 +1,5 @@
-// Draws samples from each surface, stratified by area, and finds the closest points on the other
-// one with CGAL's AABB tree. Sums are taken by chunk in a fixed order, so that they do not depend
-// on the threads.
+// Samples stratified by area, and closest points by CGAL's AABB tree. Sums are taken by chunk in a
+// fixed order.
 #include "remesh/quality/evaluate.h"
 
 #include <CGAL/AABB_traits.h>

@@ -1,7 +1,6 @@
-// Walls are found by a few queries for each vertex of the result: from a point below the surface
-// the nearest point is the vertex itself, unless another sheet lies nearer. If that sheet
-// faces the other way, it is the far side of a wall. Walls of which only one side is in the result
-// are not seen, and a face that is turned over at the vertex is no far side.
+// From a point below the surface the nearest point is the vertex itself, unless another sheet is
+// nearer: the far side of a wall, if it faces the other way. Walls with one side in the result are
+// not seen.
 #include "remesh/quality/evaluate.h"
 
 #include <algorithm>

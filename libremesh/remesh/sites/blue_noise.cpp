@@ -1,7 +1,5 @@
-// Random points of a component, and blue noise by weighted sample elimination ([yuksel2015]): a
-// queue holds the points by the weights of their neighbours, and the most crowded point is removed.
-// Neighbours come from a uniform grid. The paper's r_max, r_min, alpha, beta and gamma have their
-// names here.
+// Random points, and weighted sample elimination ([yuksel2015]) with the paper's names r_max,
+// r_min, alpha, beta, gamma. Neighbours come from a uniform grid.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -117,11 +115,9 @@ Grid build_grid(const Surface& surface, std::span<const ScatteredPoint> points,
         const auto [cell, i] = keys[slot];
         ticker.tick();
         if (!unit.empty()) grid.unit.push_back(unit[i]);
-        const Triangle& t = surface.mesh.triangles[points[i].point.face.value()];
-        const auto& p = surface.mesh.positions;
         grid.order.push_back(i);
         grid.position.push_back(points[i].position);
-        grid.normal.push_back((p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]).normalized());
+        grid.normal.push_back(facing_at(surface, points[i].point));
         if (slot == 0 || cell != keys[slot - 1].first) {
             grid.around.push_back(runs_around(keys, cell));
         }

@@ -18,11 +18,9 @@ struct PreparedSurface;
 
 namespace remesh::detail {
 
-//! The squared distance of a point from the planes of the faces in a cell. In a planar cell, moves
-//! in the plane cost nothing; in a creased cell, the crease is nearest to all planes.
-//!
-//! A quadric ([garland1997]): x^T `spread` x - 2 x^T `lift` + `constant` is the integral over the
-//! cell of the squared distance of x from the planes.
+//! A quadric ([garland1997]): x^T `spread` x - 2 x^T `lift` + `constant` is the integral over a
+//! cell of the squared distance of x from the planes of its faces. Moves within a plane cost
+//! nothing.
 struct CellPlanes {
     Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();  //!< Integral of n n^T, square mesh units.
     Vec3 lift = Vec3::Zero();                          //!< Integral of n n^T p, p on the surface.
@@ -48,9 +46,8 @@ struct CellPlanes {
     }
 };
 
-//! Faces shared out among threads that add up what labels hold of the surface. Labels count off by
-//! part; a part has the faces with a corner of its labels, ascending. So sums of labels run in the
-//! order of the faces, whatever the number of threads.
+//! Shares faces out among threads by their labels; a part has the faces with a corner of its
+//! labels, ascending, so that sums do not depend on the number of threads.
 class FaceParts {
 public:
     //! \param label        #V of the surface; no_index: none. Outlives this, as `surface`.

@@ -1,7 +1,5 @@
-// On a small patch the normal is a linear function of the position, whose singular values are the
-// principal curvatures: variances of normals and positions are in the ratio of their mean square.
-// Faces of the input are cut into pieces much smaller than a cell; a piece belongs to the cell of
-// the base's vertex nearest to it in its face.
+// On a small patch the normal is linear in the position: variances of normals and positions are in
+// the ratio of the mean square of the principal curvatures.
 #include <algorithm>
 #include <cmath>
 #include <functional>

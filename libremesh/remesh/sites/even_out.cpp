@@ -1,7 +1,5 @@
-// Passes from coarse to fine: components first, then regions of ever fewer sites. A pass compares
-// the number of sites in each region with its share by a chi-square test. If the sites are less
-// even than random points, random sites of crowded regions move to random points of others. Regions
-// are the cells of vertices that are far apart.
+// Passes from coarse to fine: if the sites of regions are less even than random points (chi-
+// square), random ones move from crowded regions to others.
 #include <algorithm>
 #include <cmath>
 #include <numeric>

@@ -1,6 +1,5 @@
-// Each component becomes a surface of its own, with long edges split. Upper bounds of the distance
-// from the points are kept at its vertices (BoundsSearch). Each step takes the farthest
-// vertex, draws a random point next to it and updates the bounds ([eldar1997], [moenning2003]).
+// Each component becomes a surface with long edges split, at whose vertices bounds of the distance
+// are kept ([eldar1997], [moenning2003]).
 #include <algorithm>
 #include <functional>
 #include <unordered_set>

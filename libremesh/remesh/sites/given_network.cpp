@@ -1,6 +1,5 @@
-// Finds the network, puts each site near one of its edges onto that edge, and tests for each curve
-// whether its sites carry it. Dropping a crease changes the network, so this is repeated until
-// nothing is dropped. A position is a length along a curve, in mesh units.
+// Dropping a crease changes the network, so this is repeated until nothing is dropped. A position
+// is a length along a curve, mesh units.
 #include <algorithm>
 
 #include "agvd/mesh/closest_point.h"
@@ -117,8 +116,7 @@ struct Carrier {
         }
     }
 
-    // Repeated for each network: a site at a vertex lies on several edges, and is put onto the
-    // first of these that belongs to the network.
+    // A site at a vertex lies on several edges: it goes onto the first of the network.
     void find_common_positions() {
         std::vector<std::uint8_t> is_network = is_crease;
         for (Index e = 0; e < surface.num_edges(); ++e) {

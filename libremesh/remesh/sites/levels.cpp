@@ -1,11 +1,6 @@
-// A level takes steps on the triangulation of the sites. After every ten it labels the vertices of
-// the base again: labels give the density of the cells and sites that belong on the boundary, and
-// replace the triangulation if it has flaws.
-//
-// Bad starts are evened out first. Sampled sites start with a quarter of their number, are relaxed,
-// and get the others in the middles between neighbours. If their triangulation does not resemble
-// the surface, all sites are sampled at once; if that of all sites does not either, they are not
-// relaxed.
+// A level takes steps on the triangulation of the sites, and labels the vertices anew after every
+// ten. Sampled sites start with a quarter of their number. A start whose triangulation does not
+// resemble the surface is sampled at once, or not relaxed.
 #include "remesh/sites/levels.h"
 
 #include <algorithm>
@@ -20,6 +15,7 @@
 #include "agvd/propagation/propagate.h"
 #include "remesh/curves/glue.h"
 #include "remesh/dual/build_dual.h"
+#include "remesh/sites/shares.h"
 #include "remesh/sites/site_dual.h"
 #include "remesh/sites/size_field.h"
 
@@ -150,10 +146,10 @@ void Levels::sweep(Relaxation& relaxation, std::span<const Index> corners,
     const bool is_cheap = gives_neighbours(surface_, num_sites);
     // Not with curves, which hold the triangulation together: it costs more than it gains.
     const bool is_useful =
-        chain.empty() && num_mended_ < result_.levels.size() && flaws > most_flaws * num_sites;
+        chain.empty() && num_repaired_ < result_.levels.size() && flaws > most_flaws * num_sites;
     if (flaws > 0 && (is_cheap || is_useful)) {
-        if (!is_cheap) num_mended_ = result_.levels.size();
-        relaxation.mend(triangulate(labels, relaxation.sites(), chain));
+        if (!is_cheap) num_repaired_ = result_.levels.size();
+        relaxation.repair(triangulate(labels, relaxation.sites(), chain));
     }
     look(relaxation, labels, corners);
 }
@@ -171,9 +167,8 @@ using detail::Relaxation;
 constexpr std::size_t least_coarse_sites = 32;
 // Slightly more coarse sites than a quarter, as some pairs may lack a middle.
 constexpr double coarse_margin = 1.002;
-// A loop of the boundary needs three sites even if it is shorter than three spacings. Where this
-// takes more than this share of the coarse sites, middles between them would crowd at small holes
-// and leave too few sites elsewhere.
+// A loop of the boundary needs three sites, however short. Where this takes more than this share of
+// the coarse sites, middles between them would crowd at small holes.
 constexpr double most_crowded = 0.05;
 constexpr double least_sites_of_loop = 3;
 
@@ -198,8 +193,7 @@ double num_crowded(const Surface& surface, Index num_sites) {
     const double spacing = mean_spacing(surface, num_sites);
     double sum = 0;
     for (const std::vector<Index>& loop : boundary_loops(surface)) {
-        double length = 0;
-        for (const Index h : loop) length += surface.length_of(h);
+        const double length = detail::sized_length(surface, loop, nullptr);
         sum += std::max(least_sites_of_loop - length / spacing, 0.0);
     }
     return sum;

@@ -8,12 +8,9 @@
 
 namespace remesh::detail {
 
-//! Moves sites from crowded regions to sparse ones, which would take relaxation long: a Lloyd step
-//! evens out neighbours only, and unevenness over w cells takes some w^2 steps. The surface is
-//! divided into regions of similar size, large ones first. If the sites are spread over these less
-//! evenly than random points, random sites of crowded regions move to random points of the others.
-//! Sites at the position of another one, which relaxation cannot separate, move first. Starts as
-//! even as random ones do not change.
+//! Moves random sites from crowded regions to sparse ones, where they are less even than random
+//! points: a Lloyd step evens out neighbours only. Of several sites at one position all but one
+//! move. Starts as even as random ones do not change.
 //!
 //! Sites on the boundary stay. A component keeps its number of sites unless that is further from
 //! its share than chance explains.
@@ -46,7 +43,6 @@ public:
     [[nodiscard]] const Progress& progress() const { return progress_; }
 
     //! Takes steps until they gain too little or all are done.
-    //!
     //! \param labels   of the sites; null: the relaxation has its weights already.
     //! \param corners  boundary vertices to which sites move; found at the spacing of these sites.
     //! \param chain    edges of curves that the relaxation holds.
@@ -57,7 +53,6 @@ public:
 
     //! The triangulation of the sites: by labels, or from the diagram if faces are too large for
     //! labels.
-    //!
     //! \param labels  of the base's vertices.
     //! \param chain   edges that its rim is to have.
     [[nodiscard]] std::vector<Triangle> triangulate(const DistanceBounds& labels,
@@ -82,7 +77,7 @@ private:
     bool has_boundary_;
     int steps_planned_;
     int steps_done_ = 0;
-    std::size_t num_mended_ = 0;  // Levels up to the last one that used a propagation.
+    std::size_t num_repaired_ = 0;  // Levels up to the last one that used a propagation.
     RelaxResult result_;
 };
 

@@ -1,7 +1,5 @@
-// The spacing is found by bisection: the smaller it is, the more sites curves and patches need.
-// Curves count the sites that are placed on them, patches those of a mesh of equilateral triangles
-// (inner_sites). If the curves alone need too many sites, a tenth of the creases is dropped at a
-// time.
+// The spacing is found by bisection. If the curves alone need too many sites, a tenth of the
+// creases is dropped at a time.
 #include "remesh/sites/network_plan.h"
 
 #include <algorithm>

@@ -26,11 +26,9 @@ struct NetworkPlan {
     [[nodiscard]] bool empty() const { return network.curves.empty() && network.nodes.empty(); }
 };
 
-//! Finds the network of boundary, creases and junctions, and the spacing at which curves and
-//! patches together have num_vertices vertices. If these are too few for all curves, the shortest
-//! creases are dropped first. If they are too few for the junctions alone, all junctions are
-//! dropped. If they are too few for what is locked, the plan is empty.
-//!
+//! Finds the network, and the spacing at which curves and patches together have num_vertices
+//! vertices. If these are too few, the shortest creases are dropped; if too few for the junctions,
+//! all of these; if too few for what is locked, the plan is empty.
 //! \param is_crease     #E: 1 for the edges of creases.
 //! \param num_vertices  of the result: see num_curve_vertices.
 //! \param drop_share    in [0, 1]: share of the creases to drop in any case, shortest first.
@@ -55,7 +53,6 @@ struct NetworkPlan {
 }
 
 //! Drops the shortest creases of a network.
-//!
 //! \param share      in [0, 1]: share of their number, rounded up.
 //! \param is_crease  #E; edited in place.
 void drop_shortest(const Surface& surface, const CurveNetwork& network, double share,
@@ -88,13 +85,10 @@ struct GivenNetworkOptions {
     Progress progress = {};
 };
 
-//! A site on an edge or vertex of the network, up to the tolerance, becomes a vertex of the
-//! network. Of several sites at one position only the first does; the others are left out. Sites
-//! carry a curve if one lies at each end, as many lie between as a triangulation needs, and no gap
-//! is above four spacings. Creases that are not carried are dropped. All creases are dropped if
-//! part of the boundary is not carried, since cells distinguish creases from the boundary by their
-//! sites alone.
-//!
+//! A site on the network, up to the tolerance, becomes a vertex of it; of several at one position
+//! only the first. Sites carry a curve if one lies at each end, enough between for a triangulation,
+//! and no gap is above four spacings. Other creases are dropped: all, if part of the boundary is
+//! not carried, since only sites tell creases from it.
 //! \param is_crease  #E: 1 for the edges of creases.
 //! \param sites      on the surface, no two at one position.
 //! \throw Cancelled  the progress callback returned false.

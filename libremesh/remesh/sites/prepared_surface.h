@@ -51,7 +51,6 @@ private:
 [[nodiscard]] double mean_spacing(const Surface& surface, std::size_t num_sites);
 
 //! Transfers numbers of the input's components to the base's faces.
-//!
 //! \param of_face  #F of the input: equal on all faces of a component.
 //! \return #F of the base.
 //! \throw Cancelled  the progress callback returned false.

@@ -1,8 +1,6 @@
-// The sites of curves move along the curves, inner ones inside patches, on a surface that is cut
-// along the network. A coarse level has half the intervals of each curve and about a quarter of the
-// inner sites. Its triangulation is divided at the middles of its edges; on curves these are the
-// sites of the fine level. The rim of each patch must consist of the intervals of its curves, or
-// the patch is triangulated in another way.
+// Sites of curves move along these, inner ones inside patches of the cut surface. A coarse level
+// has half the intervals and a quarter of the inner sites. The rim of each patch must be the
+// intervals of its curves, or it is triangulated in another way.
 #include "remesh/sites/relax_network.h"
 
 #include <algorithm>
@@ -202,11 +200,10 @@ public:
 
 private:
     // Replaces the triangles of patches whose rim is not their chain.
-    //
     // \param instead  gives other triangles for a patch, which may have a wrong rim too.
     template <typename Instead>
-    void mend_patches(std::span<const ChainEdge> chain, std::span<const SurfacePoint> sites,
-                      std::vector<Triangle>& triangles, const Instead& instead) const {
+    void repair_patches(std::span<const ChainEdge> chain, std::span<const SurfacePoint> sites,
+                        std::vector<Triangle>& triangles, const Instead& instead) const {
         const std::vector<std::vector<Triangle>> by_patch = sort_by_patch(triangles, sites);
         const auto part_of = [&](Index site) { return patch_of(sites[site]); };
         const auto wanted = chain_by_part(chain, patch_.count, part_of);
@@ -226,9 +223,9 @@ private:
         return result;
     }
 
-    // The patch thinned to its sites; empty if that leaves other vertices.
-    [[nodiscard]] std::vector<Triangle> thin(Index patch,
-                                             std::span<const SurfacePoint> sites) const {
+    // The patch simplified to its sites; empty if that leaves other vertices.
+    [[nodiscard]] std::vector<Triangle> simplified(Index patch,
+                                                   std::span<const SurfacePoint> sites) const {
         std::vector<SurfacePoint> points;
         std::vector<Index> number;
         for (Index i = 0; i < sites.size(); ++i) {
@@ -236,12 +233,12 @@ private:
             points.push_back(surface_.base.to_intrinsic(sites[i]));
             number.push_back(i);
         }
-        SimplifiedMesh thinned = thin_patch(surface_.base.surface(), faces_[patch], points);
-        if (!thinned.extra.empty()) return {};
-        for (Triangle& t : thinned.triangles) {
+        SimplifiedMesh simple = simplify_patch(surface_.base.surface(), faces_[patch], points);
+        if (!simple.extra.empty()) return {};
+        for (Triangle& t : simple.triangles) {
             for (Index& i : t) i = number[i];
         }
-        return std::move(thinned.triangles);
+        return std::move(simple.triangles);
     }
 
     [[nodiscard]] Index patch_of(const SurfacePoint& site) const {
@@ -274,7 +271,8 @@ private:
         const std::vector<ChainEdge> chain = chain_edges(plan_.network, plan_.cut, curves);
         const DistanceBounds labels = levels_.label(sites);
         std::vector<Triangle> triangles = levels_.triangulate(labels, sites, chain);
-        mend_patches(chain, sites, triangles, [&](Index patch) { return thin(patch, sites); });
+        repair_patches(chain, sites, triangles,
+                       [&](Index patch) { return simplified(patch, sites); });
         auto relaxation = make_relaxation({std::move(sites), std::move(triangles)}, curves);
         levels_.run(*relaxation, &labels, {}, chain);
         return relaxation;
@@ -306,8 +304,8 @@ private:
             detail::label_dual(surface_.base, levels_.label(first.sites()), true);
         close_rim(ends_of(chain), dual.triangles);
         const auto relaxed = sort_by_patch(first.triangles(), first.sites());
-        mend_patches(chain, first.sites(), dual.triangles,
-                     [&](Index patch) { return relaxed[patch]; });
+        repair_patches(chain, first.sites(), dual.triangles,
+                       [&](Index patch) { return relaxed[patch]; });
         MiddleFinder{plan_, chain, first.sites(), options_.sizes}.run(refinement, dual);
         // The sites in the order of the fine level. New curve sites have no triangle yet.
         std::vector<SurfacePoint> sites = fine_.sites;

@@ -16,7 +16,6 @@ struct NetworkSites {
 
 //! Samples and relaxes sites, coarse to fine; sites of curves slide along these. The result has
 //! sampling.num_samples vertices: a site of a curve counts as often as it becomes a vertex.
-//!
 //! \param surface   of plan.cut.surface.
 //! \param plan      its network needs at most sampling.num_samples vertices.
 //! \param options   boundary and corners are ignored.
@@ -27,7 +26,6 @@ struct NetworkSites {
                                                 const RelaxOptions& options);
 
 //! The same from given sites, on one level.
-//!
 //! \param curves  sites of plan.network.
 //! \param inner   the other sites: inside faces, or on edges and vertices off the curves.
 [[nodiscard]] NetworkSites relax_network_sites(const PreparedSurface& surface,

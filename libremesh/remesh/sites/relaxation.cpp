@@ -1,7 +1,5 @@
-// A step moves each site by Newton's method for its own cell: against the gradient of the energy
-// (cvt_energy.h) plus the weighted squared distance from the planes of the cell (cell_planes.h),
-// divided by the stiffness of both. Part of the last move is added unless that leads uphill. Moves
-// that turn triangles over are undone; then edges are flipped towards Delaunay.
+// A step moves each site by Newton's method for its own cell: the energy plus the weighted squared
+// distance from the planes of the cell. Moves that turn triangles over are undone.
 #include "remesh/sites/relaxation.h"
 
 #include <algorithm>
@@ -28,15 +26,12 @@ constexpr int most_rounds = 3;
 constexpr int most_flip_rounds = 10;
 // Sites of a parallel chunk.
 constexpr Index sites_per_task = 256;
-// A cell that holds k times as much of the surface as of the triangulation should have 1 / k of the
-// area. The area goes as 1 / sqrt(density), so the density should grow by k^2. Half a power more
-// compensates for the small number of steps.
+// Area goes as 1 / sqrt(density), so a cell with k times the surface needs k^2; half a power more
+// makes up for the few steps.
 constexpr double area_power = 2.5;
 constexpr double most_area_ratio = 4;
-// The distance from the surface is least if the size of cells goes as the cubic root of the radius
-// of curvature: the density as curvature^(4/3). The bending of cells of one size goes as
-// curvature^2, hence the power. Smaller cells bend less, so that the density that results from
-// several steps grows more slowly with the curvature. Below `even_bending` all cells are alike.
+// The best density is curvature^(4/3), and the bending of cells of one size curvature^2. Below
+// `even_bending` all cells are alike.
 constexpr double bending_power = 2.0 / 3;
 constexpr double even_bending = 0.05;
 // Weight of the squared distances from the planes of a cell, relative to those from its points.
@@ -101,7 +96,7 @@ void Relaxation::find_stuck() {
     }
 }
 
-void Relaxation::mend(const std::vector<Triangle>& triangles) {
+void Relaxation::repair(const std::vector<Triangle>& triangles) {
     const Index flaws = num_flaws();
     SiteMesh before = std::move(mesh_);
     take_triangles(triangles);
@@ -220,10 +215,7 @@ double Relaxation::objective() const {
 }
 
 void Relaxation::locate(Index i) {
-    const Index f = sites_[i].face.value();
-    const auto& p = surface_.mesh.positions;
-    const Triangle& t = surface_.mesh.triangles[f];
-    facing_[i] = (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]).normalized();
+    facing_[i] = facing_at(surface_, sites_[i]);
     at_[i] = position(surface_.mesh.view(), sites_[i]);
     boundary_[i] = boundary_half_edge(surface_, sites_[i]).value_or(no_index);
 }

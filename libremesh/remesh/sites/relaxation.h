@@ -4,57 +4,20 @@
 
 #include <optional>
 
-#include "remesh/curves/curve_sites.h"
 #include "remesh/sites/cell_measures.h"
-#include "remesh/sites/site_mesh.h"
+#include "remesh/sites/curve_motion.h"
 
 namespace remesh::detail {
 
-//! Moves sites along their curves, all copies of a site together.
-class CurveMotion {
-public:
-    //! \param surface  of the network, whole or cut; outlives this, as does the network.
-    CurveMotion(const Surface& surface, const CurveNetwork& network, CurveSites sites);
-
-    [[nodiscard]] const CurveSites& sites() const { return sites_; }
-    [[nodiscard]] Index num_copies() const { return static_cast<Index>(sites_.sites.size()); }
-
-    //! Computes the slope of the energy along the curves from the cells of all copies.
-    //!
-    //! \param cells  #sites; the copies come first.
-    //! \return the sum of slope times last move.
-    double measure(std::span<const CvtEnergy::Cell> cells);
-    //! Moves all groups but nodes by `stretch` times Newton's step plus `keep` times the last move,
-    //! but not past their neighbours.
-    void step(double stretch, double keep);
-    //! Undoes the last move of the group that has this copy.
-    void take_back(Index copy);
-    //! The copies in the group of this one: [first, last).
-    [[nodiscard]] std::pair<Index, Index> copies_with(Index copy) const {
-        return {sites_.first_copy[group_[copy]], sites_.first_copy[group_[copy] + 1]};
-    }
-
-private:
-    const Surface& surface_;
-    const CurveNetwork& network_;
-    CurveSites sites_;
-    std::vector<Index> group_;  // By copy.
-    std::vector<Index> curve_;  // By group; no_index: it does not move.
-    std::vector<double> half_slope_, stiffness_, move_, along_before_;  // By group.
-};
-
-//! Lloyd's method with momentum, on the triangulation of the sites instead of their geodesic
-//! Voronoi diagram: a step costs a few hundredths of a propagation. Cells are those of the
-//! triangulation, which flips keep Delaunay. Sites walk on the surface itself.
+//! Lloyd's method with momentum, on the triangulation of the sites, which flips keep Delaunay: a
+//! step costs a few hundredths of a propagation. Sites walk on the surface.
 //!
-//! A triangulation misses what its triangles cut off, such as the tip of an ear, and sites would
-//! leave such regions. So cells weigh more if they hold more of the surface than of the
-//! triangulation, or if they are bent.
+//! Cells weigh more if they hold more of the surface than of the triangulation, or are bent: sites
+//! would leave such regions, as the tip of an ear.
 class Relaxation {
 public:
     //! Sites on the boundary stay on it. Sites at boundary vertices do not move, nor do sites in no
     //! triangle, nor inner sites around which triangles do not close.
-    //!
     //! \param start     its weights are the density at the start.
     //! \param is_fixed  #sites: 1 for sites that stay; or empty.
     //! \param progress  outlives this; polled by all long operations. If one of these throws
@@ -63,14 +26,12 @@ public:
                int num_threads, const Progress& progress);
 
     //! From now on sites of curves, which come first, slide along these; those at nodes stay.
-    //!
     //! \param network  outlives this.
     //! \param curves  its sites: the first ones of all.
     void hold(const CurveNetwork& network, CurveSites curves);
 
     //! Sets the density by what the cells hold of the surface, by target lengths, or both: then
     //! bent cells are not smaller than others.
-    //!
     //! \param cells   null: target lengths alone.
     //! \param length  #sites: in any unit; or empty.
     void set_density(const CellMeasures* cells, std::span<const double> length);
@@ -80,12 +41,11 @@ public:
     //! The number of these and of sites around which triangles do not close.
     [[nodiscard]] Index num_flaws() const { return num_stuck_ + num_turned(); }
     //! Replaces the triangles if the new ones have fewer flaws.
-    void mend(const std::vector<Triangle>& triangles);
+    void repair(const std::vector<Triangle>& triangles);
 
     //! Moves sites at the rim of the triangulation to their points on the boundary. Sites already
     //! on the boundary move only if their point is a vertex. Sites at a vertex stay there from then
     //! on. Drops triangles along the boundary that have become degenerate.
-    //!
     //! \param points  #sites; empty for sites without one.
     void move_to_boundary(std::span<const std::optional<SurfacePoint>> points);
 

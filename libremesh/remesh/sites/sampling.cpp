@@ -1,6 +1,4 @@
-// Shares the sites among components by area and boundary length (shares.h). For each component
-// places sites on the boundary loops, then inner sites: random ones (scatter), blue noise
-// (eliminate) or farthest points.
+// Boundary loops get their sites first, then the inside of each component.
 #include "remesh/sites/sampling.h"
 
 #include <algorithm>

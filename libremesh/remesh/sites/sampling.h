@@ -23,7 +23,6 @@ namespace remesh {
                                               const std::vector<Index>& loop, double spacing);
 
 //! Places sites strictly inside the faces of a surface whose boundary has its sites already.
-//!
 //! \param rim      sites on the boundary, from which inner ones keep a distance.
 //! \param count    of inner sites; shared by how many each component lacks at this spacing.
 //! \param spacing  > 0: of all sites, in mesh units or in local lengths.
@@ -65,10 +64,8 @@ struct ScatteredPoint {
                                                   std::uint64_t stream,
                                                   const SamplingOptions& options);
 
-//! Weighted sample elimination ([yuksel2015]): removes one by one the most crowded point, which has
-//! the largest sum of its neighbours' weights (the last of equals). It stops when `keep` points are
-//! left besides the last `num_fixed`, which have weight for others and stay.
-//!
+//! Weighted sample elimination ([yuksel2015]): removes the most crowded point (of equals the last)
+//! until `keep` are left besides the last `num_fixed`, which stay.
 //! \param spacing  distance of the kept points in the densest packing.
 //! \param unit     #points: of distances between a point and its neighbours; empty: mesh units. It
 //!                 must not change much over a spacing.
@@ -81,13 +78,9 @@ struct ScatteredPoint {
                                                   std::span<const double> unit = {});
 
 //! Farthest point sampling ([eldar1997], on surfaces [moenning2003]): places `count` points
-//! strictly inside faces, each where the component is farthest from the earlier points and from
-//! `fixed`. If there are no fixed points, the first one is random. The first k points are those of
-//! a call for k points, as long as both use the same vertices (below).
-//!
-//! Distances follow edges and straight lines across them, and are a few per cent too long. Long
-//! edges are split first, so that there are several vertices for each point. A point lies next to
-//! the farthest vertex, not on it, so that ties are rare.
+//! strictly inside faces, each next to the vertex that is farthest from the earlier points and from
+//! `fixed`; without fixed points the first one is random. Distances follow edges and lines across
+//! them: a few per cent too long. Long edges are split first.
 //! \param fixed    points of the component.
 //! \param spacing  > 0: expected distance of neighbours at the end, in mesh units or in local
 //!                 lengths, as distances are.

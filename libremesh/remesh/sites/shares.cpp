@@ -33,9 +33,8 @@ double local_length(const Surface& surface, Index h, const SizeField* sizes) {
     return length * sum / parts;
 }
 
-// Gives parts that have less than they want as much, from what others have beyond that. At most a
-// quarter of all is given away; if that is not enough, every part gets the same share of what it
-// lacks. The sum of `quota` stays.
+// Gives parts that have less than they want from what others have beyond that, at most a quarter of
+// all; if that is not enough, equal shares of what they lack.
 void lift_small(std::span<const Index> wanted, std::vector<Index>& quota) {
     std::vector<double> lacking, spare;
     double all_lacking = 0, all_spare = 0, all = 0;

@@ -11,10 +11,7 @@
 namespace remesh {
 
 //! No simplicial surface of this genus and number of boundary loops has fewer vertices: 4 for the
-//! sphere, 7 for the torus, 3 for the disc, 6 for the open tube. Every closed surface can be built
-//! with this number ([jungerman1980]). For surfaces with boundary it is a lower bound from counting
-//! edges.
-//!
+//! sphere, 7 for the torus, 3 for the disc. Closed ones can be built with it ([jungerman1980]).
 //! \param genus, boundary_loops  >= 0, of one connected component.
 [[nodiscard]] Index minimum_samples(int genus, int boundary_loops);
 
@@ -55,12 +52,9 @@ void set_areas(std::vector<Component>& components, std::span<const double> area_
 //! The sum of minimum_samples over the components.
 [[nodiscard]] std::uint64_t needed_samples(const std::vector<Component>& components);
 
-//! The sites of each component: what its topology needs, and a share of the rest in proportion to
-//! the vertices that a mesh of equilateral triangles would have there. Of several components small
-//! ones get up to four times what their topology needs, so that they can be recognised. Fewer
-//! samples than needed_samples are all shared in that proportion, so that some components may get
-//! none.
-//!
+//! The sites of each component: what its topology needs, and a share of the rest by the vertices of
+//! a mesh of equilateral triangles. Small ones of several get up to four times what they need.
+//! Fewer than needed_samples are all shared in that proportion: some components may get none.
 //! \param boundary_length  #components, mesh units: of the boundary on which sites lie.
 [[nodiscard]] std::vector<Index> share_out(const std::vector<Component>& components,
                                            std::span<const double> boundary_length,

@@ -1,9 +1,6 @@
-// Labels are a site and an upper bound of its distance for each vertex of the base. Two labels meet
-// on an edge where both distances are equal. Notation: u, v are the ends of an edge, h a half-edge.
-//
-// Subdivision adds the middles of the longest pairs of neighbours as sites, and divides each
-// triangle at its middles. If the middles are too few, the largest triangles get a site in their
-// centre. So new sites inside the surface get six neighbours, and old ones keep their number.
+// Two labels meet on an edge where both distances are equal. u, v: ends of an edge; h: a half-edge.
+// Subdivision divides triangles at the middles of the longest edges: new inner sites get six
+// neighbours, old ones keep their number.
 #include "remesh/sites/site_dual.h"
 
 #include <algorithm>

@@ -13,7 +13,6 @@ namespace remesh::detail {
 
 //! Labels by distances along edges and straight across them: a few per cent too long, at the cost
 //! of two sweeps over the edges.
-//!
 //! \return  the labels of the vertices of surface.base.
 [[nodiscard]] DistanceBounds label_vertices(const PreparedSurface& surface,
                                             std::span<const SurfacePoint> sites, int num_threads,
@@ -41,7 +40,6 @@ struct SiteDual {
 };
 
 //! The triangulation by labels, with the middles of its edges.
-//!
 //! \param keeps_inside  true: no middle lies on the boundary.
 //! Cost: sorting the edges whose ends have two labels.
 [[nodiscard]] SiteDual label_dual(const IntrinsicTriangulation& base, const DistanceBounds& labels,
@@ -50,7 +48,6 @@ struct SiteDual {
 //! For each site the corner that it labels; otherwise the point on the boundary that is nearest by
 //! its labels, off the vertices, so that the site can move along. Empty for sites that label no
 //! boundary vertex.
-//!
 //! \param corners  boundary vertices. If a site labels several, the first one counts.
 //! Cost: O(#V + #sites).
 [[nodiscard]] std::vector<std::optional<SurfacePoint>> boundary_points(
@@ -60,7 +57,6 @@ struct SiteDual {
 //! Adds sites in the middles between neighbours, so that most sites have six neighbours. If these
 //! are too many, the closest pairs get none; if they are too few, the largest triangles get one
 //! site each. Nothing if that is not enough for `count` sites.
-//!
 //! \param weights  #sites; new ones get the mean of the sites around them.
 //! \param unit     #sites: of lengths at each; empty: mesh units.
 //! Cost: O(n log n).

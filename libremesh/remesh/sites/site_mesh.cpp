@@ -1,11 +1,6 @@
-// Flips are one pass over the edges: those with a negative sum of cotangents, as measured before,
-// are tested again and flipped unless that folds the mesh or repeats an edge. In comments a, b are
-// the ends of an edge and c, d the corners opposite.
-//
-// For the energy each triangle is divided at its circumcentre into six right triangles, two for
-// each edge, one in the cell of either end. Energy, mass and gradient are sums over these.
-// Notation: `up` is the unit normal of a triangle, `cotangent` that of the angle opposite an edge,
-// mass the area times density.
+// a, b: ends of an edge; c, d: corners opposite; up: unit normal; cotangent: of the angle opposite
+// an edge; mass: area times density. For the energy each triangle is divided at its circumcentre
+// into six right triangles, two for each edge.
 #include "remesh/sites/site_mesh.h"
 
 #include <algorithm>
@@ -74,9 +69,8 @@ struct Flipper {
     }
 };
 
-// Cotangents beyond which a triangle is nearly degenerate. It is left out of the energy, which
-// would be unbounded. Inside the mesh, neighbours compensate for a circumcentre far outside; at the
-// rim there are none, so an angle of 11 or 169 degrees is enough there.
+// Beyond these a triangle is nearly degenerate and left out of the energy, which would be
+// unbounded. At the rim no neighbours compensate, so 11 or 169 degrees are enough.
 constexpr double flat_cotangent = 50;
 constexpr double flat_cotangent_at_rim = 5;
 

@@ -38,7 +38,6 @@ struct SiteMesh {
 
 //! Flips the edges whose opposite angles (in space) sum to more than pi, unless that would fold the
 //! mesh or join two sites twice. Edges that fail only after another flip wait for the next call.
-//!
 //! \param cotangent  #H: of the angle opposite, as it is now.
 //! Returns the number of flips. Cost: O(n).
 Index flip_towards_delaunay(SiteMesh& mesh, std::span<const Vec3> positions,
@@ -61,7 +60,6 @@ struct CvtEnergy {
 };
 
 //! Fills `result` and reuses its memory.
-//!
 //! \param mesh    Delaunay or nearly so: a circumcentre outside its triangle gives negative areas,
 //!                for which neighbours compensate.
 //! \param weight  #sites: density, > 0; linear in between.
@@ -73,7 +71,6 @@ void measure_energy(const SiteMesh& mesh, std::span<const Vec3> positions,
                     CvtEnergy& result);
 
 //! Fills `turned` with the triangles that face against the surface or are degenerate, ascending.
-//!
 //! \param facing  #sites: normals of the surface.
 //! Cost: O(n).
 void find_turned(const SiteMesh& mesh, std::span<const Vec3> positions,

@@ -48,17 +48,12 @@ struct SamplingOptions {
 };
 
 //! Places exactly num_samples points, no two at one position, component by component (by lowest
-//! face). Every connected component first gets what its topology needs (minimum_samples); the rest
-//! is shared by area, and by length of boundary if sites lie on it. Of several components small
-//! ones get up to four times what their topology needs, so that they can be recognised. Fewer
-//! samples than all topologies need are shared by size alone: components may get none. Points lie
-//! strictly inside faces, except those of Boundary::Keep, which come first: corners,
-//! and points at equal distances between them. Blue noise is chosen from five times as many
-//! area-uniform points by weighted sample elimination ([yuksel2015]); points on opposite walls of a
-//! thin part do not repel each other. Farthest points use distances on the surface, along edges and
-//! across them ([eldar1997], [moenning2003]). They begin from the points on the boundary, or from a
-//! random one if there are none, and leave the smallest gaps of the three.
-//!
+//! face). Each gets what its topology needs (minimum_samples), small ones up to four times that;
+//! the rest is shared by area, and by boundary if sites lie on it. Too few for all topologies are
+//! shared by size alone. Points lie strictly inside faces, except those of Boundary::Keep, which
+//! come first: corners, and points at equal distances between them. Points on opposite walls of a
+//! thin part do not repel each other in blue noise. Farthest points begin from the boundary or a
+//! random point.
 //! \throw InvalidOption    num_samples < 1 or > 8e8, or num_threads < 0.
 //! \throw InvalidInput     the surface has no face.
 //! \throw ConstraintUnmet  a component is too small, compared with its coordinates, to hold
@@ -110,10 +105,9 @@ struct RelaxResult {
     std::vector<RelaxLevel> levels;   //!< Coarse to fine.
 };
 
-//! Lloyd's method with momentum: sites move towards the centroids of their cells, along the
-//! surface. Sites on the boundary (barycentric coordinates of exactly 0) stay on it; sites at
-//! boundary vertices do not move. The start may be as uneven as all sites at one position: sites
-//! that are spread less evenly than random points, at any scale, are redistributed first.
+//! Lloyd's method with momentum, along the surface. Sites on the boundary (barycentric coordinates
+//! of exactly 0) stay on it, those at boundary vertices do not move. The start may be as uneven as
+//! all sites at one position.
 //!
 //! Sites that are too few for their triangulation to resemble the surface are not relaxed.
 //! \param surface  prepared for the spacing of the sites.
@@ -126,11 +120,9 @@ struct RelaxResult {
                                       std::vector<SurfacePoint> sites,
                                       const RelaxOptions& options = {});
 
-//! sample_sites and relax_sites in one, coarse to fine: a quarter of the sites is sampled and
-//! relaxed, the others are added in the middles between neighbours, and all are relaxed. Then most
-//! sites have six neighbours. If there are too few sites or vertices for that, the two functions
-//! are called in turn.
-//!
+//! sample_sites and relax_sites in one, coarse to fine: a quarter of the sites is relaxed, the
+//! others are added between neighbours, and most get six of these. Too few sites or vertices: in
+//! turn.
 //! \throw as these two functions.
 [[nodiscard]] RelaxResult sample_relaxed_sites(const PreparedSurface& surface,
                                                const SamplingOptions& sampling,

@@ -14,11 +14,9 @@
 
 namespace remesh {
 
-//! The root mean square of the two principal curvatures, averaged over patches: the standard
-//! deviation of the normals over that of the positions. The surface is divided into cells around
-//! evenly spread random vertices; a patch is a cell with those next to it. The result depends on
-//! the surface, not on its triangles. Patches end at the boundary: cut creases first.
-//!
+//! The root mean square of the two principal curvatures, over patches (cells of evenly spread
+//! vertices, with those next to them): the deviation of normals over that of positions. Independent
+//! of the triangles. Patches end at the boundary: cut creases first.
 //! \param num_cells  >= 1; there are no more than vertices of the base.
 //! \return #V of base.surface(): 1 / mesh units, >= 0.
 //! \throw Cancelled  the progress callback returned false.
@@ -29,7 +27,6 @@ namespace remesh {
 //! The edge of an equilateral triangle whose corners lie on a sphere of this curvature and whose
 //! middle is off by `error`: sqrt(6 e / k - 3 e^2) (pmp and CGAL have it too). Where the radius is
 //! below the error, that of the radius e: e sqrt(3).
-//!
 //! \param curvature  >= 0; 0 gives infinity.
 //! \param error      > 0.
 [[nodiscard]] double length_for_error(double curvature, double error);
@@ -71,7 +68,6 @@ enum class Paths {
 
 //! Lowers lengths until length[u] <= length[v] + slope * d for all vertices u and v, where d is the
 //! length of the shortest path. Lengths that keep this already stay.
-//!
 //! \param joined  pairs of vertices that are one, such as copies on both sides of a cut.
 //! \param slope   >= 0.
 //! \param length  #V, > 0; edited in place.

@@ -1,7 +1,5 @@
-// A walk unfolds face after face along a straight line. Notation: the frame of a half-edge has its
-// tail as origin and its direction as x axis; the face lies above. A ray leaves a face through the
-// next or the previous half-edge and is turned into the frame of its twin; the walk ends after the
-// length of the step, or just before the boundary ([polthier1998]).
+// A walk unfolds face after face along a straight line ([polthier1998]). The frame of a half-edge
+// has its tail as origin and its direction as x axis; the face lies above.
 #include "remesh/sites/walk.h"
 
 #include <cmath>
@@ -51,7 +49,6 @@ SurfacePoint point_at(const Surface& surface, const Ray& ray) {
 }
 
 // Changes to the frame of the half-edge through which the ray leaves its face.
-//
 // \param is_inside  the ray may leave through any half-edge; otherwise not through its own, by
 //                   which it entered.
 void find_exit(const Surface& surface, Ray& ray, bool is_inside) {

@@ -23,17 +23,22 @@ inline void keep_inside(std::array<double, 3>& barycentric) {
     for (double& b : barycentric) b /= sum;
 }
 
+//! The unit normal of the surface at a point.
+[[nodiscard]] inline Vec3 facing_at(const Surface& surface, const SurfacePoint& point) {
+    const auto& p = surface.mesh.positions;
+    const auto& [a, b, c] = surface.mesh.triangles[point.face.value()];
+    return (p[b] - p[a]).cross(p[c] - p[a]).normalized();
+}
+
 struct Walk {
     SurfacePoint end;
     int num_crossings = 0;    //!< From face to face.
     bool is_cut_off = false;  //!< After 2000 crossings: at a spike it may circle for ever.
 };
 
-//! Walks the straightest geodesic ([polthier1998]) from a point in the direction of `step`, with
-//! the length of `step`. It runs from face to face, so it never passes through a wall, and it stops
-//! short of the boundary. The end lies strictly inside a face, unless the point does not move
-//! because `step` is nearly normal to its face.
-//!
+//! Walks the straightest geodesic ([polthier1998]) from a point along `step`, from face to face,
+//! never through a wall, and stops short of the boundary. The end lies strictly inside a face,
+//! unless `step` is nearly normal to the first one: then the point stays.
 //! \param step  mesh units; its component in the plane of the face gives the direction.
 //! Cost: O(faces crossed).
 [[nodiscard]] Walk walk_straight(const Surface& surface, const SurfacePoint& from,
@@ -45,7 +50,6 @@ struct Walk {
 
 //! The end of a walk along the boundary, strictly inside a boundary edge. Its length is that of the
 //! component of `step` along the half-edge, in its direction or against it.
-//!
 //! \param from  a point of boundary half-edge h.
 //! Cost: O(edges passed).
 [[nodiscard]] SurfacePoint walk_boundary(const Surface& surface, const SurfacePoint& from, Index h,

@@ -16,13 +16,9 @@
 
 namespace remesh::detail {
 
-//! Searches the part of the mesh that lies in the ball around a point and is connected, within the
-//! ball, with a given start. So the other side of a thin wall is never found, however near it is.
-//! Works on any triangles: vertices at equal positions count as one, and edges may have any number
-//! of faces.
-//!
-//! The search floods from face to face across the edges that meet the ball: what it visits is the
-//! connected part of the surface in the ball, and nothing else.
+//! Floods the part of the mesh in the ball around a point that is connected, within the ball, with
+//! a given start: the other side of a thin wall is never found. Works on any triangles: vertices at
+//! equal positions count as one, and edges may have any number of faces.
 class NearestOnSheet {
 public:
     //! \param mesh  outlives this; finite, indices in range. Cost: O(n).

@@ -1,6 +1,5 @@
-// Texture coordinates: from a point of its side each face looks for its corners along straight
-// lines, in steps, on the input cut at its seams. What the faces around a vertex find is then
-// compared: one point counts for all that are connected there.
+// Texture coordinates: each face looks for its corners from a point of its side, in steps, on the
+// input cut at its seams.
 #include "remesh/transfer/transfer.h"
 
 #include <algorithm>
@@ -68,7 +67,6 @@ FaceSamples sample_face(const MeshView& result, const Triangle& t,
 
 // The value at a point of a face. Sums of the same value stay that value, bit for bit; a corner of
 // weight 0 does not count.
-//
 // \param value_at  value_at(k): at corner k of the face.
 template <typename ValueAt>
 auto interpolated(const SurfacePoint& point, const ValueAt& value_at) {
@@ -206,9 +204,9 @@ private:
     const NearestOnSheet &sheet_, &cut_;
 };
 
-void check(std::span<const SurfacePoint> points, const MeshView& result) {
+void check(std::span<const SurfacePoint> points, const std::string& name, const MeshView& result) {
     if (points.size() == result.positions.size()) return;
-    throw InvalidOption("there are " + std::to_string(points.size()) + " points for " +
+    throw InvalidOption("there are " + std::to_string(points.size()) + " " + name + " for " +
                         std::to_string(result.positions.size()) + " vertices; give one for each");
 }
 
@@ -243,11 +241,7 @@ bool is_part(const std::vector<Index>& face_polygon, Index face) {
 InputMap map_to_input(const MeshView& input, const MeshView& result,
                       std::span<const SurfacePoint> sites, const MapOptions& options) {
     check_num_threads(options.num_threads);
-    if (sites.size() != result.positions.size()) {
-        throw InvalidOption("there are " + std::to_string(sites.size()) + " sites for " +
-                            std::to_string(result.positions.size()) +
-                            " vertices; give one for each");
-    }
+    check(sites, "sites", result);
     Poller poller(options.progress);
     const NearestOnSheet nearest(input, Ticker(poller));
     InputMap map;
@@ -314,7 +308,7 @@ std::vector<CornerCoordinates> transfer_corner_values(std::span<const CornerCoor
                                                       std::span<const SurfacePoint> points,
                                                       const CornerOptions& options) {
     check_num_threads(options.num_threads);
-    check(points, result);
+    check(points, "points", result);
     Poller poller(options.progress);
     const auto num_faces = static_cast<Index>(result.triangles.size());
     std::vector<CornerCoordinates> carried(num_faces, no_coordinates());

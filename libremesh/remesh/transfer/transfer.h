@@ -30,12 +30,10 @@ struct InputMap {
     std::vector<FaceSamples> faces;      //!< #F of the result; empty without with_faces.
 };
 
-//! For each vertex of a result the point of the input that is nearest to it, on the sheet where the
-//! vertex belongs: of the input within the distance of its site only the part counts that is
-//! connected with the site there. So walls may be as thin as they like. A vertex that lies at its
-//! site up to rounding stays there bit for bit, as those on boundaries and curves do that were not
-//! moved. The samples of faces are found in the same way, from their corners.
-//!
+//! For each vertex of a result the nearest point of the input on its sheet: within the distance of
+//! its site only the part counts that is connected with the site there, so walls may be as thin as
+//! they like. A vertex at its site up to rounding stays there bit for bit. Samples of faces are
+//! found likewise, from their corners.
 //! \param input   what remesh() got: any triangles, also dirty ones.
 //! \param sites   of the result's vertices, on `input`: RemeshResult::sites.
 //! \throw InvalidOption  num_threads < 0, or there is not one site for each vertex.
@@ -56,7 +54,6 @@ enum class ValueKind {
 //! so that a value that is linear in space comes out up to rounding; a corner of weight 0 does not
 //! count, even if its value is not finite. Labels are those of the nearest corner (the lowest
 //! vertex, if several are as near).
-//!
 //! \param values  one for each vertex of the input.
 //! \param points  on the input, one for each vertex of the result: InputMap::vertices.
 //! \throw InvalidOption  there is not one value for each vertex.
@@ -68,7 +65,6 @@ enum class ValueKind {
 
 //! Values for the faces of a result. Numbers are means over each face, labels those with the
 //! largest part of its area (the least of equally large ones); both by 16 samples.
-//!
 //! \param values   one for each face of the input.
 //! \param samples  one for each face of the result: InputMap::faces.
 //! \throw InvalidOption  a face of the samples has no value.
@@ -83,14 +79,10 @@ struct CornerOptions {
     Progress progress = {};  //!< Polled during the call; see poll.
 };
 
-//! Texture coordinates for the corners of a result's faces. They are interpolated linearly in the
-//! input's triangles, at the point nearest to the corner on that side of the seams on which the
-//! face lies: that of the face's centroid, or, if other corners lie beyond a seam, the side that is
-//! nearest to all three. So no face spans a jump of the coordinates, and faces on one side have the
-//! same bits at their common corner. A face across a seam that is no edge of the result gets
-//! coordinates of one side only: its corners beyond the seam get those at the seam. Without seams
-//! each vertex has one value.
-//!
+//! Texture coordinates for the corners of a result's faces, interpolated at the nearest point on
+//! that side of the seams on which the face lies (its centroid, or the side nearest to all three
+//! corners). No face spans a jump, and faces on one side have the same bits at a common corner;
+//! corners beyond a seam get the coordinates at it. Without seams each vertex has one value.
 //! \param values  #F of the input; NaN where a corner has none: so has what lies there.
 //! \param points  where the result's vertices lie on the input: InputMap::vertices.
 //! \return #F of the result.
@@ -106,7 +98,6 @@ struct CornerOptions {
 //! The same attributes for the result: numbers and colours are interpolated (faces: means), labels
 //! are chosen (transfer_vertex_values, transfer_face_values), texture coordinates are those of each
 //! face's side of the seams (transfer_corner_values).
-//!
 //! \param input   as read from the file.
 //! \param result  its remesh.
 //! \param map     of the result; `faces` are needed only if there are attributes of faces.
@@ -118,7 +109,6 @@ struct CornerOptions {
                                                  const CornerOptions& options = {});
 
 //! Gives the first vertices and faces of a result the values of the input's that they are.
-//!
 //! \param vertices, faces  of the input, for the first ones of the result: see KeptPart.
 //! \param result  of transfer_attributes(input, ...).
 //! Cost: O(kept) for each attribute.

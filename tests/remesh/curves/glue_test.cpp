@@ -1,4 +1,4 @@
-// Patches that become one mesh, and patches thinned to their sites.
+// Patches that become one mesh, and patches simplified to their sites.
 #include "remesh/curves/glue.h"
 
 #include <gtest/gtest.h>
@@ -96,7 +96,7 @@ TEST(ThinPatch, HasTheVerticesOfItsSitesOnly) {
         points.push_back(agvd::point_at(surface, surface.tail(h)));
     }
     ASSERT_EQ(points.size(), 13u);
-    const agvd::SimplifiedMesh mesh = remesh::thin_patch(surface, faces, points);
+    const agvd::SimplifiedMesh mesh = remesh::simplify_patch(surface, faces, points);
     EXPECT_TRUE(mesh.extra.empty());
     agvd::TriangleMesh result{{}, mesh.triangles};
     for (const auto& point : points) {
@@ -110,7 +110,7 @@ TEST(ThinPatch, HasTheVerticesOfItsSitesOnly) {
     EXPECT_EQ(mesh.triangles.size(), 2 * 13 - 11 - 2u);
 }
 
-TEST(ThinPatch, VerticesThatThinningLeavesGoByCollapses) {
+TEST(SimplifyPatch, VerticesThatSimplifyingLeavesGoByCollapses) {
     const agvd::Surface surface = agvd::build_surface(shapes::torus(12, 8).view());
     std::vector<Index> faces(surface.num_faces());
     std::iota(faces.begin(), faces.end(), 0u);
@@ -119,7 +119,7 @@ TEST(ThinPatch, VerticesThatThinningLeavesGoByCollapses) {
         points.push_back(agvd::point_at(surface, v));
     }
     ASSERT_EQ(agvd::simplify(surface, faces, points).extra.size(), 1u);
-    const agvd::SimplifiedMesh mesh = remesh::thin_patch(surface, faces, points);
+    const agvd::SimplifiedMesh mesh = remesh::simplify_patch(surface, faces, points);
     EXPECT_TRUE(mesh.extra.empty());
     EXPECT_EQ(mesh.triangles.size(), 16u);  // Twice the vertices.
     agvd::TriangleMesh result{{}, mesh.triangles};
