@@ -73,7 +73,7 @@ TEST(StageDetails, HasALineForEachStage) {
     EXPECT_EQ(line_of(result, "diagram"), "creases and boundary: 6 curves with 7 vertices");
     EXPECT_EQ(line_of(result, "dual"),
               "8 rounds of repair, 9 sites added, 10 moved, 13 removed, 14 dropped; components "
-              "thinned: 15; 16 sites added in cells that are not discs; 17 sites added " +
+              "simplified: 15; 16 sites added in cells that are not discs; 17 sites added " +
                   std::string(remesh::where_text(remesh::SiteReason::SelfIntersection)));
     EXPECT_EQ(line_of(result, "delaunay"), "18 edges failed, 19 flips, 21 fail");
     EXPECT_EQ(line_of(result, "place"), "4 vertices, 2 faces");
