@@ -216,8 +216,8 @@ void move_face(Surface& surface, Index from, Index to) {
     surface.mesh.triangles[to] = surface.mesh.triangles[from];
     for (Index k = 0; k < 3; ++k) {
         const Index old = 3 * from + k, now = 3 * to + k;
-        const Index twin =
-            surface.twin[old];  // Where two faces of an edge move, the second join is right.
+        // Where both faces of an edge move, the second join is right.
+        const Index twin = surface.twin[old];
         surface.apex[now] = surface.apex[old];
         surface.twin[old] = no_index;
         join(surface, now, twin, surface.edge[old]);

@@ -85,7 +85,7 @@ std::vector<SurfacePoint> run_attempt(CleanedInput& cleaned, const FoundCurves& 
             result.new_self_intersections = crossings->added;
         }
         // The surface is needed again if the edges are not as long as asked for, or as parts are
-        // thin.
+        // narrow.
         const auto& count = options.sizing.count;
         if (std::holds_alternative<MeanEdge>(count) || std::holds_alternative<MaxError>(count) ||
             !built.narrow_points.empty())

@@ -83,7 +83,7 @@ public:
             const std::optional<CrossingFaces>& crossings = candidate.crossings;
             if (!crossings || round == most_rounds || work.num_left(base_faces) == 0 ||
                 is_hopeless(crossings->all.size(), context_) ||
-                !add_sites_at(pairs_to_part(*crossings), candidate.dual)) {
+                !add_sites_at(pairs_to_separate(*crossings), candidate.dual)) {
                 break;
             }
         }
@@ -168,7 +168,7 @@ private:
     }
 
     // Removes vertices until the target is reached or the topology allows no further removal. With
-    // VertexCount::Add only thinned components have surplus vertices: more than sites.
+    // VertexCount::Add only simplified components have surplus vertices: more than sites.
     // \return how many were removed.
     Index reduce(ValidDual& dual) const {
         const bool adds = context_.options.vertex_count == VertexCount::Add;
@@ -261,7 +261,7 @@ private:
     }
 
     // None if there are no more than in the input.
-    [[nodiscard]] FacePairs pairs_to_part(const CrossingFaces& crossings) const {
+    [[nodiscard]] FacePairs pairs_to_separate(const CrossingFaces& crossings) const {
         const std::size_t in_input = context_.result.input_self_intersections;
         if (crossings.all.size() <= in_input) return {};
         return crossings.all.size() <= few_more * in_input ? crossings.all : crossings.added;

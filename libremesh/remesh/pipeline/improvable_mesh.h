@@ -1,5 +1,6 @@
 //! \file
-//! Better triangles where placement leaves thin ones: along boundaries and in thinned components.
+//! Better triangles where placement leaves narrow ones: along boundaries and in simplified
+//! components.
 #pragma once
 
 #include "remesh/pipeline/remesh.h"
