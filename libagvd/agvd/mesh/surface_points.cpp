@@ -140,14 +140,6 @@ std::vector<Index> distinct_points(const Surface& surface, std::span<const Surfa
     return distinct;
 }
 
-std::vector<SurfacePoint> points_of(std::span<const SurfacePoint> points,
-                                    std::span<const Index> chosen) {
-    std::vector<SurfacePoint> result;
-    result.reserve(chosen.size());
-    for (const Index i : chosen) result.push_back(points[i]);
-    return result;
-}
-
 void check_sites(const Surface& surface, std::span<const SurfacePoint> sites) {
     for (Index s = 0; s < sites.size(); ++s) check_site(surface, sites[s], s);
 }

@@ -108,9 +108,14 @@ struct SurfaceKey {
 [[nodiscard]] std::vector<Index> distinct_points(const Surface& surface,
                                                  std::span<const SurfacePoint> points);
 
-//! The chosen points, in the order of `chosen`.
-[[nodiscard]] std::vector<SurfacePoint> points_of(std::span<const SurfacePoint> points,
-                                                  std::span<const Index> chosen);
+//! The chosen elements of an array, in the order of `chosen`.
+template <typename Array>
+[[nodiscard]] auto take(const Array& all, std::span<const Index> chosen) {
+    std::vector<typename Array::value_type> result;
+    result.reserve(chosen.size());
+    for (const Index i : chosen) result.push_back(all[i]);
+    return result;
+}
 
 //! \throw InvalidSites naming the site when its face does not exist or it is off the face.
 void check_sites(const Surface& surface, std::span<const SurfacePoint> sites);

@@ -52,7 +52,7 @@ Propagation propagate_distinct(const Surface& surface, std::span<const SurfacePo
     };
     const std::vector<Index> distinct = distinct_points(surface, sites);
     if (distinct.size() == sites.size()) return run(sites);
-    Propagation result = run(points_of(sites, distinct));
+    Propagation result = run(take(sites, distinct));
     const auto rename = [&](SiteId& site) {
         if (site.is_valid()) site = SiteId(distinct[site.value()]);
     };

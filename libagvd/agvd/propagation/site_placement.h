@@ -39,7 +39,7 @@ public:
         for (Index s = 0; s < sites.size(); ++s) {
             if (!vertex_of(surface, sites[s])) chosen.push_back(s);
         }
-        for (const Index i : distinct_points(surface, points_of(sites, chosen))) {
+        for (const Index i : distinct_points(surface, take(sites, chosen))) {
             const Index s = chosen[i];
             for_each_side(surface, sites[s], [&](const SurfacePoint& point, Index) {
                 placed_.push_back({s, point});

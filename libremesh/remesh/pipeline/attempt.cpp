@@ -1,6 +1,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "agvd/mesh/surface_points.h"
 #include "remesh/clean/carry.h"
 #include "remesh/pipeline/build_mesh.h"
 #include "remesh/pipeline/crossings.h"
@@ -8,7 +9,6 @@
 #include "remesh/pipeline/domain.h"
 #include "remesh/pipeline/locked.h"
 #include "remesh/pipeline/place_sites.h"
-#include "remesh/pipeline/placed_dual.h"
 #include "remesh/pipeline/run.h"
 #include "remesh/pipeline/sizes.h"
 #include "remesh/pipeline/stage_context.h"

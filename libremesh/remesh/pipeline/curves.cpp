@@ -74,7 +74,7 @@ GivenNetwork plan_with_given(const CleanedInput& cleaned, std::vector<std::uint8
                              double drop_share, double spacing, const RemeshOptions& options) {
     const std::vector<SurfacePoint> sites = given_sites(cleaned, cleaned.surface, *options.sites);
     return plan_given_network(cleaned.surface, std::move(is_crease),
-                              points_of(sites, distinct_points(cleaned.surface, sites)),
+                              take(sites, distinct_points(cleaned.surface, sites)),
                               {.spacing = spacing,
                                .tolerance = is_relaxed(options) ? on_curve : site_rounding,
                                .drop_share = drop_share,

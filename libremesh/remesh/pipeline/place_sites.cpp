@@ -74,7 +74,7 @@ PlacedSites place_uncut(const CleanedInput& cleaned, const Domain& domain,
         result.relaxation = std::move(relaxed.levels);
     }
     if (options.sites) {
-        placed.sites = points_of(placed.sites, distinct_points(*domain.whole, placed.sites));
+        placed.sites = take(placed.sites, distinct_points(*domain.whole, placed.sites));
     }
     return placed;
 }

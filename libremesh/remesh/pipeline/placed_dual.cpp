@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "agvd/mesh/any_mesh.h"
+#include "agvd/mesh/surface_points.h"
 #include "remesh/pipeline/domain.h"
 #include "remesh/pipeline/place_sites.h"
 #include "remesh/pipeline/stage_context.h"

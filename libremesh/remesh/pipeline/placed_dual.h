@@ -35,15 +35,6 @@ struct PlacedDual {
 [[nodiscard]] PlacedDual place_dual(Domain& domain, const CurveSites& curves, const ValidDual& dual,
                                     std::vector<SurfacePoint> points, const StageContext& context);
 
-//! The elements of `all` at the indices `chosen`.
-template <typename T>
-[[nodiscard]] std::vector<T> take(const std::vector<T>& all, std::span<const Index> chosen) {
-    std::vector<T> result;
-    result.reserve(chosen.size());
-    for (const Index i : chosen) result.push_back(all[i]);
-    return result;
-}
-
 //! The result: copies of a vertex are joined, and sheets have equal points where they meet.
 [[nodiscard]] TriangleMesh whole_mesh(const Surface& whole, const PlacedDual& placed);
 

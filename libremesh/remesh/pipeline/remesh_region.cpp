@@ -2,9 +2,9 @@
 #include <string>
 #include <utility>
 
+#include "agvd/mesh/surface_points.h"
 #include "remesh/pipeline/cleaned_input.h"
 #include "remesh/pipeline/crossings.h"
-#include "remesh/pipeline/placed_dual.h"
 #include "remesh/pipeline/region.h"
 #include "remesh/pipeline/remesh.h"
 #include "remesh/pipeline/stage_context.h"

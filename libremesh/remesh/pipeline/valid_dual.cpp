@@ -362,7 +362,7 @@ private:
     // Appends a component, simplified to its sites and the extra vertices that must stay.
     void append_simplified(std::span<const Index> faces, std::span<const Index> sites) {
         const auto first = static_cast<Index>(dual_.points.size());
-        std::vector<SurfacePoint> points = points_of(sites_, sites);
+        std::vector<SurfacePoint> points = take(sites_, sites);
         dual_.site.insert(dual_.site.end(), sites.begin(), sites.end());
         SimplifiedMesh part = placed_.chain.empty() ? simplify(surface_, faces, points)
                                                     : simplify_patch(surface_, faces, points);

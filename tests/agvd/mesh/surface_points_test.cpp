@@ -26,7 +26,7 @@ TEST(DistinctPoints, KeepsTheFirstOfThoseOnOneSpot) {
         {FaceId(3), {0.25, 0.5, 0.25}}, on_edge(twin, 0.75),  on_edge(twin, 1),
         {FaceId(2), {0.5, 0.25, 0.25}}, on_edge(twin, 0.25),  {FaceId(3), {0.5, 0.25, 0.25}}};
     EXPECT_EQ(agvd::distinct_points(surface, sites), (std::vector<Index>{0, 1, 2, 3, 6, 7}));
-    const auto chosen = agvd::points_of(sites, std::vector<Index>{7, 0});
+    const auto chosen = agvd::take(sites, std::vector<Index>{7, 0});
     ASSERT_EQ(chosen.size(), 2u);
     EXPECT_EQ(chosen[0].barycentric, sites[7].barycentric);
     EXPECT_EQ(chosen[1].face, sites[0].face);
