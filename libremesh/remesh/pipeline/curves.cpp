@@ -35,6 +35,7 @@ std::vector<std::uint8_t> find_all_creases(const CleanedInput& cleaned, double s
         options.face_labels.empty()) {
         return {};
     }
+    const Progress progress = cleaned_progress(options);
     std::vector<std::uint8_t> is_crease(surface.num_edges(), 0);
     if (options.features != Features::Off) {
         is_crease =
@@ -42,7 +43,7 @@ std::vector<std::uint8_t> find_all_creases(const CleanedInput& cleaned, double s
                                    .spacing = std::min(spacing, mean_spacing(surface, least_scale)),
                                    .is_automatic = options.features == Features::Auto,
                                    .num_threads = options.num_threads,
-                                   .progress = cleaned_progress(options)});
+                                   .progress = progress});
     }
     if (!options.feature_edges.empty()) {
         add_marks(carry_edges(options.feature_edges, cleaned.given,
@@ -72,6 +73,7 @@ void find_seams(const CleanedInput& cleaned, double spacing, const RemeshOptions
 
 GivenNetwork plan_with_given(const CleanedInput& cleaned, std::vector<std::uint8_t> is_crease,
                              double drop_share, double spacing, const RemeshOptions& options) {
+    const Progress progress = cleaned_progress(options);
     const std::vector<SurfacePoint> sites = given_sites(cleaned, cleaned.surface, *options.sites);
     return plan_given_network(cleaned.surface, std::move(is_crease),
                               take(sites, distinct_points(cleaned.surface, sites)),
@@ -79,7 +81,7 @@ GivenNetwork plan_with_given(const CleanedInput& cleaned, std::vector<std::uint8
                                .tolerance = is_relaxed(options) ? on_curve : site_rounding,
                                .drop_share = drop_share,
                                .num_threads = options.num_threads,
-                               .progress = cleaned_progress(options)});
+                               .progress = progress});
 }
 
 void count_plan(const NetworkPlan& plan, RemeshResult& result) {

@@ -161,7 +161,7 @@ public:
     }
 
     [[nodiscard]] std::size_t peak_bytes() const {
-        std::size_t free = free_.capacity() * sizeof(free_[0]);
+        std::size_t free = free_.capacity() * sizeof(std::vector<Index>);
         for (const auto& blocks : free_) free += blocks.capacity() * sizeof(Index);
         return first_.capacity() * sizeof(Index) + free +
                (chunks_.size() << chunk_shift_) * sizeof(SteinerNode);
