@@ -52,7 +52,7 @@ std::optional<Connectivity> pair_sides(const MeshView& mesh, Ticker& ticker, std
     const auto tail = [&](Index h) { return mesh.triangles[h / 3][h % 3]; };
     Connectivity result{std::vector<Index>(3 * mesh.triangles.size(), no_index),
                         std::vector<Index>(mesh.positions.size(), no_index)};
-    auto& [twin, outgoing] = result;
+    std::vector<Index>&twin = result.twin, &outgoing = result.outgoing;
     for_each_edge(sorted_edge_sides(mesh.triangles, ticker), [&](std::span<const EdgeSide> edge) {
         ticker.tick(edge.size());
         const Index h = edge[0].half_edge;

@@ -31,8 +31,8 @@ public:
     }
 
 private:
-    // In the order of the data of cells.
-    static constexpr std::size_t vertices = 0, lines = 1, polygons = 2, strips = 3, grid = 4;
+    // Their order in `groups`.
+    static constexpr std::size_t strips = 3, grid = 4;
     enum class Of { Nothing, Points, Cells };
 
     template <typename... Parts>

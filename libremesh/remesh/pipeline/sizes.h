@@ -3,6 +3,7 @@
 #pragma once
 
 #include "remesh/pipeline/curves.h"
+#include "remesh/pipeline/remesh.h"
 #include "remesh/sites/size_field.h"
 
 namespace remesh::detail {
