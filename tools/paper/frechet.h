@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "agvd/core/progress.h"
+#include "agvd/core/types.h"
 
 namespace agvd {
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "agvd/diagram/edge_labels.h"
 #include "agvd/diagram/face_relays.h"
 
 namespace agvd {

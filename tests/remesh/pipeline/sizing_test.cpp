@@ -15,6 +15,7 @@
 #include "support/shapes.h"
 
 using agvd::Index;
+using agvd::Triangle;
 using agvd::TriangleMesh;
 using agvd::Vec3;
 using remesh::AdaptiveEdges;
