@@ -6,6 +6,10 @@ function(agvd_flags target)
     # Roots without errno or traps keep their values and are half as long.
     target_compile_options(${target} PRIVATE
         -ffp-contract=off -fno-math-errno -fno-trapping-math -Wall -Wextra -Wshadow -Wconversion $<$<BOOL:${AGVD_WERROR}>:-Werror>)
+    # Vectorised, sums of three have another order. What users compile with is aligned to 16 bytes.
+    target_compile_definitions(${target} PRIVATE EIGEN_DONT_VECTORIZE EIGEN_MAX_STATIC_ALIGN_BYTES=16)
+    # Despite -ffp-contract=off, gcc's vectorizer fuses products and sums where the processor can.
+    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fno-tree-vectorize>)
     # Some hot loops have & and | in place of branches that could not be predicted.
     target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:Clang>:-Wno-bitwise-instead-of-logical>)
     # In a shared library, too, calls of its own functions are direct and may be inlined.

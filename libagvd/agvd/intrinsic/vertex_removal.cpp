@@ -7,6 +7,7 @@
 #include <numbers>
 #include <queue>
 
+#include "agvd/core/portable_math.h"
 #include "agvd/intrinsic/delaunay_queue.h"
 #include "agvd/intrinsic/simplify_steps.h"
 
@@ -31,8 +32,9 @@ Angle angle_at(const std::vector<Corner>& corners, double w) {
     Angle sum{0, 0};
     for (const auto& [p, q] : corners) {
         const double cosine = std::clamp(p - q * w, -1.0, 1.0);
-        sum.value += std::acos(cosine);
-        sum.slope += q / std::sqrt(std::max(1 - cosine * cosine, 1e-300));
+        const double sine = std::sqrt((1 - cosine) * (1 + cosine));
+        sum.value += portable::atan2(sine, cosine);
+        sum.slope += q / std::max(sine, 1e-150);
     }
     return sum;
 }
@@ -286,7 +288,7 @@ private:
 double cone_angle(const Surface& surface, Index vertex) {
     double sum = 0;
     for_each_outgoing(surface, vertex, [&](Index h) {
-        sum += std::atan2(surface.apex[h].y(), surface.apex[h].x());
+        sum += portable::atan2(surface.apex[h].y(), surface.apex[h].x());
     });
     return sum;
 }

@@ -1,6 +1,6 @@
 #include "agvd/mesh/mesh.h"
 
-#include <cmath>
+#include "agvd/core/portable_math.h"
 
 namespace agvd {
 
@@ -12,7 +12,7 @@ std::vector<Vec3> vertex_normals(const MeshView& mesh) {
             const Vec3 u = mesh.positions[t[(k + 1) % 3]] - at;
             const Vec3 v = mesh.positions[t[(k + 2) % 3]] - at;
             const Vec3 normal = u.cross(v);
-            const double angle = std::atan2(normal.stableNorm(), u.dot(v));
+            const double angle = portable::atan2(normal.stableNorm(), u.dot(v));
             normals[t[k]] += angle * normal.stableNormalized();
         }
     }

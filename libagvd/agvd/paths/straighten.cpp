@@ -3,9 +3,9 @@
 // side ([xin2007]). Rounds end when there is no such bend or the path gets no shorter.
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 #include <numbers>
 
+#include "agvd/core/portable_math.h"
 #include "agvd/diagram/face_relays.h"
 #include "agvd/mesh/surface_points.h"
 #include "agvd/paths/face_strip.h"
@@ -266,7 +266,7 @@ private:
         // Angles at the vertex on the other side: clockwise for a vertex on the left.
         double angle = 0;
         const auto add_corner = [&](const Vec2& corner) {  // (cos, sin) times any length.
-            angle += std::atan2(std::max(corner.y(), 0.0), corner.x());
+            angle += portable::atan2(std::max(corner.y(), 0.0), corner.x());
         };
         const auto add = [&](const Vec2& from, const Vec2& to) {
             const Vec2 a = from - node.position, b = to - node.position;

@@ -3,12 +3,12 @@
 // touch along an edge stay apart. Where bodies touch in a wall, the pairs are those with a body
 // between them. Vertices are copied until indices alone give these pairs.
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 #include <string>
 #include <tuple>
 
 #include "agvd/core/error.h"
+#include "agvd/core/portable_math.h"
 #include "remesh/clean/soup.h"
 
 namespace remesh::detail {
@@ -94,17 +94,23 @@ void join(std::vector<Index>& twin, Index a, Index b) {
     twin[b] = a;
 }
 
+struct InsideAngle {
+    double radians, cosine;
+};
+
 // The angle between two faces that traverse their common edge in opposite directions, through the
 // body that they bound: about 2 pi where they lie on each other.
 // \param is_turned  bodies lie on the side of the normals.
-double angle_inside(const Soup& soup, Index a, Index b, bool is_turned) {
+InsideAngle angle_inside(const Soup& soup, Index a, Index b, bool is_turned) {
     const Vec3& origin = soup.positions[soup.tail(a)];
     const Vec3 along = (soup.positions[soup.head(a)] - origin).normalized();
     const Vec3 normal = along.cross(soup.positions[soup.apex(a)] - origin).normalized();
     const Vec3 up = soup.positions[soup.apex(b)] - origin;
     const double below = (is_turned ? 1 : -1) * normal.dot(up);
-    const double angle = std::atan2(below, normal.cross(along).dot(up));
-    return angle < folded_angle ? angle + 2 * std::numbers::pi : angle;
+    const double beside = normal.cross(along).dot(up);
+    const double angle = portable::atan2(below, beside);
+    const double cosine = beside / std::max(Vec2(beside, below).norm(), 1e-300);
+    return {angle < folded_angle ? angle + 2 * std::numbers::pi : angle, cosine};
 }
 
 // Whether the faces enclose a negative volume. A surface where an edge has an odd number of faces
@@ -129,16 +135,17 @@ bool are_opposite(const Soup& soup, const EdgeSide& a, const EdgeSide& b) {
 
 // How well two faces go together. Flat pairs do best; where faces lie on each other, those with
 // the least of a body between them.
-double fitness(double angle, bool has_walls) {
-    if (has_walls) return -angle;
-    return -std::cos(angle) + (angle < std::numbers::pi ? convex_bonus : 0);
+double fitness(const InsideAngle& angle, bool has_walls) {
+    if (has_walls) return -angle.radians;
+    return -angle.cosine + (angle.radians < std::numbers::pi ? convex_bonus : 0);
 }
 
 void pair_faces(const Soup& soup, std::span<const EdgeSide> edge, bool is_turned,
                 std::vector<Index>& twin) {
     if (edge.size() > most_sheets) return;
     struct Pair {
-        double angle, fitness;
+        InsideAngle angle;
+        double fitness;
         Index a, b;
     };
     std::vector<Pair> pairs;
@@ -151,8 +158,8 @@ void pair_faces(const Soup& soup, std::span<const EdgeSide> edge, bool is_turned
                 has_walls = true;
                 continue;
             }
-            const double angle = angle_inside(soup, up.half_edge, down.half_edge, is_turned);
-            has_walls = has_walls || angle >= 2 * std::numbers::pi - folded_angle;
+            const InsideAngle angle = angle_inside(soup, up.half_edge, down.half_edge, is_turned);
+            has_walls = has_walls || angle.radians >= 2 * std::numbers::pi - folded_angle;
             pairs.push_back({angle, 0, up.half_edge, down.half_edge});
         }
     }

@@ -4,12 +4,12 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "agvd/core/portable_math.h"
 #include "agvd/mesh/mesh.h"
 #include "agvd/mesh/surface.h"
 #include "remesh/curves/find_creases.h"
@@ -18,7 +18,7 @@ namespace remesh {
 
 //! Radians in [0, pi].
 [[nodiscard]] inline double angle_between(const Vec3& a, const Vec3& b) {
-    return std::atan2(a.cross(b).norm(), a.dot(b));
+    return portable::atan2(a.cross(b).norm(), a.dot(b));
 }
 
 //! Vertices and edges of a surface that its mesh keeps.

@@ -88,8 +88,10 @@ std::vector<SharedSide> sides_of_narrow_faces(const Surface& surface, const Patc
             if (twin == no_index) continue;
             const Index across = Surface::face(twin);
             if (across < f && patches.is_narrow(across, narrow)) continue;  // Added from there.
-            const double turn = angle_between(patches.area[f], patches.area[across]);
-            const double likeness = 0.1 + std::pow((1 + std::cos(turn)) / 2, 8);
+            double alike =
+                (1 + patches.area[f].normalized().dot(patches.area[across].normalized())) / 2;
+            for (int i = 0; i < 3; ++i) alike *= alike;  // To the eighth power.
+            const double likeness = 0.1 + alike;
             sides.push_back({surface.length_of(h) * likeness, surface.edge[h]});
         }
     }

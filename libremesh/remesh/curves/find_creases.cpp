@@ -91,7 +91,7 @@ detail::PruningRules pruning_rules(double spacing, const Noise& noise) {
     const double strictness = std::min(1., 2 * noise.share);
     const double scale = std::max(spacing, strictness * noise_edges * noise.edge_length);
     const auto between = [&](double NetworkRule::*value) {
-        return std::lerp(on_parts.*value, on_scans.*value, strictness);
+        return on_parts.*value + strictness * (on_scans.*value - on_parts.*value);
     };
     return {.least_spur = least_spur * scale,
             .least_island = least_island * scale,

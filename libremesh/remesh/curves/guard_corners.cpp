@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "agvd/core/portable_math.h"
 #include "agvd/mesh/closest_point.h"
 
 namespace remesh {
@@ -28,8 +29,9 @@ bool is_much_longer(const CurveEnd& end, const CurveEnd& other) {
 // Places that divide a way in geometric progression, with a ratio of at most most_growth. The first
 // is `before` times the ratio; the last, which is not returned, is `way`.
 std::vector<double> growing_positions(double before, double way) {
-    const double num_steps = std::ceil(std::log(way / before) / std::log(most_growth));
-    const double growth = std::pow(way / before, 1 / num_steps);
+    int num_steps = 1;
+    for (double most = most_growth; most < way / before; most *= most_growth) ++num_steps;
+    const double growth = portable::pow(way / before, 1. / num_steps);
     std::vector<double> positions;
     double position = before;
     for (int i = 1; i < num_steps; ++i) {

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "agvd/core/parallel.h"
+#include "agvd/core/portable_math.h"
 #include "agvd/paths/geodesic_path.h"
 #include "remesh/dual/build_dual.h"
 #include "remesh/dual/flippable_mesh.h"
@@ -39,7 +40,7 @@ Vec2 corner_opposite(double a, double b, double c) {
 bool is_above_pi(const Vec2& a, const Vec2& b) {
     // The sine of the sum decides most cases without angles.
     if (a.x() * b.y() + a.y() * b.x() > 0) return false;
-    return std::atan2(a.y(), a.x()) + std::atan2(b.y(), b.x()) >
+    return portable::atan2(a.y(), a.x()) + portable::atan2(b.y(), b.x()) >
            std::numbers::pi + delaunay_tolerance;
 }
 

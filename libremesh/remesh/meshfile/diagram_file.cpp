@@ -111,8 +111,8 @@ private:
         if (lists_[0].size() != lists_[1].size())
             fail("a Voronoi vertex has different numbers of ends and sites");
         for (const double end : lists_[0]) {
-            const Index edge = index(std::floor(end / 2), "voronoi_edge");
-            diagram.vertex_ends.push_back({edge, std::fmod(end, 2) == 0});
+            const double half = std::floor(end / 2);
+            diagram.vertex_ends.push_back({index(half, "voronoi_edge"), end == 2 * half});
         }
         for (const double label : lists_[1]) diagram.vertex_sites.push_back(site(label));
         diagram.vertex_offsets.push_back(static_cast<Index>(diagram.vertex_ends.size()));

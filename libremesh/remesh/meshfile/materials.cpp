@@ -2,8 +2,8 @@
 #include "remesh/meshfile/materials.h"
 
 #include <algorithm>
-#include <cmath>
 
+#include "agvd/core/portable_math.h"
 #include "remesh/meshfile/text.h"
 
 namespace remesh {
@@ -16,9 +16,11 @@ using nlohmann::json;
 const json::json_pointer base_color("/pbrMetallicRoughness/baseColorFactor");
 
 // sRGB (IEC 61966-2-1), from 0 to 1.
-double to_linear(double s) { return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4); }
+double to_linear(double s) {
+    return s <= 0.04045 ? s / 12.92 : portable::pow((s + 0.055) / 1.055, 2.4);
+}
 double from_linear(double x) {
-    return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
+    return x <= 0.0031308 ? 12.92 * x : 1.055 * portable::pow(x, 1 / 2.4) - 0.055;
 }
 
 // Red, green and blue are linear there; empty: it is no colour.

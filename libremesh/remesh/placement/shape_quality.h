@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <numbers>
 #include <span>
 #include <vector>
@@ -35,11 +34,12 @@ inline constexpr double sine_weight = low_quality / 0.597;
 
 //! Appends eight unit vectors orthogonal to `normal`, which is not zero.
 inline void add_directions(const Vec3& normal, std::vector<Vec3>& directions) {
-    constexpr int count = 8;
     const Vec3 x = normal.unitOrthogonal(), y = normal.normalized().cross(x);
-    for (int d = 0; d < count; ++d) {
-        const double angle = 2 * std::numbers::pi * d / count;
-        directions.emplace_back(std::cos(angle) * x + std::sin(angle) * y);
+    const Vec3 between = (x + y) / std::numbers::sqrt2, beyond = (y - x) / std::numbers::sqrt2;
+    for (const double sign : {1, -1}) {
+        for (const Vec3& direction : {x, between, y, beyond}) {
+            directions.emplace_back(sign * direction);
+        }
     }
 }
 

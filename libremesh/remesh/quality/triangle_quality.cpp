@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "agvd/core/portable_math.h"
 #include "agvd/mesh/any_mesh.h"
 #include "remesh/placement/placement.h"
 
@@ -28,7 +29,7 @@ Shape shape_of(const std::array<Vec3, 3>& p) {
     Shape shape{};
     double perimeter = 0, longest = 0;
     for (std::size_t k = 0; k < 3; ++k) {
-        shape.angle[k] = std::atan2(doubled_area, -side[k].dot(side[(k + 2) % 3]));
+        shape.angle[k] = portable::atan2(doubled_area, -side[k].dot(side[(k + 2) % 3]));
         perimeter += side[k].norm();
         longest = std::max(longest, side[k].norm());
     }

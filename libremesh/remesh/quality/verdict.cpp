@@ -29,7 +29,8 @@ constexpr Index query_grain = 512;
 Index rounded_up(double count) {
     constexpr double most = 4e9;
     if (!(count < most)) return static_cast<Index>(most);  // Infinite where sides touch.
-    const double unit = std::pow(10, std::floor(std::log10(count)) - 1);
+    double unit = 1;
+    while (100 * unit <= count) unit *= 10;
     return static_cast<Index>(std::min(std::ceil(count / unit) * unit, most));
 }
 
@@ -134,7 +135,8 @@ void judge_walls(const MeshView& mesh, const std::vector<VertexShape>& shapes,
         if (!walls[v].exists()) continue;
         if (joined.is_root(v)) ++verdict.thin_walls;
         verdict.thinnest_wall = std::min(verdict.thinnest_wall, walls[v].thickness);
-        most_times = std::max(most_times, std::pow(shapes[v].edge_length / walls[v].thickness, 2));
+        const double times = shapes[v].edge_length / walls[v].thickness;
+        most_times = std::max(most_times, times * times);
     }
     if (verdict.thin_walls == 0) {
         verdict.thinnest_wall = 0;

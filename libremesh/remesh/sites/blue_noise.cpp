@@ -28,7 +28,7 @@ struct Weight {
     double floor;  // 2 r_min: nearer points weigh no more, so that clumps do not dominate.
 
     Weight(double spacing, double keep, double total)
-        : reach(spacing), floor(reach * (1 - std::pow(keep / total, 1.5)) * 0.65) {}
+        : reach(spacing), floor(reach * (1 - keep / total * std::sqrt(keep / total)) * 0.65) {}
 
     [[nodiscard]] double operator()(double distance) const {
         const double x = 1 - std::min(1.0, std::max(distance, floor) / reach);

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "agvd/core/parallel.h"
+#include "agvd/core/portable_math.h"
 #include "agvd/mesh/surface_points.h"
 #include "remesh/sites/walk.h"
 
@@ -26,9 +27,6 @@ constexpr int most_rounds = 3;
 constexpr int most_flip_rounds = 10;
 // Sites of a parallel chunk.
 constexpr Index sites_per_task = 256;
-// Area goes as 1 / sqrt(density), so a cell with k times the surface needs k^2; half a power more
-// makes up for the few steps.
-constexpr double area_power = 2.5;
 constexpr double most_area_ratio = 4;
 // The best density is curvature^(4/3), and the bending of cells of one size curvature^2. Below
 // `even_bending` all cells are alike.
@@ -153,7 +151,8 @@ void Relaxation::set_density(const CellMeasures* cells, std::span<const double> 
     for (const double l : length) sum += l;
     const double mean = sum / static_cast<double>(length.size());
     for (std::size_t i = 0; i < length.size(); ++i) {
-        weight_[i] *= std::pow(mean / length[i], 4);
+        const double squared = (mean / length[i]) * (mean / length[i]);
+        weight_[i] *= squared * squared;
     }
     measure();
 }
@@ -185,8 +184,11 @@ void Relaxation::weigh_cells(const CellMeasures& cells, double power_of_bending)
     for (std::size_t i = 0; i < sums.size(); ++i) {
         const Sums& s = sums[i];
         const double ratio = s.on_triangles > 0 ? s.on_surface / s.on_triangles : 1;
-        const double lost = std::pow(std::clamp(ratio, 1.0, most_area_ratio), area_power);
-        const double bent = std::pow(1 + s.bending / s.count / even_bending, power_of_bending);
+        const double area_ratio = std::clamp(ratio, 1.0, most_area_ratio);
+        // Area goes as 1 / sqrt(density), so a cell with k times the surface needs k^2; half a
+        // power more makes up for the few steps.
+        const double lost = area_ratio * area_ratio * std::sqrt(area_ratio);
+        const double bent = portable::pow(1 + s.bending / s.count / even_bending, power_of_bending);
         weight_[i] = std::min(lost * bent, most_weight);
     }
     planes_ = cells.planes;

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "agvd/core/portable_math.h"
 #include "agvd/mesh/surface.h"
 #include "remesh/sites/size_field.h"
 
@@ -50,7 +51,7 @@ struct LengthSearch {
     const Sizing& sizing;
     double area;
     Ticker& ticker;
-    double slope = std::log(sizing.gradation) / path_excess;
+    double slope = portable::log(sizing.gradation) / path_excess;
     double mean = std::sqrt(surface_area(surface) / (area > 0 ? area : 1));
     double longest = sizing.is_adaptive() && area > 0
                          ? std::min(sizing.max_edge, longest_of_mean* mean)
@@ -79,17 +80,17 @@ struct LengthSearch {
         double previous_scale = 0, previous_error = 0;
         for (int i = 1; i < most_tries && std::abs(error) > area_tolerance; ++i) {
             if (i > 1 && scale != previous_scale) {
-                steepness = std::clamp((error - previous_error) / std::log(scale / previous_scale),
-                                       -4.0, -0.2);
+                steepness = std::clamp(
+                    (error - previous_error) / portable::log(scale / previous_scale), -4.0, -0.2);
             }
             previous_scale = scale;
             previous_error = error;
-            scale *= std::exp(-error / steepness);
+            scale *= portable::exp(-error / steepness);
             best = at(scale);
             error = error_of(best);
         }
         best = finished(std::move(best));
-        const double factor = std::exp(error_of(best) / 2);
+        const double factor = portable::exp(error_of(best) / 2);
         for (double& length : best) length *= factor;
         return best;
     }
@@ -121,7 +122,7 @@ private:
         if (const auto* largest = std::get_if<MaxError>(&sizing.count)) {
             return length_for_error(std::numbers::sqrt2 * values[v], largest->error);
         }
-        if (sizing.is_adaptive()) return scale / std::cbrt(values[v]);
+        if (sizing.is_adaptive()) return scale / portable::pow(values[v], 1. / 3);
         if (std::holds_alternative<VertexDensities>(sizing.edges)) {
             return scale / std::sqrt(values[v]);
         }
@@ -147,7 +148,7 @@ private:
 
     // The logarithm of the area over that wanted.
     [[nodiscard]] double error_of(const std::vector<double>& lengths) const {
-        return std::log(area_in_lengths(surface, bounded(lengths)) / area);
+        return portable::log(area_in_lengths(surface, bounded(lengths)) / area);
     }
 };
 
