@@ -23,6 +23,7 @@ std::string describe_coarseness(const remesh::RemeshResult& result) {
         text += (text.empty() ? "" : ", ") + std::string(what);
         enough = std::max(enough, samples);
     };
+    add(creases.close_length > 0, "close creases", 0);
     add(creases.dropped_length > 0, "creases", creases.samples_for_all);
     add(verdict.thin_walls > 0, "walls", verdict.samples_for_walls);
     add(verdict.small_components > 0, "components", verdict.samples_for_components);

@@ -136,7 +136,7 @@ TEST(ExtremeShapes, LongSpikesEndInAMeshOrAReason) {
 TEST(ExtremeShapes, APartTooThinForDoubleIsRefused) {
     const TriangleMesh ball = shapes::moved(shapes::sphere(3), Vec3(3, 0, 0));
     const Vec3 tip(-0.55, 0.53, -0.62);
-    for (const Index v : {5u, 8u, 11u}) {
+    for (const Index v : {5u, 7u, 11u}) {
         TriangleMesh thin = shapes::sphere(1);
         for (Vec3& p : thin.positions) p *= 1e-12;
         thin.positions[v] = tip;

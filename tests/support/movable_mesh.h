@@ -4,8 +4,10 @@
 #include <vector>
 
 #include "agvd/mesh/surface.h"
+#include "remesh/curves/curve_network.h"
 #include "remesh/curves/glue.h"
 #include "remesh/placement/edited_mesh.h"
+#include "remesh/placement/mesh_curves.h"
 #include "remesh/placement/placement.h"
 
 // The vertices of a surface where they are; those on the boundary stay on it.
@@ -23,7 +25,13 @@ struct MovableMesh {
         }
         hard = remesh::rim_of(mesh.triangles);
         for (const auto& [from, to] : hard) mobility[from] = remesh::detail::Mobility::Boundary;
+        // Closed curves: without nodes all of their vertices may move.
+        for (std::vector<agvd::Index>& loop : agvd::boundary_loops(surface)) {
+            network.curves.push_back(remesh::curve_of_loop(surface, std::move(loop)));
+        }
     }
+
+    [[nodiscard]] remesh::detail::MeshCurves curves() const { return {surface, surface, network}; }
 
     [[nodiscard]] agvd::TriangleMesh mesh_of(const remesh::PlacedMesh& mesh) const {
         agvd::TriangleMesh result{{}, mesh.triangles};
@@ -34,6 +42,7 @@ struct MovableMesh {
     }
 
     agvd::Surface surface;
+    remesh::CurveNetwork network;  // Its boundary.
     remesh::PlacedMesh placed;
     std::vector<remesh::detail::Mobility> mobility;
     std::vector<remesh::DirectedEdge> hard;

@@ -34,6 +34,7 @@ remesh::RemeshResult example_result() {
                        .nodes = 22,
                        .vertices = 23,
                        .length = 2.5,
+                       .close_length = 2.625,
                        .dropped_length = 2.75,
                        .uncarried_curves = 24,
                        .samples_for_all = 25,
@@ -149,6 +150,7 @@ TEST(RemeshReport, GivesEveryFieldOfTheResult) {
                                         {"nodes", 22},
                                         {"vertices", 23},
                                         {"crease_length_mesh_units", 2.5},
+                                        {"close_crease_length_mesh_units", 2.625},
                                         {"dropped_crease_length_mesh_units", 2.75},
                                         {"curves_off_given_sites", 24},
                                         {"samples_for_all", 25},
@@ -296,7 +298,8 @@ TEST(RemeshReport, TextIsForAnyUser) {
               "distance: farthest 37.5 % of the size, from the input's vertex at 5 6 7\n"
               "too small for edges of 0.5: creases of length 2.75 (too few of the given sites lie "
               "on 24 creases or on the boundary; with all creases no mesh was found, or only one "
-              "that self-intersects), 43 walls (thinnest 0.25; about 44 samples would do), 41 "
+              "that self-intersects), creases of length 2.625 (too close to stronger ones), 43 "
+              "walls (thinnest 0.25; about 44 samples would do), 41 "
               "components (fewer than 12 vertices; about 42 samples would do)\n"
               "written: out.ply");
 }
@@ -330,7 +333,9 @@ TEST(RemeshReport, DetailsTellTopologyRepairTimeAndMemory) {
     for (const char* part :
          {"1 component, genus 1, 0 boundary loops", "distances: window engine, at most 0.0123 %",
           "5 sites added, ", "energy lowered by 50.0 %", "14 components simplified to the sites",
-          "21 curves, 22 corners, 23 vertices; 2.5 long: creases kept; 2.75 long: creases dropped; "
+          "21 curves, 22 corners, 23 vertices; 2.5 long: creases kept; 2.625 long: creases left "
+          "out "
+          "as too close to stronger ones; 2.75 long: creases dropped; "
           "1.25 long: texture seams kept; 0.75 long: texture seams left out",
           "26 patches between them simplified to the sites",
           "4.50 % of the edges failed it before 7 flips, 1.50 % after", "reached their limit",

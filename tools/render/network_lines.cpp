@@ -4,6 +4,7 @@
 
 #include "remesh/clean/clean_input.h"
 #include "remesh/curves/find_creases.h"
+#include "remesh/curves/select_creases.h"
 #include "remesh/meshfile/mesh_file.h"
 #include "remesh/sites/network_plan.h"
 #include "remesh/sites/prepared_surface.h"
@@ -24,10 +25,11 @@ NetworkLines network_lines(const std::string& path, Index num_vertices) {
     const agvd::TriangleMesh mesh = remesh::read_mesh(path).mesh;
     const remesh::CleanResult clean = remesh::clean_input(mesh.view());
     const agvd::Surface surface = agvd::build_surface(clean.mesh.view());
-    const remesh::NetworkPlan plan = remesh::plan_network(
-        surface,
-        remesh::find_creases(surface, {.spacing = remesh::mean_spacing(surface, num_vertices)}),
-        num_vertices);
+    const double spacing = remesh::mean_spacing(surface, num_vertices);
+    std::vector<std::uint8_t> is_crease = remesh::find_creases(surface, {.spacing = spacing});
+    remesh::select_creases(surface, spacing, {}, 0, {}, is_crease);
+    const remesh::NetworkPlan plan =
+        remesh::plan_network(surface, std::move(is_crease), num_vertices);
     NetworkLines result;
     for (const remesh::Curve& curve : plan.network.curves) {
         NetworkLines::Line& line = result.lines.emplace_back();

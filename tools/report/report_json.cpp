@@ -143,6 +143,7 @@ Json to_json(const FeatureCounts& counts) {
             {"nodes", counts.nodes},
             {"vertices", counts.vertices},
             {"crease_length_mesh_units", counts.length},
+            {"close_crease_length_mesh_units", counts.close_length},
             {"dropped_crease_length_mesh_units", counts.dropped_length},
             {"curves_off_given_sites", counts.uncarried_curves},
             {"samples_for_all", counts.samples_for_all},

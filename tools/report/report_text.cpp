@@ -78,7 +78,8 @@ std::string why_dropped(const FeatureCounts& features) {
 
 // Empty without creases.
 std::string describe(const FeatureCounts& features) {
-    if (features.curves == 0 && features.dropped_length + features.dropped_seam_length == 0) {
+    if (features.curves == 0 &&
+        features.close_length + features.dropped_length + features.dropped_seam_length == 0) {
         return "";
     }
     std::string text = "\ncreases and boundary: " + counted(features.curves, "curve") + ", " +
@@ -88,6 +89,7 @@ std::string describe(const FeatureCounts& features) {
         if (length > 0) text += "; " + significant(length) + " long: " + what;
     };
     add_length(features.length, "creases kept");
+    add_length(features.close_length, "creases left out as too close to stronger ones");
     add_length(features.dropped_length, "creases dropped");
     add_length(features.seam_length, "texture seams kept");
     add_length(features.dropped_seam_length,
@@ -142,6 +144,10 @@ std::string describe_lost(const Verdict& verdict, const FeatureCounts& features)
     if (features.dropped_length > 0) {
         add("creases of length " + significant(features.dropped_length) + " (" +
             why_dropped(features) + ")");
+    }
+    if (features.close_length > 0) {
+        add("creases of length " + significant(features.close_length) +
+            " (too close to stronger ones)");
     }
     if (verdict.thin_walls > 0) {
         add(counted(verdict.thin_walls, "wall") + " (thinnest " +

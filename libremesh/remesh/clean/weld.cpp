@@ -6,8 +6,8 @@
 #include "agvd/core/random.h"
 #include "agvd/core/types.h"
 #include "agvd/core/union_find.h"
+#include "agvd/mesh/point_grid.h"
 #include "agvd/mesh/scale.h"
-#include "remesh/clean/point_grid.h"
 #include "remesh/clean/soup.h"
 
 namespace remesh::detail {

@@ -61,6 +61,9 @@ std::vector<Index> way_on(const std::vector<DirectedEdge>& edges, Index from, co
     return way;
 }
 
+// Whether an edge joins a vertex with itself.
+bool is_loop(std::uint64_t ends) { return (ends >> 32) == (ends & 0xffffffffU); }
+
 // The corners of all triangles, ascending.
 std::vector<Index> corners_of(std::span<const Triangle> triangles) {
     std::vector<Index> corners;
@@ -114,7 +117,9 @@ GluedMesh glue(std::span<const Triangle> triangles, std::span<const Index> group
     GluedMesh result;
     result.triangles.assign(triangles.begin(), triangles.end());
     const Numbering groups = number_sets(group);
-    const auto is_repeated = [](std::span<const EdgeSide> sides) { return sides.size() > 2; };
+    const auto is_repeated = [](std::span<const EdgeSide> sides) {
+        return sides.size() > 2 || is_loop(sides.front().ends);
+    };
     const auto is_taken = [](std::uint64_t) { return false; };
     for (int round = 0; round < most_flip_rounds; ++round) {
         if (!flip_repeated(result.triangles, groups.number, is_repeated, is_taken)) break;
@@ -125,8 +130,32 @@ GluedMesh glue(std::span<const Triangle> triangles, std::span<const Index> group
     for (const Index v : result.representative) {
         result.first_of_group.push_back(groups.first[groups.number[v]]);
     }
-    result.triangles = rename_vertices(result.triangles, result.vertex);
+    result.in_patches = rename_vertices(result.triangles, result.vertex);
+    std::swap(result.in_patches, result.triangles);
     return result;
+}
+
+std::vector<InnerEdge> repeated_edges(const GluedMesh& mesh) {
+    std::vector<InnerEdge> repeated;
+    const auto& patches = mesh.in_patches;
+    for_each_edge(sorted_edge_sides(mesh.triangles), [&](std::span<const EdgeSide> sides) {
+        const bool joins_one = is_loop(sides.front().ends);
+        if (sides.size() <= 2 && !joins_one) return;
+        std::vector<InnerEdge> inner;
+        for (std::size_t i = 0; i < sides.size(); ++i) {
+            for (std::size_t j = i + 1; j < sides.size(); ++j) {
+                const Index h = sides[i].half_edge, g = sides[j].half_edge;
+                if (patches[h / 3][h % 3] == patches[g / 3][(g + 1) % 3] &&
+                    patches[h / 3][(h + 1) % 3] == patches[g / 3][g % 3]) {
+                    inner.push_back({h, g});
+                }
+            }
+        }
+        const bool has_rim = joins_one || sides.size() > 2 * inner.size();
+        repeated.insert(repeated.end(), inner.begin() + (has_rim || inner.empty() ? 0 : 1),
+                        inner.end());
+    });
+    return repeated;
 }
 
 std::vector<DirectedEdge> rim_of(std::span<const Triangle> triangles) {

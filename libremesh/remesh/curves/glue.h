@@ -15,6 +15,7 @@ namespace remesh {
 
 struct GluedMesh {
     std::vector<Triangle> triangles;    //!< In the given order; corners are glued vertices.
+    std::vector<Triangle> in_patches;   //!< The same before that: corners are given vertices.
     std::vector<Index> vertex;          //!< Of each given vertex: the glued one.
     std::vector<Index> representative;  //!< Of each glued vertex: the first given one.
     //! Of each glued vertex: the first given vertex of its group. Equal for vertices of different
@@ -29,6 +30,15 @@ struct GluedMesh {
 //! Cost: O(n log n).
 [[nodiscard]] GluedMesh glue(std::span<const Triangle> triangles, std::span<const Index> group,
                              std::span<const Index> vertex = {});
+
+//! The two sides of an inner edge of a patch.
+struct InnerEdge {
+    Index half_edge, other;  //!< 3 t + k: from corner k of triangle t to the next one.
+};
+
+//! Inner edges of patches that coincide with other edges of the glued mesh: all but one at each
+//! place, or all if rims of patches meet there.
+[[nodiscard]] std::vector<InnerEdge> repeated_edges(const GluedMesh& mesh);
 
 //! A round of flips of inner edges of patches, so that fewer edges of the glued mesh are repeated:
 //! one flip for each repeated edge.

@@ -58,9 +58,8 @@ void check_mesh(const CleanedInput& cleaned, const Domain& domain, std::span<con
 
 }  // namespace
 
-std::vector<SurfacePoint> run_attempt(CleanedInput& cleaned, const FoundCurves& found,
-                                      const KeptCurves& kept, const SizeField* sizes,
-                                      WorkLimit& work, const StageContext& context) {
+AttemptEnd run_attempt(CleanedInput& cleaned, const FoundCurves& found, const KeptCurves& kept,
+                       const SizeField* sizes, WorkLimit& work, const StageContext& context) {
     const auto& [options, result] = context;
     const double spacing = spacing_for(cleaned, options);
     std::unique_ptr<const CurvePlan> plan =
@@ -90,7 +89,7 @@ std::vector<SurfacePoint> run_attempt(CleanedInput& cleaned, const FoundCurves& 
         if (std::holds_alternative<MeanEdge>(count) || std::holds_alternative<MaxError>(count) ||
             !built.narrow_points.empty())
             give_back(std::move(domain), cleaned, options.num_threads);
-        return std::move(built.narrow_points);
+        return {std::move(built.narrow_points), std::move(built.crossing_corners)};
     } catch (const TooFewSamples&) {
         give_back(std::move(domain), cleaned, options.num_threads);
         throw;

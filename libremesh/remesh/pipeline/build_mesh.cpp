@@ -22,6 +22,8 @@ namespace {
 
 // Most rounds that add sites at self-intersections.
 constexpr int most_rounds = 4;
+// Most rounds that divide edges between patches.
+constexpr int most_split_rounds = 5;
 // As a multiple of the input's pairs. Up to this, further rounds can come down to their number.
 constexpr std::size_t few_more = 2;
 
@@ -44,6 +46,7 @@ void compact(std::span<const Index> gone, ValidDual& dual) {
     }
     dual.points = take(dual.points, left);
     dual.site = take(dual.site, left);
+    if (!dual.stays.empty()) dual.stays = take(dual.stays, left);
     dual.triangles = rename_vertices(dual.triangles, number);
 }
 
@@ -81,8 +84,8 @@ public:
             }
             if (round == 0 || is_better(candidate)) keep(candidate);
             const std::optional<CrossingFaces>& crossings = candidate.crossings;
-            if (!crossings || round == most_rounds || work.num_left(base_faces) == 0 ||
-                is_hopeless(crossings->all.size(), context_) ||
+            if (!crossings || domain_.plan || round == most_rounds ||
+                work.num_left(base_faces) == 0 || is_hopeless(crossings->all.size(), context_) ||
                 !add_sites_at(pairs_to_separate(*crossings), candidate.dual)) {
                 break;
             }
@@ -101,18 +104,36 @@ private:
             return candidate;
         }
         if (!target_) target_ = target_count(dual.diagram);
-        candidate.num_removed = reduce(dual);
-        if (dual.points.size() > *target_ && context_.options.vertex_count == VertexCount::Exact) {
-            candidate.is_failed = true;
-            return candidate;
-        }
-        candidate.flips = flip_edges(dual);
+        candidate.is_failed = !fix_edges(candidate);
+        if (candidate.is_failed) return candidate;
         drop_points(dual.diagram);
         candidate.placed =
             place_dual(domain_, placed_.curves, dual, points_of_vertices(dual), context_);
         candidate.crossings =
             unfit_crossings(finder_, placed_.curves, candidate.placed, context_.result);
         return candidate;
+    }
+
+    // Gives the dual its number of vertices and its edges. Edges that would coincide where patches
+    // are joined get a vertex in the middle, for which another one goes.
+    // \return false: there are too many vertices, or still such edges.
+    bool fix_edges(Candidate& candidate) {
+        ValidDual& dual = candidate.dual;
+        const bool is_exact = context_.options.vertex_count == VertexCount::Exact;
+        for (int round = 0; round < most_split_rounds; ++round) {
+            candidate.num_removed += reduce(dual);
+            const auto num_vertices = static_cast<Index>(dual.points.size());
+            if (is_exact && num_vertices > *target_) return false;
+            if (is_exact && num_vertices < *target_ && !context_.options.sites) {
+                add_vertices(domain_, points_of_vertices(dual), *target_ - num_vertices, dual);
+            }
+            candidate.flips = flip_edges(dual);
+            if (!domain_.plan ||
+                split_repeated(domain_, placed_.curves, points_of_vertices(dual), dual) == 0) {
+                return true;
+            }
+        }
+        return false;
     }
 
     ValidDual build_cells() {
@@ -182,6 +203,7 @@ private:
             const Index site = dual.site[i];
             is_last[i] = (v && std::ranges::binary_search(placed_.boundary_corners, *v)) ||
                          site < placed_.curves.sites.size() ||
+                         (i < dual.stays.size() && dual.stays[i] != 0) ||
                          (site != no_index && site < is_wanted_.size() && is_wanted_[site]);
         }
         const std::vector<Vec3> positions = positions_of_vertices(dual);
@@ -231,13 +253,19 @@ private:
             }
             if (domain_.plan->given) order_as_given(candidate.dual, placed.patches->glued);
         }
-        if (candidate.crossings) best_.self_intersections = candidate.crossings->counts();
+        if (candidate.crossings) {
+            best_.self_intersections = candidate.crossings->counts();
+            best_.crossing_corners.clear();
+            for_each_corner(candidate.crossings->added, placed.mesh.triangles, [&](Index v) {
+                best_.crossing_corners.push_back(
+                    placed.mesh.position(domain_.whole->mesh.view(), v));
+            });
+        }
         context_.result.sites_removed = candidate.num_removed;
         context_.result.delaunay = candidate.flips;
         improvable_.reset();
-        if (domain_.plan || !is_relaxed(context_.options)) return;
-        improvable_ = find_improvable(domain_, candidate.dual, std::move(candidate.placed.mesh),
-                                      is_simplified_, context_.options);
+        if (!is_relaxed(context_.options)) return;
+        improvable_ = find_improvable(domain_, std::move(candidate.placed), context_.options);
     }
 
     // Sorts the vertices in the caller's order of the sites, vertices that repair added last.

@@ -20,7 +20,8 @@ struct BuiltMesh {
     std::vector<Index> first_of_group;  //!< #V: see GluedMesh; empty without junctions.
     Index num_wanted = 0;               //!< Vertices that were asked for.
     std::optional<CrossingCounts> self_intersections;  //!< Unset without CGAL.
-    std::vector<SurfacePoint> narrow_points;           //!< On the cleaned surface: see ValidDual.
+    std::vector<Vec3> crossing_corners;  //!< Corners of the faces that intersect, the input's not.
+    std::vector<SurfacePoint> narrow_points;  //!< On the cleaned surface: see ValidDual.
 };
 
 //! Builds the mesh of the sites. While it self-intersects more often than the input, and where that

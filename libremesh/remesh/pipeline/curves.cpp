@@ -5,9 +5,13 @@
 #include <algorithm>
 #include <utility>
 
+#include "agvd/mesh/closest_point.h"
+#include "agvd/mesh/point_grid.h"
+#include "agvd/mesh/scale.h"
 #include "agvd/mesh/surface_points.h"
 #include "remesh/clean/carry.h"
 #include "remesh/curves/crease_chains.h"
+#include "remesh/curves/select_creases.h"
 #include "remesh/pipeline/cleaned_input.h"
 #include "remesh/pipeline/stage_context.h"
 #include "remesh/sites/prepared_surface.h"
@@ -22,23 +26,28 @@ constexpr double least_junction = 2;
 // In spacings: given sites this near to a curve are put onto it if sites are relaxed.
 constexpr double on_curve = 0.1;
 
+// In spacings: see edges_near().
+constexpr double around_failure = 2;
+constexpr double grid_margin = 1e-3;
+
 // Adds marks to others.
 void add_marks(std::span<const std::uint8_t> more, std::vector<std::uint8_t>& marks) {
     for (std::size_t e = 0; e < more.size(); ++e) marks[e] |= more[e];
 }
 
-// #E; empty: none are wanted.
-std::vector<std::uint8_t> find_all_creases(const CleanedInput& cleaned, double spacing,
-                                           const RemeshOptions& options) {
+// Sets the creases.
+void find_all_creases(const CleanedInput& cleaned, double spacing, bool selects,
+                      const RemeshOptions& options, FoundCurves& found) {
     const Surface& surface = cleaned.surface;
     if (options.features == Features::Off && options.feature_edges.empty() &&
         options.face_labels.empty()) {
-        return {};
+        return;
     }
     const Progress progress = cleaned_progress(options);
-    std::vector<std::uint8_t> is_crease(surface.num_edges(), 0);
+    found.is_crease.assign(surface.num_edges(), 0);
+    found.is_given = found.is_crease;
     if (options.features != Features::Off) {
-        is_crease =
+        found.is_crease =
             find_creases(surface, {.angle = options.feature_angle,
                                    .spacing = std::min(spacing, mean_spacing(surface, least_scale)),
                                    .is_automatic = options.features == Features::Auto,
@@ -48,12 +57,18 @@ std::vector<std::uint8_t> find_all_creases(const CleanedInput& cleaned, double s
     if (!options.feature_edges.empty()) {
         add_marks(carry_edges(options.feature_edges, cleaned.given,
                               {surface.mesh.view(), cleaned.face_origin}, surface),
-                  is_crease);
+                  found.is_given);
     }
     if (!options.face_labels.empty()) {
-        add_marks(find_label_borders(options.face_labels, cleaned.face_origin, surface), is_crease);
+        add_marks(find_label_borders(options.face_labels, cleaned.face_origin, surface),
+                  found.is_given);
     }
-    return is_crease;
+    add_marks(found.is_given, found.is_crease);
+    if (options.features != Features::Auto || options.sites || !selects) return;
+    found.is_close = found.is_crease;
+    select_creases(surface, spacing, found.is_given, options.num_threads, progress,
+                   found.is_crease);
+    for (Index e = 0; e < found.is_crease.size(); ++e) found.is_close[e] ^= found.is_crease[e];
 }
 
 // \param found  its creases are known.
@@ -72,14 +87,13 @@ void find_seams(const CleanedInput& cleaned, double spacing, const RemeshOptions
 }
 
 GivenNetwork plan_with_given(const CleanedInput& cleaned, std::vector<std::uint8_t> is_crease,
-                             double drop_share, double spacing, const RemeshOptions& options) {
+                             double spacing, const RemeshOptions& options) {
     const Progress progress = cleaned_progress(options);
     const std::vector<SurfacePoint> sites = given_sites(cleaned, cleaned.surface, *options.sites);
     return plan_given_network(cleaned.surface, std::move(is_crease),
                               take(sites, distinct_points(cleaned.surface, sites)),
                               {.spacing = spacing,
                                .tolerance = is_relaxed(options) ? on_curve : site_rounding,
-                               .drop_share = drop_share,
                                .num_threads = options.num_threads,
                                .progress = progress});
 }
@@ -121,7 +135,8 @@ void count_seams(const Surface& surface, const NetworkPlan& plan, const FoundCur
 
 }  // namespace
 
-FoundCurves find_curves(const CleanedInput& cleaned, double spacing, const StageContext& context) {
+FoundCurves find_curves(const CleanedInput& cleaned, double spacing, bool selects,
+                        const StageContext& context) {
     const auto& [options, result] = context;
     const StageClock clock(Stage::Clean, result);
     FoundCurves found;
@@ -133,9 +148,34 @@ FoundCurves find_curves(const CleanedInput& cleaned, double spacing, const Stage
     } else if (options.junctions == Junctions::Apart) {
         drop_short_junctions(cleaned.surface, least_junction * spacing, found.junctions);
     }
-    found.is_crease = find_all_creases(cleaned, spacing, options);
+    find_all_creases(cleaned, spacing, selects, options, found);
     if (!options.texture_seams.empty()) find_seams(cleaned, spacing, options, found);
     return found;
+}
+
+std::vector<Index> edges_near(std::span<const Vec3> points, const Surface& surface, double spacing,
+                              std::span<const std::uint8_t> is_among) {
+    const double reach = around_failure * spacing;
+    MeshBox box;
+    for (const Vec3& p : points) box.add(p);
+    PointGrid grid(box.low, 2 * reach * (1 + grid_margin), points.size());
+    for (Index i = 0; i < points.size(); ++i) grid.add(points[i], i);
+    std::vector<Index> near;
+    for (Index e = 0; e < is_among.size(); ++e) {
+        if (is_among[e] == 0) continue;
+        const Index h = surface.edge_half[e];
+        const Vec3 &a = surface.mesh.positions[surface.tail(h)],
+                   &b = surface.mesh.positions[surface.head(h)];
+        bool is_near = false;
+        const int parts = 1 + static_cast<int>(surface.length[e] / reach);
+        for (int i = 0; i <= parts; ++i) {
+            grid.visit_near(a + (b - a) * i / parts, reach, [&](Index p) {
+                is_near = is_near || distance_to_segment(points[p], a, b) < reach;
+            });
+        }
+        if (is_near) near.push_back(e);
+    }
+    return near;
 }
 
 std::unique_ptr<const CurvePlan> plan_curves(const CleanedInput& cleaned, const FoundCurves& found,
@@ -144,28 +184,37 @@ std::unique_ptr<const CurvePlan> plan_curves(const CleanedInput& cleaned, const 
     const auto& [options, result] = context;
     const StageClock clock(Stage::Clean, result);
     result.junctions.apart_edges = result.junctions.edges;
+    for (Index e = 0; e < found.is_crease.size(); ++e) {
+        if (kept.is_crease[e] != 0) continue;
+        const double length = cleaned.surface.length[e];
+        if (found.is_crease[e] != 0) result.features.dropped_length += length;
+        if (!found.is_close.empty() && found.is_close[e] != 0) {
+            result.features.close_length += length;
+        }
+    }
+    const double left_out = result.features.dropped_length;
     JunctionSet junctions = kept.has_junctions ? found.junctions : JunctionSet{};
     const bool has_seams = kept.has_seams && !found.is_seam.empty();
     if (!found.is_seam.empty()) count_seams(cleaned.surface, {}, found, result.features);
-    if (found.is_crease.empty() && !has_seams && junctions.empty() && cleaned.locked.empty()) {
+    if (kept.is_crease.empty() && !has_seams && junctions.empty() && cleaned.locked.empty()) {
         return nullptr;
     }
-    std::vector<std::uint8_t> is_crease = found.is_crease;
+    std::vector<std::uint8_t> is_crease = kept.is_crease;
     is_crease.resize(cleaned.surface.num_edges(), 0);
     if (has_seams) add_marks(found.is_wide, is_crease);
     auto plan = std::make_unique<CurvePlan>();
     if (options.sites) {
-        GivenNetwork given =
-            plan_with_given(cleaned, std::move(is_crease), kept.drop_share, spacing, options);
+        GivenNetwork given = plan_with_given(cleaned, std::move(is_crease), spacing, options);
         result.features.uncarried_curves = given.dropped_curves;
         plan->network = std::move(given.plan);
         plan->given = std::move(given);
     } else {
         plan->network = plan_network(cleaned.surface, std::move(is_crease), options.num_samples,
-                                     std::move(junctions), kept.drop_share, options.num_threads,
+                                     std::move(junctions), options.num_threads,
                                      cleaned_progress(options), sizes, cleaned.locked);
     }
     count_plan(plan->network, result);
+    result.features.dropped_length += left_out;
     if (!found.is_seam.empty()) {
         count_seams(cleaned.surface, plan->network, found, result.features);
     }

@@ -16,6 +16,9 @@ struct StageContext;
 //! Creases, seams and junctions of the cleaned surface.
 struct FoundCurves {
     std::vector<std::uint8_t> is_crease;  //!< #E; empty: no creases are wanted.
+    std::vector<std::uint8_t> is_given;   //!< #E: of these the caller's own, or borders of labels.
+    //! #E: creases beside these which select_creases() left out.
+    std::vector<std::uint8_t> is_close;
     //! #E: texture seams; empty: there are none. Those of `is_wide` can be curves at the spacing.
     std::vector<std::uint8_t> is_seam, is_wide;
     JunctionSet junctions;
@@ -25,7 +28,7 @@ struct FoundCurves {
 struct KeptCurves {
     bool has_junctions = true;
     bool has_seams = true;
-    double drop_share = 0;  //!< Share of the creases, in [0, 1]: see plan_network.
+    std::vector<std::uint8_t> is_crease = {};  //!< #E: some of those found; empty: none.
 };
 
 //! A network of curves and the surface cut along it.
@@ -36,9 +39,15 @@ struct CurvePlan {
 };
 
 //! \param spacing  of the sites, mesh units.
+//! \param selects  leaves out creases closer than sites can be (select_creases).
 //! Cost: O(#E) for each length at which creases are sought.
-[[nodiscard]] FoundCurves find_curves(const CleanedInput& cleaned, double spacing,
+[[nodiscard]] FoundCurves find_curves(const CleanedInput& cleaned, double spacing, bool selects,
                                       const StageContext& context);
+
+//! Of some edges those within two spacings of some points. Cost: O(#E + #points).
+//! \param is_among  #E: 1 for these edges.
+[[nodiscard]] std::vector<Index> edges_near(std::span<const Vec3> points, const Surface& surface,
+                                            double spacing, std::span<const std::uint8_t> is_among);
 
 //! \param sizes  target lengths; null: all equal.
 //! \return null if the boundary is all that is to be reproduced.

@@ -6,67 +6,92 @@
 #include "agvd/mesh/surface_points.h"
 #include "remesh/pipeline/crossings.h"
 #include "remesh/pipeline/domain.h"
-#include "remesh/pipeline/placed_dual.h"
 #include "remesh/pipeline/stage_context.h"
-#include "remesh/pipeline/valid_dual.h"
+#include "remesh/placement/mesh_curves.h"
 #include "remesh/sites/sampling.h"
 
 namespace remesh::detail {
 namespace {
 
-// Most tries; in the second fewer vertices may move.
-constexpr int most_tries = 2;
+// Most tries; in each one fewer vertices may move.
+constexpr int most_tries = 4;
 // find_corners() compares chords of half its spacing: these are as long as the mean edge.
 constexpr double chords_of_lasting_corner = 2;
 // In spacings: shorter loops have no chords as long as that.
 constexpr double least_loop = 3;
 
-// #V of the base: corners of the boundary that turn over a whole spacing.
-std::vector<bool> lasting_corners(const Domain& domain) {
+// #V: corners of the boundary that turn over a whole spacing.
+std::vector<bool> lasting_corners(const Domain& domain,
+                                  const std::vector<std::vector<Index>>& loops) {
     const Surface& surface = *domain.whole;
     std::vector<bool> is_corner(surface.num_vertices(), false);
-    const double spacing = chords_of_lasting_corner * domain.spacing;
-    for (const std::vector<Index>& loop : boundary_loops(surface)) {
+    for (const std::vector<Index>& loop : loops) {
         double length = 0;
         for (const Index h : loop) length += surface.length_of(h);
         const Index component = domain.parts->face_component[Surface::face(loop[0])];
         // The loop around a whole component counts, however small that is.
         const bool is_hole = domain.parts->components[component].area > length * length;
         if (is_hole && length < least_loop * domain.spacing) continue;
-        for (const Index v : find_corners(surface, loop, spacing)) is_corner[v] = true;
+        const double chords = chords_of_lasting_corner * domain.spacing;
+        for (const Index v : find_corners(surface, loop, chords)) is_corner[v] = true;
     }
     return is_corner;
 }
 
+MeshCurves curves_of(const Domain& domain, const ImprovableMesh& improvable) {
+    const Surface& cut = domain.prepared.input();
+    return {*domain.whole, cut, domain.plan ? domain.plan->network.network : improvable.boundary};
+}
+
 }  // namespace
 
-std::optional<ImprovableMesh> find_improvable(const Domain& domain, const ValidDual& dual,
-                                              PlacedMesh placed,
-                                              const std::vector<bool>& is_simplified,
+std::optional<ImprovableMesh> find_improvable(const Domain& domain, PlacedDual placed,
                                               const RemeshOptions& options) {
-    std::vector<bool> is_improvable = is_simplified;
-    is_improvable.resize(domain.parts->components.size(), false);
-    for (Index i = 0; i < is_improvable.size() && !options.sites; ++i) {
-        if (domain.parts->components[i].boundary_loops > 0) is_improvable[i] = true;
+    if (options.sites || domain.has_junctions()) return std::nullopt;
+    // Bounds of the distance are met by vertices where they are missing: one that is taken away
+    // elsewhere comes back in the next round.
+    if (domain.plan && options.vertex_count == VertexCount::Add) return std::nullopt;
+    ImprovableMesh result;
+    result.hard = rim_of(placed.mesh.triangles);
+    if (placed.patches) {
+        const GluedMesh& glued = placed.patches->glued;
+        for (auto& [from, to] : result.hard) {
+            from = glued.vertex[from];
+            to = glued.vertex[to];
+        }
+        result.mesh = {take(placed.mesh.points, glued.representative),
+                       take(placed.mesh.offsets, glued.representative), glued.triangles};
+    } else {
+        result.mesh = std::move(placed.mesh);
     }
-    if (std::find(is_improvable.begin(), is_improvable.end(), true) == is_improvable.end()) {
-        return std::nullopt;
-    }
-    ImprovableMesh result{.mesh = {}, .mobility = {}, .hard = rim_of(placed.triangles)};
-    result.mobility.assign(placed.points.size(), Mobility::Free);
-    for (const auto& [from, to] : result.hard) {
-        result.mobility[from] = result.mobility[to] = Mobility::Boundary;
-    }
-    const std::vector<bool> is_corner = lasting_corners(domain);
-    for (Index i = 0; i < placed.points.size(); ++i) {
-        const SurfacePoint& point = dual.points[i];
-        const auto v = vertex_of(domain.base(), point);
-        if ((v && *v < is_corner.size() && is_corner[*v]) ||
-            !is_improvable[domain.component[point.face.value()]]) {
-            result.mobility[i] = Mobility::Fixed;
+    std::vector<bool> is_corner;
+    if (!domain.plan) {
+        const std::vector<std::vector<Index>> loops = boundary_loops(*domain.whole);
+        is_corner = lasting_corners(domain, loops);
+        for (const std::vector<Index>& loop : loops) {
+            result.boundary.curves.push_back(curve_of_loop(*domain.whole, loop));
         }
     }
-    result.mesh = std::move(placed);
+    std::vector<bool> is_on_edge(result.mesh.points.size(), false);
+    for (const auto& [from, to] : result.hard) is_on_edge[from] = is_on_edge[to] = true;
+    const MeshCurves curves = curves_of(domain, result);
+    for (Index v = 0; v < result.mesh.points.size(); ++v) {
+        const CurvePlace place = curves.place_of(result.mesh.points[v]);
+        Mobility mobility = place.is_free()           ? Mobility::Free
+                            : place.curve != no_index ? Mobility::Boundary
+                                                      : Mobility::Fixed;
+        // A mesh may pass by a vertex on a curve, and a rim may lie off the boundary.
+        if (!is_on_edge[v]) {
+            if (place.node == no_index) mobility = Mobility::Free;
+        } else if (mobility == Mobility::Free) {
+            mobility = Mobility::Boundary;
+        }
+        if (!is_corner.empty()) {
+            const auto corner = vertex_of(*domain.whole, result.mesh.points[v]);
+            if (corner && is_corner[*corner]) mobility = Mobility::Fixed;
+        }
+        result.mobility.push_back(mobility);
+    }
     return result;
 }
 
@@ -77,8 +102,9 @@ bool improve(const Domain& domain, CrossingFinder& finder, ImprovableMesh& impro
         std::vector<Index> numbers;
         {
             const StageClock clock(Stage::Place, context.result);
-            numbers = repair_shape(domain.prepared.input(), improvable.mobility, improvable.hard,
-                                   improved.mesh, progress_at(Stage::Place, context.options, 1));
+            numbers =
+                repair_shape(curves_of(domain, improvable), improvable.mobility, improvable.hard,
+                             improved.mesh, progress_at(Stage::Place, context.options, 1));
         }
         if (numbers.empty()) return false;
         std::optional<FacePairs> pairs = finder.find(improved);

@@ -5,6 +5,7 @@
 
 #include "agvd/mesh/any_mesh.h"
 #include "agvd/mesh/surface_points.h"
+#include "remesh/curves/walk.h"
 #include "remesh/pipeline/domain.h"
 #include "remesh/pipeline/place_sites.h"
 #include "remesh/pipeline/stage_context.h"
@@ -15,6 +16,8 @@ namespace {
 
 // As a share of the spacing: lengths up to this are rounding.
 constexpr double rounding = 1e-10;
+// Edges this much shorter than the longest one are not divided in the same round.
+constexpr double length_ratio = 1.4;
 
 // The numbers of the copies on curves; the other vertices of the dual get numbers from `next` on.
 std::vector<Index> numbers_of(const ValidDual& dual, std::span<const Index> of_copies, Index next) {
@@ -110,6 +113,44 @@ std::vector<Vec3> positions_of(const Surface& whole, const PlacedMesh& mesh) {
     return positions;
 }
 
+// Divides edges of a dual that is not placed yet.
+class EdgeSplitter {
+public:
+    EdgeSplitter(const Domain& domain, std::vector<SurfacePoint> points, ValidDual& dual)
+        : surface_(domain.prepared.input()),
+          base_(domain.prepared.base),
+          points_(std::move(points)),
+          dual_(dual) {
+        dual_.stays.resize(dual_.points.size(), 0);
+    }
+
+    [[nodiscard]] Vec3 at(Index v) const { return position(surface_.mesh.view(), points_[v]); }
+
+    // \param h, g  the two sides of an inner edge.
+    void split(Index h, Index g) {
+        const Index t = h / 3, u = g / 3;
+        std::vector<Triangle>& triangles = dual_.triangles;
+        const Index a = triangles[t][h % 3], b = triangles[t][(h + 1) % 3];
+        const Index c = triangles[t][(h + 2) % 3], d = triangles[u][(g + 2) % 3];
+        const SurfacePoint middle = walk_straight(surface_, points_[a], (at(b) - at(a)) / 2).end;
+        const auto added = static_cast<Index>(points_.size());
+        points_.push_back(middle);
+        dual_.points.push_back(base_.to_intrinsic(middle));
+        dual_.site.push_back(no_index);
+        dual_.stays.push_back(1);
+        triangles[t] = {a, added, c};
+        triangles[u] = {b, added, d};
+        triangles.push_back({added, b, c});
+        triangles.push_back({added, a, d});
+    }
+
+private:
+    const Surface& surface_;
+    const IntrinsicTriangulation& base_;
+    std::vector<SurfacePoint> points_;  // #V, on the cleaned surface.
+    ValidDual& dual_;
+};
+
 }  // namespace
 
 bool has_chain(const ValidDual& dual, std::span<const ChainEdge> chain) {
@@ -121,6 +162,50 @@ bool has_chain(const ValidDual& dual, std::span<const ChainEdge> chain) {
     std::sort(rim.begin(), rim.end());
     std::sort(wanted.begin(), wanted.end());
     return rim == wanted;
+}
+
+Index split_repeated(const Domain& domain, const CurveSites& curves,
+                     std::vector<SurfacePoint> points, ValidDual& dual) {
+    const GluedMesh glued = join_patches(dual, curves).glued;
+    const std::vector<InnerEdge> repeated = repeated_edges(glued);
+    if (repeated.empty()) return 0;
+    dual.triangles = glued.in_patches;
+    EdgeSplitter splitter(domain, std::move(points), dual);
+    std::vector<bool> is_changed(dual.triangles.size(), false);
+    Index count = 0;
+    for (const auto& [h, g] : repeated) {
+        if (is_changed[h / 3] || is_changed[g / 3]) continue;
+        is_changed[h / 3] = is_changed[g / 3] = true;
+        splitter.split(h, g);
+        ++count;
+    }
+    return count;
+}
+
+void add_vertices(const Domain& domain, std::vector<SurfacePoint> points, Index count,
+                  ValidDual& dual) {
+    EdgeSplitter splitter(domain, std::move(points), dual);
+    while (count > 0) {
+        std::vector<std::pair<double, std::pair<Index, Index>>> edges;
+        for_each_edge(sorted_edge_sides(dual.triangles), [&](std::span<const EdgeSide> sides) {
+            if (sides.size() != 2) return;
+            const double length =
+                (splitter.at(sides[0].low()) - splitter.at(sides[0].high())).norm();
+            edges.push_back({-length, {sides[0].half_edge, sides[1].half_edge}});
+        });
+        if (edges.empty()) return;
+        std::sort(edges.begin(), edges.end());
+        std::vector<bool> is_changed(dual.triangles.size(), false);
+        const double least = edges.front().first / length_ratio;  // Negative, as the lengths are.
+        for (const auto& [length, sides] : edges) {
+            const auto& [h, g] = sides;
+            if (count == 0 || length > least) break;
+            if (is_changed[h / 3] || is_changed[g / 3]) continue;
+            is_changed[h / 3] = is_changed[g / 3] = true;
+            splitter.split(h, g);
+            --count;
+        }
+    }
 }
 
 PlacedDual place_dual(Domain& domain, const CurveSites& curves, const ValidDual& dual,

@@ -27,6 +27,18 @@ struct PlacedDual {
 //! Whether each curve is the same chain of edges in all patches on its sides. Cost: O(n log n).
 [[nodiscard]] bool has_chain(const ValidDual& dual, std::span<const ChainEdge> chain);
 
+//! Divides the inner edges of patches that would coincide with other edges when patches are joined,
+//! and that no flip removes, by a vertex in the middle.
+//! \param points  #V of the dual, on the cleaned surface.
+//! \return how many. Cost: O(n log n).
+Index split_repeated(const Domain& domain, const CurveSites& curves,
+                     std::vector<SurfacePoint> points, ValidDual& dual);
+
+//! Adds vertices in the middle of the longest inner edges.
+//! \param points  #V of the dual, on the cleaned surface. Cost: O(n log n).
+void add_vertices(const Domain& domain, std::vector<SurfacePoint> points, Index count,
+                  ValidDual& dual);
+
 //! Joins the patches, fits the vertices to the surface and moves those of bad triangles, as far as
 //! the options ask for it, and flips triangles without area.
 //! \param domain  its pieces are found if they were reset, and reset then.

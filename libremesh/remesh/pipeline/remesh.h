@@ -117,6 +117,9 @@ struct FeatureCounts {
     Index nodes = 0;     //!< Points where curves turn sharply, end or meet.
     Index vertices = 0;  //!< Vertices of the result on curves and nodes.
     double length = 0;   //!< Of the creases that were kept, in mesh units.
+    //! Of creases that run closer to others, or to the boundary, than sites can: only the stronger
+    //! ones are kept.
+    double close_length = 0;
     double dropped_length = 0;  //!< Of the dropped creases: the sites are too few or lie elsewhere.
     Index uncarried_curves = 0;    //!< Creases that given sites do not lie on.
     Index samples_for_all = 0;     //!< Fewest samples that keep all creases.

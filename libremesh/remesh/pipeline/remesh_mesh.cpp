@@ -111,9 +111,9 @@ void scale_back(RemeshResult& result, int exponent) {
     result.mesh = scaled(result.mesh.view(), exponent);
     Verdict& verdict = result.verdict;
     for (double* length :
-         {&result.features.length, &result.features.dropped_length, &result.features.seam_length,
-          &result.features.dropped_seam_length, &result.sizing.mean_edge,
-          &result.sizing.least_target, &result.sizing.largest_target,
+         {&result.features.length, &result.features.close_length, &result.features.dropped_length,
+          &result.features.seam_length, &result.features.dropped_seam_length,
+          &result.sizing.mean_edge, &result.sizing.least_target, &result.sizing.largest_target,
           &result.sizing.largest_distance, &verdict.spacing, &verdict.thinnest_wall,
           &verdict.largest_distance, &verdict.diagonal}) {
         *length = std::ldexp(*length, exponent);

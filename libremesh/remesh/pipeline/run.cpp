@@ -52,10 +52,13 @@ bool has_more_to_drop(const KeptCurves& kept, const FeatureCounts& features) {
     return features.curves > 0 && (kept.has_seams || features.length > 0);
 }
 
-// A run after cleaning. Tries all curves, then all creases, then fewer and fewer, at last none,
-// until a mesh has no new self-intersections. If none of these gives a mesh, tries the same without
-// junctions.
+// A run after cleaning. Tries all curves, then all creases. Leaves out creases where faces
+// intersect that do not in the input, and at last all, until a mesh has no such faces. If none of
+// these gives a mesh, tries the same without junctions.
 class Attempts {
+    // Changes of creases in places before all go.
+    static constexpr int most_changes = 3;
+
 public:
     // \param most_lengths  see find_sizes.
     Attempts(CleanedInput& cleaned, const RemeshResult& after_cleaning, const RemeshOptions& given,
@@ -76,6 +79,7 @@ public:
         // Only what is locked can make all attempts fail.
         if (!best_) throw TooFewSamples{options_.num_samples, options_.num_samples + 1};
         best_->seconds = first_.seconds;
+        best_->features.samples_for_all = samples_for_all_;
         // A rod that is narrower than the spacing gets shorter by some edges.
         const bool has_lost_part = best_->verdict.largest_distance > best_->verdict.spacing;
         if (!narrow_points_.empty() && may_shorten(options_) && !work.is_spent() && has_lost_part &&
@@ -88,51 +92,82 @@ public:
 private:
     void find_lengths(std::span<const double> most_lengths) {
         const double spacing = spacing_for(cleaned_, options_);
-        found_ = find_curves(cleaned_, spacing, {options_, first_});
+        // A crease left out costs distance.
+        const bool selects = most_lengths.empty();
+        found_ = find_curves(cleaned_, spacing, selects, {options_, first_});
         sizes_ = find_sizes(cleaned_, found_, spacing, most_lengths, {}, {options_, first_});
     }
 
-    // What is tried, in order.
-    [[nodiscard]] std::vector<KeptCurves> attempts_with(bool has_junctions) const {
-        std::vector<KeptCurves> attempts;
-        if (!found_.is_seam.empty()) attempts.push_back({has_junctions, true, 0});
-        for (const double drop_share : {0.0, 0.3, 0.6, 1.0}) {
-            if (drop_share > 0 && found_.is_crease.empty()) break;
-            attempts.push_back({has_junctions, false, drop_share});
-        }
-        return attempts;
-    }
-
     void run_all(bool has_junctions, WorkLimit& work) {
-        bool needs_none = false;  // Dropping some curves would not help.
-        const std::vector<KeptCurves> attempts = attempts_with(has_junctions);
-        for (const KeptCurves& kept : attempts) {
-            const bool is_last = &kept == &attempts.back();
-            if (work.is_spent() && best_) return;
-            if (!is_last && (needs_none || work.is_spent())) continue;
-            RemeshResult result = first_;
-            std::vector<SurfacePoint> narrow_points;
-            const std::size_t done = work.done();
-            try {
-                narrow_points = run_attempt(cleaned_, found_, kept, sizes_.field.get(), work,
-                                            {options_, result});
-                result.features.gave_up = kept.drop_share > 0;
-            } catch (const NetworkFailed&) {
-                first_.seconds = result.seconds;
-                work.add_again(done);
-                if (!has_more_to_drop(kept, result.features)) return;
+        KeptCurves kept{has_junctions, !found_.is_seam.empty(), found_.is_crease};
+        for (int num_changes = 0;;) {
+            std::vector<Vec3> crossings;
+            if (try_curves(kept, work, crossings) || (work.is_spent() && best_)) return;
+            const bool has_time = !work.is_spent();
+            if (has_time && kept.has_seams) {
+                kept.has_seams = false;
                 continue;
             }
-            first_.seconds = result.seconds;
-            needs_none = is_hopeless(result.self_intersections.value_or(0), {options_, result});
-            const bool is_bare = !has_more_to_drop(kept, result.features);
-            if (!best_ || is_better(result, *best_)) {
-                best_ = std::move(result);
-                kept_ = kept;
-                narrow_points_ = std::move(narrow_points);
-            }
-            if (is_fine(*best_) || is_bare) return;
+            if (has_time && change_near(crossings, num_changes, kept.is_crease)) continue;
+            if (!has_creases(kept.is_crease)) return;
+            kept.has_seams = false;
+            kept.is_crease.assign(kept.is_crease.size(), 0);
         }
+    }
+
+    // Changes creases where faces intersect: those that were left out there come back, and the next
+    // time all go there.
+    // \param num_changes  so far.
+    // \return whether there was a change.
+    bool change_near(std::span<const Vec3> crossings, int& num_changes,
+                     std::vector<std::uint8_t>& is_crease) const {
+        const double spacing = spacing_for(cleaned_, options_);
+        while (num_changes < most_changes && !crossings.empty()) {
+            const bool come_back = num_changes++ == 0;
+            std::vector<std::uint8_t> is_among = come_back ? found_.is_close : is_crease;
+            if (!come_back) {
+                for (Index e = 0; e < is_among.size(); ++e) {
+                    if (found_.is_given[e] != 0) is_among[e] = 0;
+                }
+            }
+            const std::vector<Index> near =
+                edges_near(crossings, cleaned_.surface, spacing, is_among);
+            for (const Index e : near) is_crease[e] = come_back ? 1 : 0;
+            if (!near.empty()) return true;
+        }
+        return false;
+    }
+
+    // Keeps the result if it is the best.
+    // \param[out] crossings  corners of faces that intersect; none if less creases would not help,
+    //                        or there is no mesh.
+    // \return whether it is no use to try other curves.
+    bool try_curves(const KeptCurves& kept, WorkLimit& work, std::vector<Vec3>& crossings) {
+        RemeshResult result = first_;
+        AttemptEnd end;
+        const std::size_t done = work.done();
+        const auto is_bare = [&] { return !has_more_to_drop(kept, result.features); };
+        try {
+            end = run_attempt(cleaned_, found_, kept, sizes_.field.get(), work, {options_, result});
+        } catch (const NetworkFailed&) {
+            first_.seconds = result.seconds;
+            samples_for_all_ = std::max(samples_for_all_, result.features.samples_for_all);
+            work.add_again(done);
+            return is_bare();
+        }
+        result.features.gave_up = kept.is_crease != found_.is_crease;
+        first_.seconds = result.seconds;
+        samples_for_all_ = std::max(samples_for_all_, result.features.samples_for_all);
+        if (!is_hopeless(result.self_intersections.value_or(0), {options_, result})) {
+            crossings = std::move(end.crossing_corners);
+        }
+        const bool ends = is_bare();
+        if (!best_ || is_better(result, *best_)) {
+            best_ = std::move(result);
+            kept_ = kept;
+            narrow_points_ = std::move(end.narrow_points);
+        }
+        return ends || is_fine(*best_);
     }
 
     // Runs the best attempt again with shorter edges on narrow parts, where cells wrapped around
@@ -155,6 +190,7 @@ private:
             return;
         }
         again.features.gave_up = best_->features.gave_up;
+        again.features.samples_for_all = samples_for_all_;
         best_ = std::move(again);
     }
 
@@ -164,6 +200,7 @@ private:
     FoundCurves found_;
     RunSizes sizes_;
     std::optional<RemeshResult> best_;
+    Index samples_for_all_ = 0;                // Of the attempt with most curves.
     KeptCurves kept_;                          // Of the best.
     std::vector<SurfacePoint> narrow_points_;  // Of the best.
 };

@@ -16,10 +16,11 @@ struct StageContext;
 
 //! A triangle mesh whose vertices are points of the base.
 struct ValidDual {
-    std::vector<SurfacePoint> points;  //!< One per vertex.
-    std::vector<Triangle> triangles;   //!< Indices into points.
-    std::vector<Index> site;           //!< Per vertex: its site; no_index: it has none.
-    Diagram diagram;                   //!< Of the sites.
+    std::vector<SurfacePoint> points;      //!< One per vertex.
+    std::vector<Triangle> triangles;       //!< Indices into points.
+    std::vector<Index> site;               //!< Per vertex: its site; no_index: it has none.
+    std::vector<std::uint8_t> stays = {};  //!< #V or empty: 1 for vertices to remove last.
+    Diagram diagram;                       //!< Of the sites.
     //! Where cells of the first round wrapped around a narrow part.
     std::vector<SurfacePoint> narrow_points;
 };

@@ -10,10 +10,11 @@
 
 #include "agvd/mesh/surface.h"
 #include "remesh/curves/glue.h"
+#include "remesh/curves/walk.h"
 #include "remesh/dual/flippable_mesh.h"
+#include "remesh/placement/mesh_curves.h"
 #include "remesh/placement/placement.h"
 #include "remesh/placement/shape_quality.h"
-#include "remesh/sites/walk.h"
 
 namespace remesh::detail {
 
@@ -27,9 +28,12 @@ class EditedMesh {
 public:
     struct Face {
         Triangle corner;
-        std::array<bool, 3> is_hard{};  //!< k: the edge from corner k to the next one.
+        //! k: the curve of the edge from corner k to the next one; no_index: it lies on none.
+        std::array<Index, 3> curve{no_index, no_index, no_index};
         bool is_there = false;
         double quality = 0;  //!< shape_quality(); 1 less if the face points against the surface.
+
+        [[nodiscard]] bool is_hard(std::size_t k) const { return curve[k] != no_index; }
     };
     //! A state to which edits can be undone.
     struct Mark {
@@ -37,19 +41,24 @@ public:
         Index num_faces = 0, num_vertices = 0;
     };
 
-    //! \param surface   outlives this.
-    //! \param mobility  #V. Vertices on hard edges are not Free.
-    //! \param hard      edges that are never flipped, in one direction or both; must include all
-    //!                  edges of a single face.
-    EditedMesh(const Surface& surface, const PlacedMesh& mesh, std::span<const Mobility> mobility,
+    //! \param curves    outlives this.
+    //! \param mobility  #V. Free ones lie on no curve.
+    //! \param hard      edges along curves, in one direction or both: never flipped; they must
+    //!                  include all edges of a single face.
+    EditedMesh(const MeshCurves& curves, const PlacedMesh& mesh, std::span<const Mobility> mobility,
                std::span<const DirectedEdge> hard)
-        : surface_(surface),
+        : curves_(curves),
+          surface_(curves.surface()),
           faces_(mesh.triangles.size()),
           vertices_(mesh.points.size()),
           fans_(mesh.points.size()) {
         for (Index v = 0; v < vertices_.size(); ++v) {
-            vertices_[v] = {mesh.points[v], mesh.offsets[v], Vec3::Zero(), Vec3::Zero(),
-                            mobility[v]};
+            vertices_[v].point = mesh.points[v];
+            vertices_[v].offset = mesh.offsets[v];
+            vertices_[v].mobility = mobility[v];
+            if (mobility[v] != Mobility::Free) {
+                vertices_[v].place = curves.place_of(mesh.points[v]);
+            }
             locate(vertices_[v]);
         }
         for (const Triangle& t : mesh.triangles) {
@@ -61,12 +70,18 @@ public:
         std::sort(edges.begin(), edges.end());
         for (Index f = 0; f < faces_.size(); ++f) {
             const Triangle& t = mesh.triangles[f];
-            faces_[f] = {t, {}, true, quality_of(t)};
+            faces_[f] = {t, {no_index, no_index, no_index}, true, quality_of(t)};
             for (Index k = 0; k < 3; ++k) {
                 fans_[t[k]].push_back(f);
-                faces_[f].is_hard[k] = std::binary_search(edges.begin(), edges.end(),
-                                                          DirectedEdge(t[k], t[(k + 1) % 3]));
+                const Index a = t[k], b = t[(k + 1) % 3];
+                if (!std::binary_search(edges.begin(), edges.end(), DirectedEdge(a, b))) continue;
+                faces_[f].curve[k] = curves.curve_between(vertices_[a].place, vertices_[b].place);
+                if (faces_[f].curve[k] == no_index) faces_[f].curve[k] = unknown_curve;
             }
+        }
+        for (Index h = 0; h < 3 * num_faces(); ++h) {
+            if (half_edge(head(h), tail(h)) != no_index) continue;
+            vertices_[tail(h)].is_on_rim = vertices_[head(h)].is_on_rim = true;
         }
     }
 
@@ -82,14 +97,15 @@ public:
         for (const Index f : fans_[v]) worst = std::min(worst, faces_[f].quality);
         return worst;
     }
-    //! The neighbours before and after a vertex along its hard edges; no_index: none.
+    //! The two neighbours of a vertex on a curve; no_index: there are fewer.
     [[nodiscard]] std::array<Index, 2> hard_neighbours(Index v) const {
         std::array<Index, 2> found{no_index, no_index};
         for (const Index f : fans_[v]) {
             for (Index h = 3 * f; h < 3 * f + 3; ++h) {
-                if (!is_hard(h)) continue;
-                if (tail(h) == v) found[1] = head(h);
-                if (head(h) == v) found[0] = tail(h);
+                if (!is_hard(h) || (tail(h) != v && head(h) != v)) continue;
+                const Index w = tail(h) == v ? head(h) : tail(h);
+                if (w == found[0]) continue;
+                found[found[0] == no_index ? 0 : 1] = w;
             }
         }
         return found;
@@ -104,7 +120,7 @@ public:
         const Index d = apex(twin);
         if (c == d || are_joined(c, d)) return false;
         for (const Index v : {a, b}) {
-            if (fans_[v].size() <= (mobility(v) == Mobility::Free ? 3U : 2U)) return false;
+            if (fans_[v].size() <= least_faces(v)) return false;
         }
         if (folds(h, twin)) return false;
         for (const Index v : {a, b, c, d}) log_fan(v);
@@ -112,10 +128,10 @@ public:
         std::erase(fans_[a], twin / 3);
         fans_[d].push_back(face);
         fans_[c].push_back(twin / 3);
-        const bool bc = is_hard(Surface::next(h)), ca = is_hard(Surface::previous(h));
-        const bool ad = is_hard(Surface::next(twin)), db = is_hard(Surface::previous(twin));
-        put_face(face, {c, a, d}, {ca, ad, false});
-        put_face(twin / 3, {d, b, c}, {db, bc, false});
+        const Index bc = curve_of(Surface::next(h)), ca = curve_of(Surface::previous(h));
+        const Index ad = curve_of(Surface::next(twin)), db = curve_of(Surface::previous(twin));
+        put_face(face, {c, a, d}, {ca, ad, no_index});
+        put_face(twin / 3, {d, b, c}, {db, bc, no_index});
         return true;
     }
     //! \return the new vertex, near the middle of that edge; no_index if it cannot be split.
@@ -123,8 +139,9 @@ public:
         const Index h = 3 * face + k, a = tail(h), b = head(h);
         if (mobility(a) == Mobility::Fixed && mobility(b) == Mobility::Fixed) return no_index;
         Vertex vertex;
-        if (!find_between(a, b, is_hard(h), vertex)) return no_index;
+        if (!find_between(a, b, curve_of(h), vertex)) return no_index;
         const Index twin = half_edge(b, a);
+        vertex.is_on_rim = twin == no_index;
         const auto keeps_normal = [&](Index side) {
             const Vec3 &p = at(tail(side)), &q = at(head(side)), &r = at(apex(side));
             const Vec3 before = (q - p).cross(r - p);
@@ -144,7 +161,7 @@ public:
         if (!may_collapse(gone, into)) return false;
         const std::vector<Index> fan = fans_[gone];
         // Two sides of a removed face become one edge: hard if the side at `into` is.
-        std::vector<DirectedEdge> hard;
+        std::vector<std::pair<DirectedEdge, Index>> hard;
         log_fan(gone);
         log_fan(into);
         fans_[gone].clear();
@@ -154,11 +171,13 @@ public:
                 Triangle moved = old.corner;
                 std::replace(moved.begin(), moved.end(), gone, into);
                 fans_[into].push_back(f);
-                put_face(f, moved, old.is_hard);
+                put_face(f, moved, old.curve);
                 continue;
             }
             for (Index h = 3 * f; h < 3 * f + 3; ++h) {
-                if (apex(h) == gone && is_hard(h)) hard.emplace_back(tail(h), head(h));
+                if (apex(h) == gone && is_hard(h)) {
+                    hard.push_back({{tail(h), head(h)}, curve_of(h)});
+                }
             }
             drop_face(f);
             for (const Index w : old.corner) {
@@ -167,13 +186,13 @@ public:
                 std::erase(fans_[w], f);
             }
         }
-        for (const auto& [from, to] : hard) {
+        for (const auto& [ends, curve] : hard) {
             // The face beyond the removed one now has this edge, in the same direction.
-            const Index h = half_edge(from, to);
+            const Index h = half_edge(ends.first, ends.second);
             if (h == no_index) continue;
             Face face = faces_[h / 3];
-            face.is_hard[h % 3] = true;
-            put_face(h / 3, face.corner, face.is_hard);
+            face.curve[h % 3] = curve;
+            put_face(h / 3, face.corner, face.curve);
         }
         return true;
     }
@@ -183,9 +202,11 @@ public:
         Vertex vertex = vertices_[v];
         if (vertex.mobility == Mobility::Fixed) return false;
         if (vertex.mobility == Mobility::Boundary) {
-            const std::optional<Index> h = boundary_half_edge(surface_, vertex.point);
-            if (!h) return false;
-            vertex.point = walk_boundary(surface_, vertex.point, *h, step);
+            if (vertex.place.curve == no_index) return false;
+            const std::optional<CurvePlace> place = curves_.moved(vertex.place, step);
+            if (!place) return false;
+            vertex.place = *place;
+            vertex.point = curves_.point(place->curve, place->along);
         } else {
             const Walk walk = walk_straight(surface_, vertex.point, step);
             num_crossings_ += static_cast<std::size_t>(walk.num_crossings);
@@ -208,8 +229,9 @@ public:
             const double bend_before = largest_bend_at(v);
             vertices_[v] = vertex;
             const auto [previous, next] = hard_neighbours(v);
-            is_better = (previous == no_index || keeps_bend(previous, v, bend_before)) &&
-                        (next == no_index || keeps_bend(v, next, bend_before));
+            const Index curve = vertex.place.curve;
+            is_better = (previous == no_index || keeps_bend(curve, previous, v, bend_before)) &&
+                        (next == no_index || keeps_bend(curve, v, next, bend_before));
         }
         vertices_[v] = before;
         if (!is_better) return false;
@@ -289,8 +311,8 @@ private:
     // larger before: as a share of the edge's length, and of the mean edge length. With the first
     // alone edges reach around the tips of slots.
     static constexpr double largest_bend = 0.25, most_bend = 0.15;
-    // Most boundary edges of the surface that are compared with one hard edge.
-    static constexpr int most_passed = 10000;
+    // Of an edge whose curve is not found: it stays as it is.
+    static constexpr Index unknown_curve = no_index - 1;
 
     static bool is_gentle(const Vec3& before, const Vec3& after) {
         return after.dot(before) > gentle_turn * after.norm() * before.norm();
@@ -298,25 +320,29 @@ private:
 
     struct Vertex {
         SurfacePoint point;
-        Vec3 offset = Vec3::Zero(), at = offset, facing = offset;
+        Vec3 offset = Vec3::Zero(), at = offset;
+        Vec3 facing = offset;  // Zero where the surface may have several normals.
         Mobility mobility = Mobility::Free;
+        CurvePlace place = {};
+        bool is_on_rim = false;  // Of the mesh.
     };
     void locate(Vertex& vertex) const {
-        vertex.facing = facing_at(surface_, vertex.point);
+        vertex.facing =
+            curves_.is_sharp(vertex.place) ? Vec3(Vec3::Zero()) : facing_at(surface_, vertex.point);
         vertex.at = position(surface_.mesh.view(), vertex.point) + vertex.offset;
     }
     [[nodiscard]] double quality_of(const Triangle& t) const {
         const auto& [a, b, c] = t;
         const Vec3 facing = vertices_[a].facing + vertices_[b].facing + vertices_[c].facing;
-        const bool is_turned = !(normal_of(t).dot(facing) > 0);
+        const bool is_turned = normal_of(t).dot(facing) < 0;
         return shape_quality(at(a), at(b), at(c)) - (is_turned ? 1 : 0);
     }
     [[nodiscard]] Vec3 normal_of(const Triangle& t) const {
         return (at(t[1]) - at(t[0])).cross(at(t[2]) - at(t[0]));
     }
-    void put_face(Index f, const Triangle& corner, const std::array<bool, 3>& is_hard) {
+    void put_face(Index f, const Triangle& corner, const std::array<Index, 3>& curve) {
         old_faces_.emplace_back(f, faces_[f]);
-        faces_[f] = {corner, is_hard, true, quality_of(corner)};
+        faces_[f] = {corner, curve, true, quality_of(corner)};
     }
     void drop_face(Index f) {
         old_faces_.emplace_back(f, faces_[f]);
@@ -328,7 +354,7 @@ private:
     }
     void log_fan(Index v) { old_fans_.emplace_back(v, fans_[v]); }
     void measure_around(Index v) {
-        for (const Index f : fans_[v]) put_face(f, faces_[f].corner, faces_[f].is_hard);
+        for (const Index f : fans_[v]) put_face(f, faces_[f].corner, faces_[f].curve);
     }
     [[nodiscard]] bool has_corner(Index f, Index v) const {
         const Triangle& t = faces_[f].corner;
@@ -338,7 +364,10 @@ private:
     [[nodiscard]] Index tail(Index h) const { return faces_[h / 3].corner[h % 3]; }
     [[nodiscard]] Index head(Index h) const { return tail(Surface::next(h)); }
     [[nodiscard]] Index apex(Index h) const { return tail(Surface::previous(h)); }
-    [[nodiscard]] bool is_hard(Index h) const { return faces_[h / 3].is_hard[h % 3]; }
+    [[nodiscard]] Index curve_of(Index h) const { return faces_[h / 3].curve[h % 3]; }
+    [[nodiscard]] bool is_hard(Index h) const { return curve_of(h) != no_index; }
+    // No vertex may have fewer.
+    [[nodiscard]] std::size_t least_faces(Index v) const { return vertices_[v].is_on_rim ? 2 : 3; }
     // no_index: there is none.
     [[nodiscard]] Index half_edge(Index from, Index to) const {
         for (const Index f : fans_[from]) {
@@ -393,7 +422,8 @@ private:
         if (num_apexes == 2 && has_face(gone) && has_face(into)) return false;
         for (Index i = 0; i < num_apexes; ++i) {
             // An inner vertex keeps three faces.
-            if (mobility(apexes[i]) == Mobility::Free && fans_[apexes[i]].size() <= 3) return false;
+            const Index v = apexes[i];
+            if (!vertices_[v].is_on_rim && fans_[v].size() <= least_faces(v)) return false;
         }
         return std::all_of(fans_[gone].begin(), fans_[gone].end(), [&](Index f) {
             if (has_corner(f, into)) return true;
@@ -411,26 +441,37 @@ private:
         if (into != before && into != after) return false;
         const Index other = into == after ? before : after;
         return other != apexes[0] && other != apexes[1] &&
-               keeps_bend(before, after, largest_bend_at(gone));
+               keeps_bend(vertices_[gone].place.curve, before, after, largest_bend_at(gone));
     }
-    // Finds a point of the surface near the middle. False if walks from both ends miss it.
-    [[nodiscard]] bool find_between(Index a, Index b, bool is_hard, Vertex& vertex) const {
-        vertex.mobility = is_hard ? Mobility::Boundary : Mobility::Free;
+    // Finds a point of the surface, or of a curve, near the middle. False if walks from both ends
+    // miss it.
+    [[nodiscard]] bool find_between(Index a, Index b, Index curve, Vertex& vertex) const {
         vertex.offset = (vertices_[a].offset + vertices_[b].offset) / 2;
         const Vec3 middle = (at(a) + at(b)) / 2;
         const double most = largest_miss * (at(b) - at(a)).norm();
-        const Mobility best = is_hard ? Mobility::Boundary : Mobility::Free;
-        const bool takes_other = mobility(a) != best && mobility(b) == best;
+        if (curve != no_index) {
+            if (curve == unknown_curve) return false;
+            vertex.mobility = Mobility::Boundary;
+            const auto [from, to] = curves_.interval(curve, vertices_[a].place, vertices_[b].place);
+            // Where the curve bends, the middle of its arc may be far from that of the edge.
+            double nearest = most;
+            Vertex tried = vertex;
+            for (const double share : {0.5, 0.35, 0.65, 0.2, 0.8}) {
+                tried.place = {curve, from + share * (to - from), no_index};
+                tried.point = curves_.point(curve, tried.place.along);
+                locate(tried);
+                const double miss = (tried.at - middle).norm();
+                if (!(miss < nearest)) continue;
+                nearest = miss;
+                vertex = tried;
+            }
+            return nearest < most;
+        }
+        const bool takes_other = !vertices_[a].place.is_free() && vertices_[b].place.is_free();
         for (const Index from : {takes_other ? b : a, takes_other ? a : b}) {
             const SurfacePoint& point = vertices_[from].point;
             const Vec3 step = middle - vertex.offset - position(surface_.mesh.view(), point);
-            if (is_hard) {
-                const std::optional<Index> h = boundary_half_edge(surface_, point);
-                if (!h) continue;
-                vertex.point = walk_boundary(surface_, point, *h, step);
-            } else {
-                vertex.point = walk_straight(surface_, point, step).end;
-            }
+            vertex.point = walk_straight(surface_, point, step).end;
             locate(vertex);
             if ((vertex.at - middle).norm() <= most) return true;
         }
@@ -438,8 +479,8 @@ private:
     }
     void split_side(Index h, Index vertex) {
         const Index a = tail(h), b = head(h), c = apex(h), face = h / 3, added = num_faces();
-        const bool ab = is_hard(h), bc = is_hard(Surface::next(h)),
-                   ca = is_hard(Surface::previous(h));
+        const Index ab = curve_of(h), bc = curve_of(Surface::next(h)),
+                    ca = curve_of(Surface::previous(h));
         faces_.push_back({{vertex, b, c}});
         log_fan(b);
         log_fan(c);
@@ -447,38 +488,30 @@ private:
         fans_[c].push_back(added);
         fans_[vertex].push_back(face);
         fans_[vertex].push_back(added);
-        put_face(face, {a, vertex, c}, {ab, false, ca});
-        put_face(added, {vertex, b, c}, {ab, bc, false});
+        put_face(face, {a, vertex, c}, {ab, no_index, ca});
+        put_face(added, {vertex, b, c}, {ab, bc, no_index});
     }
-    // The largest distance of the surface's boundary between two vertices from the edge.
-    [[nodiscard]] double bend(Index from, Index to) const {
-        const std::optional<Index> first = boundary_half_edge(surface_, vertices_[from].point),
-                                   last = boundary_half_edge(surface_, vertices_[to].point);
-        if (!first || !last) return 0;
-        const Vec3 way = at(to) - at(from);
-        const double square = way.squaredNorm();
-        double most = 0;
-        int passed = 0;
-        for (Index h = *first; h != *last && passed < most_passed; ++passed) {
-            const Index v = surface_.head(h);
-            const Vec3 offset = surface_.mesh.positions[v] - at(from);
-            const double along = square > 0 ? std::clamp(offset.dot(way) / square, 0.0, 1.0) : 0;
-            most = std::max(most, (offset - along * way).norm());
-            h = surface_.outgoing[v];
-        }
-        return most;
+    // The largest distance of a curve between two vertices from the edge.
+    [[nodiscard]] double bend(Index curve, Index from, Index to) const {
+        if (curve == no_index || curve == unknown_curve) return 0;
+        return curves_.bend(curve,
+                            curves_.interval(curve, vertices_[from].place, vertices_[to].place),
+                            at(from), at(to));
     }
+    // At a vertex of a curve.
     [[nodiscard]] double largest_bend_at(Index v) const {
         const auto [before, after] = hard_neighbours(v);
         if (before == no_index || after == no_index) return 0;
-        return std::max(bend(before, v), bend(v, after));
+        const Index curve = vertices_[v].place.curve;
+        return std::max(bend(curve, before, v), bend(curve, v, after));
     }
-    [[nodiscard]] bool keeps_bend(Index from, Index to, double most_before) const {
+    [[nodiscard]] bool keeps_bend(Index curve, Index from, Index to, double most_before) const {
         const double length = (at(to) - at(from)).norm();
-        return bend(from, to) <=
+        return bend(curve, from, to) <=
                std::max(most_before, std::min(largest_bend * length, most_bend * mean_length_));
     }
 
+    const MeshCurves& curves_;
     const Surface& surface_;
     double mean_length_ = 0;  // Of the initial edges.
     std::size_t num_crossings_ = 0;

@@ -8,10 +8,10 @@
 #include "agvd/core/groups.h"
 #include "agvd/core/parallel.h"
 #include "agvd/mesh/surface_points.h"
+#include "remesh/curves/walk.h"
 #include "remesh/placement/shape_quality.h"
 #include "remesh/sites/cell_measures.h"
 #include "remesh/sites/size_field.h"
-#include "remesh/sites/walk.h"
 
 namespace remesh {
 namespace {

@@ -94,6 +94,8 @@ namespace detail {
 //! Where a vertex may go: along the surface, along its boundary, or nowhere.
 enum class Mobility : std::uint8_t { Free, Boundary, Fixed };
 
+class MeshCurves;
+
 }  // namespace detail
 
 //! Flips edges, slides vertices, or splits an edge and collapses another one elsewhere, the worst
@@ -105,7 +107,8 @@ enum class Mobility : std::uint8_t { Free, Boundary, Fixed };
 //! \throw Cancelled  the progress callback returned false; `mesh` is unchanged.
 //! \return for each vertex its old number, #V or more for new ones; empty if nothing changed.
 //! Cost: O(#triangles log #triangles), and about a millisecond for each bad one.
-std::vector<Index> repair_shape(const Surface& surface, std::span<const detail::Mobility> mobility,
+std::vector<Index> repair_shape(const detail::MeshCurves& curves,
+                                std::span<const detail::Mobility> mobility,
                                 std::span<const DirectedEdge> hard, PlacedMesh& mesh,
                                 const Progress& progress = {});
 

@@ -353,16 +353,18 @@ private:
 
 }  // namespace
 
-std::vector<Index> repair_shape(const Surface& surface, std::span<const Mobility> mobility,
+std::vector<Index> repair_shape(const detail::MeshCurves& curves,
+                                std::span<const Mobility> mobility,
                                 std::span<const DirectedEdge> hard, PlacedMesh& mesh,
                                 const Progress& progress) {
     Poller poller(progress);
     Ticker ticker(poller);
     std::vector<Index> numbers;
-    EditedMesh edited(surface, mesh, mobility, hard);
+    EditedMesh edited(curves, mesh, mobility, hard);
     bool is_changed = false;
     for (const Goal& goal : goals) {
-        is_changed = ShapeRepair(edited, surface.num_faces(), goal, ticker).run() || is_changed;
+        is_changed =
+            ShapeRepair(edited, curves.surface().num_faces(), goal, ticker).run() || is_changed;
     }
     if (is_changed) mesh = edited.result(numbers);
     return numbers;

@@ -169,7 +169,7 @@ private:
                 ways.to_mean += way;
                 ways.length += way.norm();
                 ++count;
-                if (!is_free && face.is_hard[k] && way.norm() > 0) {
+                if (!is_free && face.is_hard(k) && way.norm() > 0) {
                     ways.steps.push_back(way.normalized());
                 }
             }

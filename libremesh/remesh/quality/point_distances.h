@@ -9,8 +9,8 @@
 
 #include "agvd/core/progress.h"
 #include "agvd/mesh/closest_point.h"
+#include "agvd/mesh/point_grid.h"
 #include "agvd/mesh/scale.h"
-#include "remesh/clean/point_grid.h"
 
 namespace remesh::detail {
 

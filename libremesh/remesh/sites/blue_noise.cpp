@@ -11,9 +11,9 @@
 #include "agvd/core/random.h"
 #include "agvd/mesh/surface.h"
 #include "agvd/mesh/surface_points.h"
+#include "remesh/curves/walk.h"
 #include "remesh/sites/sampling.h"
 #include "remesh/sites/size_field.h"
-#include "remesh/sites/walk.h"
 
 namespace remesh::detail {
 namespace {

@@ -8,11 +8,11 @@
 #include "agvd/core/random.h"
 #include "agvd/mesh/surface.h"
 #include "agvd/mesh/surface_points.h"
+#include "remesh/curves/walk.h"
 #include "remesh/sites/levels.h"
 #include "remesh/sites/prepared_surface.h"
 #include "remesh/sites/sampling.h"
 #include "remesh/sites/shares.h"
-#include "remesh/sites/walk.h"
 
 namespace remesh::detail {
 namespace {

@@ -9,9 +9,9 @@
 #include "agvd/mesh/surface_points.h"
 #include "agvd/propagation/distance_bounds.h"
 #include "agvd/propagation/propagate.h"
+#include "remesh/curves/walk.h"
 #include "remesh/sites/sampling.h"
 #include "remesh/sites/size_field.h"
-#include "remesh/sites/walk.h"
 
 namespace remesh::detail {
 namespace {

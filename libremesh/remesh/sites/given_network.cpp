@@ -199,10 +199,6 @@ GivenNetwork plan_given_network(const Surface& surface, std::vector<std::uint8_t
     Carrier carrier{surface, std::move(is_crease), sites, options.spacing,
                     options.tolerance * options.spacing};
     result.dropped_curves = carrier.drop_uncarried();
-    if (options.drop_share > 0) {
-        drop_shortest(surface, carrier.network, options.drop_share, carrier.is_crease);
-        (void)carrier.drop_uncarried();
-    }
     NetworkPlan& plan = result.plan;
     plan.length = length_of(surface, carrier.is_crease);
     plan.dropped_length = length_at_first - plan.length;

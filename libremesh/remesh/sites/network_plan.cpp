@@ -99,8 +99,7 @@ Index fewest_vertices(const CurveNetwork& network) {
     return static_cast<Index>(num_curve_vertices(network, fewest_intervals(network)));
 }
 
-}  // namespace
-
+// Drops the shortest creases of a network: this share of their number, rounded up.
 void drop_shortest(const Surface& surface, const CurveNetwork& network, double share,
                    std::vector<std::uint8_t>& is_crease) {
     std::vector<std::pair<double, Index>> order;
@@ -113,6 +112,8 @@ void drop_shortest(const Surface& surface, const CurveNetwork& network, double s
         for (const Index h : network.curves[c].sides[0].half_edges) is_crease[surface.edge[h]] = 0;
     }
 }
+
+}  // namespace
 
 Index fewest_locked_vertices(const Surface& surface, double spacing, const LockedElements& locked) {
     std::vector<std::uint8_t> is_crease(surface.num_edges(), 0);
@@ -129,9 +130,8 @@ double length_of(const Surface& surface, std::span<const std::uint8_t> is_crease
 }
 
 NetworkPlan plan_network(const Surface& surface, std::vector<std::uint8_t> is_crease,
-                         Index num_vertices, JunctionSet junctions, double drop_share,
-                         int num_threads, const Progress& progress, const SizeField* sizes,
-                         LockedElements locked) {
+                         Index num_vertices, JunctionSet junctions, int num_threads,
+                         const Progress& progress, const SizeField* sizes, LockedElements locked) {
     const double spacing = detail::spacing_of(num_vertices, surface_area(surface), 0);
     NetworkPlan plan;
     plan.junctions = std::move(junctions);
@@ -153,10 +153,6 @@ NetworkPlan plan_network(const Surface& surface, std::vector<std::uint8_t> is_cr
         leave_out(plan.junctions, is_crease);
     }
     const double length_at_first = length_of(surface, is_crease);
-    if (drop_share > 0) {
-        (void)find();
-        drop_shortest(surface, plan.network, drop_share, is_crease);
-    }
     while (has_creases(is_crease) || !plan.junctions.empty() || !plan.locked.empty()) {
         if (find() <= num_vertices) {
             divide(surface, is_crease, num_vertices, sizes, num_threads, progress, plan);

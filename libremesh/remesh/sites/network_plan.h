@@ -31,15 +31,13 @@ struct NetworkPlan {
 //! all of these; if too few for what is locked, the plan is empty.
 //! \param is_crease     #E: 1 for the edges of creases.
 //! \param num_vertices  of the result: see num_curve_vertices.
-//! \param drop_share    in [0, 1]: share of the creases to drop in any case, shortest first.
 //! \param sizes           spacings are in local lengths; null: in mesh units.
 //! \return an empty plan if there is nothing but boundary, or nothing else is left.
 //! \throw Cancelled  the progress callback returned false.
 //! Cost: O(n), once more for each tenth of the creases that is dropped.
 [[nodiscard]] NetworkPlan plan_network(const Surface& surface, std::vector<std::uint8_t> is_crease,
                                        Index num_vertices, JunctionSet junctions = {},
-                                       double drop_share = 0, int num_threads = 0,
-                                       const Progress& progress = {},
+                                       int num_threads = 0, const Progress& progress = {},
                                        const SizeField* sizes = nullptr,
                                        LockedElements locked = {});
 
@@ -51,12 +49,6 @@ struct NetworkPlan {
 [[nodiscard]] inline bool has_creases(std::span<const std::uint8_t> is_crease) {
     return std::ranges::any_of(is_crease, [](auto c) { return c != 0; });
 }
-
-//! Drops the shortest creases of a network.
-//! \param share      in [0, 1]: share of their number, rounded up.
-//! \param is_crease  #E; edited in place.
-void drop_shortest(const Surface& surface, const CurveNetwork& network, double share,
-                   std::vector<std::uint8_t>& is_crease);
 
 //! The total length of the creases, mesh units.
 [[nodiscard]] double length_of(const Surface& surface, std::span<const std::uint8_t> is_crease);
@@ -80,8 +72,7 @@ inline constexpr double site_rounding = 1e-5;
 struct GivenNetworkOptions {
     double spacing = 1;                //!< > 0, mesh units: mean distance of neighbouring sites.
     double tolerance = site_rounding;  //!< In spacings, >= site_rounding.
-    double drop_share = 0;  //!< Share of the carried creases to drop, in [0, 1], shortest first.
-    int num_threads = 0;    //!< >= 0; 0: all cores. The same for any number.
+    int num_threads = 0;               //!< >= 0; 0: all cores. The same for any number.
     Progress progress = {};
 };
 

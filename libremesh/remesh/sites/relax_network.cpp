@@ -11,11 +11,11 @@
 #include "agvd/mesh/closest_point.h"
 #include "agvd/mesh/topology.h"
 #include "remesh/curves/glue.h"
+#include "remesh/curves/walk.h"
 #include "remesh/dual/reduce_vertices.h"
 #include "remesh/sites/levels.h"
 #include "remesh/sites/sampling.h"
 #include "remesh/sites/site_dual.h"
-#include "remesh/sites/walk.h"
 
 namespace remesh {
 namespace {

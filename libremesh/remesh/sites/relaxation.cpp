@@ -9,7 +9,7 @@
 #include "agvd/core/parallel.h"
 #include "agvd/core/portable_math.h"
 #include "agvd/mesh/surface_points.h"
-#include "remesh/sites/walk.h"
+#include "remesh/curves/walk.h"
 
 namespace remesh::detail {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "agvd/core/types.h"
 #include "agvd/mesh/surface_points.h"
+#include "remesh/curves/walk.h"
 #include "remesh/sites/cell_measures.h"
-#include "remesh/sites/walk.h"
 
 namespace remesh::detail {
 namespace {

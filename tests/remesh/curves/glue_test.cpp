@@ -78,6 +78,46 @@ TEST(Glue, WhatNoFlipCanMendStays) {
               std::vector<Triangle>({{0, 1, 2}, {0, 2, 3}, {0, 2, 1}, {0, 3, 2}, {1, 3, 4}}));
 }
 
+// Triangles with two copies of a vertex: the edge between these would join a vertex with itself.
+TEST(Glue, AnEdgeBetweenCopiesOfAVertexIsFlipped) {
+    // A fan around 0, of whose rim 1 and 2 are copies.
+    const std::vector<Triangle> patch{{0, 1, 2}, {2, 1, 3}, {0, 2, 4}, {0, 4, 5}, {0, 5, 1}};
+    const std::vector<Index> group{0, 1, 1, 2, 3, 4};
+    const remesh::GluedMesh mesh = remesh::glue(patch, group);
+    for (const Triangle& t : mesh.triangles) {
+        EXPECT_TRUE(t[0] != t[1] && t[1] != t[2] && t[2] != t[0]);
+    }
+    EXPECT_TRUE(remesh::repeated_edges(mesh).size() <= 1);
+    EXPECT_EQ(mesh.in_patches.size(), patch.size());
+}
+
+TEST(Glue, RepeatedInnerEdgesAreTold) {
+    // The two diagonals (0, 2) of WhatNoFlipCanMendStays: one of the two is told.
+    const std::vector<Triangle> patches{{0, 1, 2}, {0, 2, 3}, {4, 6, 5}, {4, 7, 6}, {8, 9, 10}};
+    const std::vector<Index> group{0, 1, 2, 3, 0, 1, 2, 3, 1, 3, 4};
+    const remesh::GluedMesh mesh = remesh::glue(patches, group);
+    EXPECT_EQ(mesh.in_patches, patches);
+    const auto repeated = remesh::repeated_edges(mesh);
+    ASSERT_EQ(repeated.size(), 1u);
+    const auto ends = [&](Index h) {
+        return std::pair(patches[h / 3][h % 3], patches[h / 3][(h + 1) % 3]);
+    };
+    const auto [a, b] = ends(repeated[0].half_edge);
+    EXPECT_EQ(ends(repeated[0].other), std::pair(b, a));
+    EXPECT_EQ(group[a] + group[b], 2u);
+    // Where the rims of two patches meet, every inner edge there is.
+    const std::vector<Triangle> rims{{0, 1, 2}, {0, 2, 3}, {4, 6, 5}, {7, 8, 9}, {7, 9, 10}};
+    const std::vector<Index> names{0, 1, 2, 3, 0, 4, 2, 0, 1, 2, 3};
+    remesh::GluedMesh glued;
+    glued.in_patches = rims;
+    glued.triangles = remesh::rename_vertices(rims, names);
+    EXPECT_EQ(remesh::repeated_edges(glued).size(), 2u);
+    // An edge from a vertex to itself.
+    glued.in_patches = {{0, 1, 2}, {1, 0, 3}};
+    glued.triangles = {{0, 0, 1}, {0, 0, 2}};
+    EXPECT_EQ(remesh::repeated_edges(glued).size(), 1u);
+}
+
 TEST(ThinPatch, HasTheVerticesOfItsSitesOnly) {
     const agvd::Surface surface = agvd::build_surface(shapes::grid(8).view());
     std::vector<Index> faces(surface.num_faces());

@@ -6,7 +6,11 @@
 #include <algorithm>
 
 #include "agvd/mesh/topology.h"
+#include "remesh/curves/curve_network.h"
+#include "remesh/placement/mesh_curves.h"
+#include "support/flag_edges.h"
 #include "support/movable_mesh.h"
+#include "support/parts.h"
 #include "support/shapes.h"
 
 using namespace agvd;
@@ -17,14 +21,17 @@ using remesh::detail::Mobility;
 namespace {
 
 struct Sample : MovableMesh {
-    using MovableMesh::MovableMesh;
+    explicit Sample(const TriangleMesh& mesh) : MovableMesh(mesh) {}
 
-    [[nodiscard]] EditedMesh edited() const { return {surface, placed, mobility, hard}; }
+    [[nodiscard]] EditedMesh edited() const { return {curves_, placed, mobility, hard}; }
 
     [[nodiscard]] TriangleMesh result(const EditedMesh& edited) const {
         std::vector<Index> numbers;
         return mesh_of(edited.result(numbers));
     }
+
+private:
+    remesh::detail::MeshCurves curves_ = curves();
 };
 
 bool is_like(const TriangleMesh& mesh, const TriangleMesh& other) {
@@ -141,7 +148,7 @@ TEST(EditedMesh, AnyCollapsesKeepTheBoundaryHard) {
     std::size_t num_hard = 0;
     for (Index f = 0; f < edited.num_faces(); ++f) {
         if (!edited.face(f).is_there) continue;
-        for (const bool is_hard : edited.face(f).is_hard) num_hard += is_hard ? 1 : 0;
+        for (std::size_t k = 0; k < 3; ++k) num_hard += edited.face(f).is_hard(k) ? 1 : 0;
     }
     EXPECT_EQ(num_hard, remesh::rim_of(result.triangles).size());
 }
@@ -206,6 +213,106 @@ TEST(EditedMesh, StepsAreTakenBackToTheLastBit) {
             EXPECT_NE(std::find(t.begin(), t.end(), v), t.end());
         }
     }
+}
+
+// The mesh of a box on the box itself, cut along its twelve edges.
+struct CreasedBox {
+    CreasedBox()
+        : whole(build_surface(parts::box({1, 1, 1}, 4).view())),
+          network(remesh::find_network(whole, flag_sharp_edges(whole), 0.1)),
+          cut(remesh::cut_surface(whole, flag_sharp_edges(whole))),
+          curves(whole, cut.surface, network) {
+        placed.triangles = whole.mesh.triangles;
+        placed.points.resize(whole.num_vertices());
+        placed.offsets.assign(whole.num_vertices(), Vec3::Zero());
+        for (Index h = 0; h < whole.twin.size(); ++h) {
+            SurfacePoint corner{FaceId(h / 3), {0, 0, 0}};
+            corner.barycentric[h % 3] = 1;
+            placed.points[whole.tail(h)] = corner;
+        }
+        for (const SurfacePoint& point : placed.points) {
+            const remesh::detail::CurvePlace place = curves.place_of(point);
+            mobility.push_back(place.is_free()           ? Mobility::Free
+                               : place.curve != no_index ? Mobility::Boundary
+                                                         : Mobility::Fixed);
+        }
+        const std::vector<std::uint8_t> is_crease = flag_sharp_edges(whole);
+        for (Index e = 0; e < whole.num_edges(); ++e) {
+            const Index h = whole.edge_half[e];
+            if (is_crease[e] != 0) hard.emplace_back(whole.tail(h), whole.head(h));
+        }
+    }
+    // How many coordinates of a point are those of a side.
+    [[nodiscard]] static int num_sides(const Vec3& p) {
+        return static_cast<int>(std::count_if(
+            p.begin(), p.end(), [](double x) { return std::abs(x - std::round(x)) < 1e-12; }));
+    }
+
+    Surface whole;
+    remesh::CurveNetwork network;
+    remesh::CutSurface cut;
+    remesh::detail::MeshCurves curves;
+    PlacedMesh placed;
+    std::vector<Mobility> mobility;
+    std::vector<remesh::DirectedEdge> hard;
+};
+
+TEST(EditedMesh, VerticesOnCreasesSlideAlongThem) {
+    const CreasedBox box;
+    EditedMesh edited(box.curves, box.placed, box.mobility, box.hard);
+    int num_on_creases = 0, num_corners = 0;
+    for (Index v = 0; v < edited.num_vertices(); ++v) {
+        const Vec3 before = edited.at(v);
+        const bool moves = edited.move(v, {0.03, 0.04, 0.05}, -1);
+        const int sides = CreasedBox::num_sides(before);
+        if (sides == 3) {
+            ++num_corners;
+            EXPECT_EQ(edited.mobility(v), Mobility::Fixed);
+            EXPECT_FALSE(moves);
+        }
+        if (sides != 2) continue;
+        ++num_on_creases;
+        EXPECT_TRUE(moves);
+        EXPECT_EQ(CreasedBox::num_sides(edited.at(v)), 2);
+        // Along the crease alone, by the step's component there.
+        const double way = (edited.at(v) - before).norm();
+        EXPECT_TRUE(std::abs(way - 0.03) < 1e-9 || std::abs(way - 0.04) < 1e-9 ||
+                    std::abs(way - 0.05) < 1e-9);
+        EXPECT_FALSE(edited.move(v, {2, 2, 2}, -2));  // Past the corner.
+    }
+    EXPECT_EQ(num_corners, 8);
+    EXPECT_EQ(num_on_creases, 12 * 3);
+}
+
+TEST(EditedMesh, CreasesAreSplitAndCollapsedAlongThemselves) {
+    const CreasedBox box;
+    EditedMesh edited(box.curves, box.placed, box.mobility, box.hard);
+    int num_tried = 0;
+    for (Index f = 0; f < box.placed.triangles.size(); ++f) {
+        for (Index k = 0; k < 3; ++k) {
+            if (!edited.face(f).is_hard(k)) continue;
+            const Triangle t = edited.face(f).corner;
+            const Index a = t[k], b = t[(k + 1) % 3];
+            EXPECT_FALSE(edited.flip(f, k));
+            const EditedMesh::Mark mark = edited.mark();
+            const Index added = edited.split(f, k);
+            // Between two corners there are three vertices: one end at least may move.
+            ASSERT_NE(added, no_index);
+            EXPECT_LT((edited.at(added) - (edited.at(a) + edited.at(b)) / 2).norm(), 1e-12);
+            EXPECT_EQ(edited.faces_at(added).size(), 4u);
+            EXPECT_EQ(edited.mobility(added), Mobility::Boundary);
+            const auto neighbours = edited.hard_neighbours(added);
+            EXPECT_EQ(std::minmax(neighbours[0], neighbours[1]), std::minmax(a, b));
+            EXPECT_TRUE(edited.collapse(added, a));
+            EXPECT_EQ(edited.faces_at(added).size(), 0u);
+            edited.take_back(mark);
+            // Not off the crease.
+            const Index c = t[(k + 2) % 3];
+            if (edited.mobility(c) == Mobility::Free) EXPECT_FALSE(edited.collapse(a, c));
+            ++num_tried;
+        }
+    }
+    EXPECT_EQ(num_tried, 2 * 12 * 4);
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ TriangleMesh uneven_tube() {
 // How often the repair polls: its work, whatever the machine.
 Index polls_of_repair(MovableMesh& mesh) {
     Index polls = 0;
-    (void)repair_shape(mesh.surface, mesh.mobility, mesh.hard, mesh.placed,
+    (void)repair_shape(mesh.curves(), mesh.mobility, mesh.hard, mesh.placed,
                        [&](double) { return ++polls > 0; });
     return polls;
 }
@@ -49,7 +49,7 @@ Index polls_beside_a_ball(TriangleMesh needle) {
 TEST(RepairShape, GoodTrianglesStayAsTheyAre) {
     MovableMesh placed(shapes::sphere(3));
     const std::vector<Triangle> before = placed.placed.triangles;
-    EXPECT_TRUE(repair_shape(placed.surface, placed.mobility, placed.hard, placed.placed).empty());
+    EXPECT_TRUE(repair_shape(placed.curves(), placed.mobility, placed.hard, placed.placed).empty());
     EXPECT_EQ(placed.placed.triangles, before);
 }
 
@@ -58,7 +58,7 @@ TEST(RepairShape, ThinTrianglesGoAndTheCountAndTheTopologyStay) {
     MovableMesh placed(mesh);
     ASSERT_LT(smallest_angle(mesh), 8);
     const std::vector<Index> numbers =
-        repair_shape(placed.surface, placed.mobility, placed.hard, placed.placed);
+        repair_shape(placed.curves(), placed.mobility, placed.hard, placed.placed);
     const TriangleMesh repaired = placed.mesh_of(placed.placed);
     EXPECT_EQ(numbers.size(), mesh.positions.size());
     EXPECT_EQ(repaired.positions.size(), mesh.positions.size());
@@ -120,7 +120,7 @@ TEST(RepairShape, FixedVerticesStay) {
     MovableMesh placed(mesh);
     for (Index v = 0; v < mesh.positions.size(); v += 2) placed.mobility[v] = Mobility::Fixed;
     const std::vector<Index> numbers =
-        repair_shape(placed.surface, placed.mobility, placed.hard, placed.placed);
+        repair_shape(placed.curves(), placed.mobility, placed.hard, placed.placed);
     const TriangleMesh repaired = placed.mesh_of(placed.placed);
     ASSERT_EQ(numbers.size(), mesh.positions.size());
     Index num_fixed = 0;

@@ -129,11 +129,3 @@ TEST(GivenNetwork, WithoutTheBoundaryThereIsNone) {
     EXPECT_EQ(without.dropped_curves, 8u);
     EXPECT_TRUE(without.plan.network.curves.empty());
 }
-
-TEST(GivenNetwork, TheShortestGoFirst) {
-    const GivenNetwork given = GivenCube().plan({.drop_share = .5});
-    EXPECT_EQ(given.dropped_curves, 0u);
-    EXPECT_LE(given.plan.length, 6 + 1e-12);
-    EXPECT_NEAR(given.plan.length + given.plan.dropped_length, 12, 1e-12);
-    EXPECT_TRUE(GivenCube().plan({.drop_share = 1}).plan.network.curves.empty());
-}

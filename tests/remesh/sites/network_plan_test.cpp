@@ -20,8 +20,8 @@ using remesh::NetworkPlan;
 
 namespace {
 
-NetworkPlan plan_of(const Surface& surface, Index num_sites, double drop_share = 0) {
-    return remesh::plan_network(surface, flag_sharp_edges(surface), num_sites, {}, drop_share);
+NetworkPlan plan_of(const Surface& surface, Index num_sites) {
+    return remesh::plan_network(surface, flag_sharp_edges(surface), num_sites);
 }
 
 Vec3 at(const NetworkPlan& plan, const SurfacePoint& site) {
@@ -71,17 +71,6 @@ TEST(NetworkPlan, ShortCreasesGoFirstWhereSitesAreTooFew) {
     for (const auto& curve : plan.network.curves) longest = std::max(longest, curve.length());
     EXPECT_GE(longest, 4);
     const NetworkPlan none = plan_of(surface, 1);
-    EXPECT_TRUE(none.network.curves.empty());
-    EXPECT_NEAR(none.dropped_length, 32, 1e-12);
-    EXPECT_EQ(none.sites_for_all, 8u);
-}
-
-TEST(NetworkPlan, AShareOfTheCreasesMayGoBefore) {
-    const Surface surface = agvd::build_surface(parts::box({4, 3, 1}, 2).view());
-    const NetworkPlan plan = plan_of(surface, 200, 1 / 3.);
-    EXPECT_NEAR(plan.dropped_length, 4, 1e-12);
-    EXPECT_EQ(plan.sites_for_all, 8u);
-    const NetworkPlan none = plan_of(surface, 200, 1);
     EXPECT_TRUE(none.network.curves.empty());
     EXPECT_NEAR(none.dropped_length, 32, 1e-12);
     EXPECT_EQ(none.sites_for_all, 8u);

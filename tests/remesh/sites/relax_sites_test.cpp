@@ -14,6 +14,7 @@
 #include "agvd/mesh/surface_points.h"
 #include "agvd/mesh/topology.h"
 #include "agvd/propagation/propagate.h"
+#include "remesh/curves/walk.h"
 #include "remesh/dual/closed_ball.h"
 #include "remesh/meshfile/mesh_file.h"
 #include "remesh/sites/levels.h"
@@ -21,7 +22,6 @@
 #include "remesh/sites/relaxation.h"
 #include "remesh/sites/sampling.h"
 #include "remesh/sites/site_dual.h"
-#include "remesh/sites/walk.h"
 #include "support/files.h"
 #include "support/shapes.h"
 

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "agvd/core/random.h"
-#include "remesh/names.h"
+#include "agvd/core/types.h"
 
-namespace remesh::detail {
+namespace agvd {
 
 //! Points by cell, named by numbers. A slot of its hash table may hold those of several cells.
 class PointGrid {
@@ -59,4 +59,4 @@ private:
     std::vector<Entry> entries_;
 };
 
-}  // namespace remesh::detail
+}  // namespace agvd

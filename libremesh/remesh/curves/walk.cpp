@@ -1,6 +1,6 @@
 // A walk unfolds face after face along a straight line ([polthier1998]). The frame of a half-edge
 // has its tail as origin and its direction as x axis; the face lies above.
-#include "remesh/sites/walk.h"
+#include "remesh/curves/walk.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "remesh/sites/walk.h"
+#include "remesh/curves/walk.h"
 
 #include <gtest/gtest.h>
 
