@@ -120,7 +120,8 @@ public:
         const auto count = c.num_edges();
         auto i = static_cast<std::size_t>(std::upper_bound(c.up_to.begin(), c.up_to.end(), low) -
                                           c.up_to.begin());
-        for (double turn = 0; turn <= c.length(); turn += c.length(), i = 1) {
+        // On a closed curve the interval may go on in a second turn.
+        for (const double turn : {0.0, c.length()}) {
             for (; i <= count && c.up_to[i] + turn < high; ++i) {
                 const Vec3 offset = whole_.mesh.positions[c.vertex(whole_, i)] - a;
                 const double share =
@@ -128,6 +129,7 @@ public:
                 most = std::max(most, (offset - share * way).norm());
             }
             if (i <= count || !c.is_closed()) break;
+            i = 1;
         }
         return most;
     }
