@@ -308,7 +308,9 @@ TEST(EditedMesh, CreasesAreSplitAndCollapsedAlongThemselves) {
             edited.take_back(mark);
             // Not off the crease.
             const Index c = t[(k + 2) % 3];
-            if (edited.mobility(c) == Mobility::Free) EXPECT_FALSE(edited.collapse(a, c));
+            if (edited.mobility(c) == Mobility::Free) {
+                EXPECT_FALSE(edited.collapse(a, c));
+            }
             ++num_tried;
         }
     }
