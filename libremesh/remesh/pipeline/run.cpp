@@ -30,12 +30,17 @@ Index num_more_crossings(const RemeshResult& result) {
 // Intersections that follow from the input's are no reason to give up creases: meshes of other
 // faces have other numbers of them.
 bool is_fine(const RemeshResult& result) {
-    return num_more_crossings(result) == 0 || result.new_self_intersections == 0;
+    return result.verdict.faces_without_area == 0 &&
+           (num_more_crossings(result) == 0 || result.new_self_intersections == 0);
 }
 
-// Fewer creases are worth fewer new self-intersections.
+// Fewer creases are worth fewer new self-intersections, and faces without area.
 bool is_better(const RemeshResult& result, const RemeshResult& best) {
-    return num_more_crossings(result) < num_more_crossings(best) &&
+    const Index crossings = num_more_crossings(result), of_best = num_more_crossings(best);
+    if (crossings == of_best) {
+        return result.verdict.faces_without_area < best.verdict.faces_without_area;
+    }
+    return crossings < of_best &&
            (is_fine(result) || result.new_self_intersections < best.new_self_intersections);
 }
 
