@@ -93,6 +93,17 @@ TEST(SelectCreases, OfTheRimsOfAThinPlateOneStaysAsAWhole) {
     EXPECT_EQ(plate.select(0.1), plate.all);
 }
 
+// The long sides of one rim and the short sides of the other are the longest.
+TEST(SelectCreases, ARimIsNotPutTogetherFromTwo) {
+    TriangleMesh mesh = parts::box({4, 3, 0.05}, 6);
+    for (Vec3& p : mesh.positions) (p.z() > 0.025 ? p.x() : p.y()) *= 1.01;
+    const Creases plate(mesh);
+    const std::vector<std::uint8_t> left = plate.select(0.3);
+    EXPECT_NEAR(plate.length(left), 2 * (4.04 + 3), 1e-9);
+    EXPECT_NEAR(plate.length(left, [](const Vec3& p) { return p.z() > 0.04; }), 2 * (4.04 + 3),
+                1e-9);
+}
+
 TEST(SelectCreases, OnBothSidesOfAThinWallTheyStay) {
     const double t = 0.05;
     const Creases angle(sheet_angle(t, 12));
