@@ -12,6 +12,7 @@
 #include "agvd/mesh/closest_point.h"
 #include "agvd/mesh/surface_points.h"
 #include "remesh/meshfile/mesh_file.h"
+#include "remesh/pipeline/curves.h"
 #include "remesh/pipeline/remesh.h"
 #include "remesh/placement/placement.h"
 #include "remesh/quality/evaluate.h"
@@ -19,6 +20,7 @@
 #include "support/crease_checks.h"
 #include "support/dice.h"
 #include "support/files.h"
+#include "support/flag_edges.h"
 #include "support/parts.h"
 #include "support/shapes.h"
 
@@ -548,6 +550,26 @@ TEST(Features, GivenEdgesFollowCleaning) {
     double wanted = 0;
     for (const auto& [a, b] : edges) wanted += (plate.positions[a] - plate.positions[b]).norm();
     EXPECT_NEAR(length_at(result.mesh, y), wanted, 1e-9 * wanted);
+}
+
+TEST(Features, EdgesNearIntersectionsAreFound) {
+    const Surface surface = build_surface(parts::box({4, 4, 4}, 8).view());
+    const std::vector<std::uint8_t> creases = flag_sharp_edges(surface);
+    const auto length_near = [&](const Vec3& point, double spacing) {
+        double length = 0;
+        for (const Index e :
+             remesh::detail::edges_near(std::vector{point}, surface, spacing, creases)) {
+            EXPECT_EQ(creases[e], 1);
+            length += surface.length[e];
+        }
+        return length;
+    };
+    // Four edges of length .5 come within two spacings of the middle of a side, two within less
+    // than their length; at a corner two of each of three sides.
+    EXPECT_NEAR(length_near({2, 0, 0}, 0.3), 2, 1e-12);
+    EXPECT_NEAR(length_near({2, 0, 0}, 0.2), 1, 1e-12);
+    EXPECT_NEAR(length_near({0, 0, 0}, 0.3), 3, 1e-12);
+    EXPECT_NEAR(length_near({2, 2, 0}, 0.3), 0, 0);
 }
 
 // A thin prism where three neighbours on a straight crease were a face.
