@@ -237,13 +237,13 @@ void select_creases(const Surface& surface, double spacing, std::span<const std:
                     int num_threads, const Progress& progress,
                     std::vector<std::uint8_t>& is_crease) {
     Poller poller(progress);
-    const std::vector<double> angles =
-        detail::edge_angles(surface, narrow * spacing, num_threads, poller);
     detail::CreaseSet set(surface);
     for (Index e = 0; e < surface.num_edges(); ++e) {
-        if (is_crease[e] != 0) set.add(e);
+        if (is_crease[e] != 0 && surface.twin[surface.edge_half[e]] != no_index) set.add(e);
     }
     if (set.next(0) == surface.num_edges()) return;
+    const std::vector<double> angles =
+        detail::edge_angles(surface, narrow * spacing, num_threads, poller);
     Selection(surface, spacing, is_fixed, angles, poller, set).run();
     const std::vector<double> ones(surface.num_edges(), 1);
     detail::prune(set, ones,

@@ -137,6 +137,24 @@ TEST(SelectCreases, FixedOnesStay) {
     EXPECT_EQ(plate.select(0.3, other), other);
 }
 
+// The caller may mark edges of the boundary, in any direction.
+TEST(SelectCreases, MarkedEdgesOfTheBoundaryStay) {
+    Creases grid(shapes::grid(8));
+    Index num_marked = 0;
+    for (Index e = 0; e < grid.all.size(); ++e) {
+        grid.all[e] = grid.surface.twin[grid.surface.edge_half[e]] == agvd::no_index ? 1 : 0;
+        num_marked += grid.all[e];
+    }
+    EXPECT_EQ(num_marked, 32u);
+    // And a line across, along the middle.
+    for (Index e = 0; e < grid.all.size(); ++e) {
+        const Index h = grid.surface.edge_half[e];
+        const double x = grid.surface.mesh.positions[grid.surface.tail(h)].x();
+        if (x == grid.surface.mesh.positions[grid.surface.head(h)].x() && x == 0.5) grid.all[e] = 1;
+    }
+    EXPECT_EQ(grid.select(0.2, grid.all), grid.all);
+}
+
 TEST(SelectCreases, ShortClosedOnesAndShortEndsGo) {
     // A cube of edge .3 has no curve longer than a few spacings, but nodes: it stays.
     const Creases cube(parts::box({0.3, 0.3, 0.3}, 2));
