@@ -96,6 +96,16 @@ std::vector<std::size_t> corners_of_curve(const Surface& surface, const Curve& c
     return corners;
 }
 
+Index node_at(const CurveNetwork& network, Index vertex) {
+    const auto node = std::lower_bound(network.nodes.begin(), network.nodes.end(), vertex);
+    if (node != network.nodes.end() && *node == vertex) {
+        return static_cast<Index>(node - network.nodes.begin());
+    }
+    const auto copy =
+        std::lower_bound(network.copies.begin(), network.copies.end(), std::pair(vertex, Index{0}));
+    return copy != network.copies.end() && copy->first == vertex ? copy->second : no_index;
+}
+
 Index Curve::vertex(const Surface& surface, std::size_t i, std::size_t side) const {
     const bool is_last = i == num_edges();
     const Index h = sides[side].half_edges[is_last ? i - 1 : i];

@@ -101,6 +101,9 @@ struct CurveNetwork {
     [[nodiscard]] bool is_welded() const { return junctions == Junctions::Keep; }
 };
 
+//! The node at a vertex of the surface before the cut; no_index if there is none. Cost: O(log n).
+[[nodiscard]] Index node_at(const CurveNetwork& network, Index vertex);
+
 //! Finds the network of a surface.
 //! \param is_crease  #E: 1 for the edges of creases. Boundary edges and junctions always belong to
 //!                   the network.

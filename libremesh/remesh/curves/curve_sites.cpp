@@ -81,17 +81,6 @@ double start_of(const Curve& curve, const CurveMeasure& measure) {
     return curve.is_closed() ? measure.count[1] / 2 : 0;
 }
 
-// The node at a vertex of the surface before the cut; no_index if there is none.
-Index node_at(const CurveNetwork& network, Index vertex) {
-    const auto node = std::lower_bound(network.nodes.begin(), network.nodes.end(), vertex);
-    if (node != network.nodes.end() && *node == vertex) {
-        return static_cast<Index>(node - network.nodes.begin());
-    }
-    const auto copy =
-        std::lower_bound(network.copies.begin(), network.copies.end(), std::pair(vertex, Index{0}));
-    return copy != network.copies.end() && copy->first == vertex ? copy->second : no_index;
-}
-
 // By node: its copies, which are vertices of the cut surface.
 std::vector<std::vector<Index>> copies_of_nodes(const CurveNetwork& network,
                                                 const CutSurface& cut) {

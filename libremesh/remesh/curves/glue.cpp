@@ -62,7 +62,7 @@ std::vector<Index> way_on(const std::vector<DirectedEdge>& edges, Index from, co
 }
 
 // Whether an edge joins a vertex with itself.
-bool is_loop(std::uint64_t ends) { return (ends >> 32) == (ends & 0xffffffffU); }
+bool is_loop(const EdgeSide& side) { return side.low() == side.high(); }
 
 // The corners of all triangles, ascending.
 std::vector<Index> corners_of(std::span<const Triangle> triangles) {
@@ -118,7 +118,7 @@ GluedMesh glue(std::span<const Triangle> triangles, std::span<const Index> group
     result.triangles.assign(triangles.begin(), triangles.end());
     const Numbering groups = number_sets(group);
     const auto is_repeated = [](std::span<const EdgeSide> sides) {
-        return sides.size() > 2 || is_loop(sides.front().ends);
+        return sides.size() > 2 || is_loop(sides.front());
     };
     const auto is_taken = [](std::uint64_t) { return false; };
     for (int round = 0; round < most_flip_rounds; ++round) {
@@ -130,8 +130,8 @@ GluedMesh glue(std::span<const Triangle> triangles, std::span<const Index> group
     for (const Index v : result.representative) {
         result.first_of_group.push_back(groups.first[groups.number[v]]);
     }
-    result.in_patches = rename_vertices(result.triangles, result.vertex);
-    std::swap(result.in_patches, result.triangles);
+    result.in_patches = std::move(result.triangles);
+    result.triangles = rename_vertices(result.in_patches, result.vertex);
     return result;
 }
 
@@ -139,7 +139,7 @@ std::vector<InnerEdge> repeated_edges(const GluedMesh& mesh) {
     std::vector<InnerEdge> repeated;
     const auto& patches = mesh.in_patches;
     for_each_edge(sorted_edge_sides(mesh.triangles), [&](std::span<const EdgeSide> sides) {
-        const bool joins_one = is_loop(sides.front().ends);
+        const bool joins_one = is_loop(sides.front());
         if (sides.size() <= 2 && !joins_one) return;
         std::vector<InnerEdge> inner;
         for (std::size_t i = 0; i < sides.size(); ++i) {

@@ -97,14 +97,14 @@ std::optional<ImprovableMesh> find_improvable(const Domain& domain, PlacedDual p
 
 bool improve(const Domain& domain, CrossingFinder& finder, ImprovableMesh& improvable,
              std::optional<CrossingCounts>& crossings, const StageContext& context) {
+    const MeshCurves curves = curves_of(domain, improvable);
     for (int round = 0; round < most_tries; ++round) {
         PlacedDual improved{improvable.mesh, {}};
         std::vector<Index> numbers;
         {
             const StageClock clock(Stage::Place, context.result);
-            numbers =
-                repair_shape(curves_of(domain, improvable), improvable.mobility, improvable.hard,
-                             improved.mesh, progress_at(Stage::Place, context.options, 1));
+            numbers = repair_shape(curves, improvable.mobility, improvable.hard, improved.mesh,
+                                   progress_at(Stage::Place, context.options, 1));
         }
         if (numbers.empty()) return false;
         std::optional<FacePairs> pairs = finder.find(improved);

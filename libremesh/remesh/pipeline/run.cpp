@@ -57,9 +57,9 @@ bool has_more_to_drop(const KeptCurves& kept, const FeatureCounts& features) {
     return features.curves > 0 && (kept.has_seams || features.length > 0);
 }
 
-// A run after cleaning. Tries all curves, then all creases. Leaves out creases where faces
-// intersect that do not in the input, and at last all, until a mesh has no such faces. If none of
-// these gives a mesh, tries the same without junctions.
+// A run after cleaning. Tries all curves, then all creases. Changes creases where faces
+// intersect that do not in the input, and at last leaves out all, until a mesh has no such faces.
+// If none of these gives a mesh, tries the same without junctions.
 class Attempts {
     // Changes of creases in places before all go.
     static constexpr int most_changes = 3;
@@ -151,28 +151,27 @@ private:
         RemeshResult result = first_;
         AttemptEnd end;
         const std::size_t done = work.done();
-        const auto is_bare = [&] { return !has_more_to_drop(kept, result.features); };
+        bool has_mesh = true;
         try {
             end = run_attempt(cleaned_, found_, kept, sizes_.field.get(), work, {options_, result});
         } catch (const NetworkFailed&) {
-            first_.seconds = result.seconds;
-            samples_for_all_ = std::max(samples_for_all_, result.features.samples_for_all);
+            has_mesh = false;
             work.add_again(done);
-            return is_bare();
         }
-        result.features.gave_up = kept.is_crease != found_.is_crease;
         first_.seconds = result.seconds;
         samples_for_all_ = std::max(samples_for_all_, result.features.samples_for_all);
+        const bool is_bare = !has_more_to_drop(kept, result.features);
+        if (!has_mesh) return is_bare;
+        result.features.gave_up = kept.is_crease != found_.is_crease;
         if (!is_hopeless(result.self_intersections.value_or(0), {options_, result})) {
             crossings = std::move(end.crossing_corners);
         }
-        const bool ends = is_bare();
         if (!best_ || is_better(result, *best_)) {
             best_ = std::move(result);
             kept_ = kept;
             narrow_points_ = std::move(end.narrow_points);
         }
-        return ends || is_fine(*best_);
+        return is_bare || is_fine(*best_);
     }
 
     // Runs the best attempt again with shorter edges on narrow parts, where cells wrapped around

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "agvd/mesh/closest_point.h"
 #include "remesh/curves/curve_network.h"
 #include "remesh/curves/walk.h"
 
@@ -55,10 +56,8 @@ public:
         const Index face = point.face.value();
         for (Index k = 0; k < 3; ++k) {
             if (b[(k + 1) % 3] != 0 || b[(k + 2) % 3] != 0) continue;
-            const Index v = whole_.tail(3 * face + k);
-            const auto node = std::lower_bound(network_.nodes.begin(), network_.nodes.end(), v);
-            if (node == network_.nodes.end() || *node != v) break;
-            return {no_index, 0, static_cast<Index>(node - network_.nodes.begin())};
+            const Index node = node_at(network_, whole_.tail(3 * face + k));
+            if (node != no_index) return {no_index, 0, node};
         }
         const std::optional<Index> h = boundary_half_edge(cut_, point);
         if (!h) return {};
@@ -114,8 +113,6 @@ public:
                               const Vec3& b) const {
         const Curve& c = network_.curves[curve];
         const auto [low, high] = std::minmax(interval.first, interval.second);
-        const Vec3 way = b - a;
-        const double square = way.squaredNorm();
         double most = 0;
         const auto count = c.num_edges();
         auto i = static_cast<std::size_t>(std::upper_bound(c.up_to.begin(), c.up_to.end(), low) -
@@ -123,10 +120,8 @@ public:
         // On a closed curve the interval may go on in a second turn.
         for (const double turn : {0.0, c.length()}) {
             for (; i <= count && c.up_to[i] + turn < high; ++i) {
-                const Vec3 offset = whole_.mesh.positions[c.vertex(whole_, i)] - a;
-                const double share =
-                    square > 0 ? std::clamp(offset.dot(way) / square, 0.0, 1.0) : 0;
-                most = std::max(most, (offset - share * way).norm());
+                const Vec3& vertex = whole_.mesh.positions[c.vertex(whole_, i)];
+                most = std::max(most, distance_to_segment(vertex, a, b));
             }
             if (i <= count || !c.is_closed()) break;
             i = 1;

@@ -91,7 +91,7 @@ void improve_shape(const Surface& input, std::span<const detail::CellPlanes> pla
 
 namespace detail {
 
-//! Where a vertex may go: along the surface, along its boundary, or nowhere.
+//! Where a vertex may go: along the surface, along its curve (Boundary), or nowhere.
 enum class Mobility : std::uint8_t { Free, Boundary, Fixed };
 
 class MeshCurves;
@@ -101,7 +101,7 @@ class MeshCurves;
 //! Flips edges, slides vertices, or splits an edge and collapses another one elsewhere, the worst
 //! triangles first, where the worst one touched gets better. Keeps the number of vertices (not
 //! their order), the topology and the hard edges.
-//! \param surface   where the points of the mesh lie.
+//! \param curves    where the points of the mesh lie, and the curves along which vertices slide.
 //! \param mobility  #V: Fixed ones stay; those on hard edges are not Free.
 //! \param hard      edges that are not flipped; must include all edges of a single face.
 //! \throw Cancelled  the progress callback returned false; `mesh` is unchanged.
