@@ -196,7 +196,7 @@ std::unique_ptr<const CurvePlan> plan_curves(const CleanedInput& cleaned, const 
     JunctionSet junctions = kept.has_junctions ? found.junctions : JunctionSet{};
     const bool has_seams = kept.has_seams && !found.is_seam.empty();
     if (!found.is_seam.empty()) count_seams(cleaned.surface, {}, found, result.features);
-    if (kept.is_crease.empty() && !has_seams && junctions.empty() && cleaned.locked.empty()) {
+    if (options.sites && kept.is_crease.empty() && !has_seams && junctions.empty() && cleaned.locked.empty()) {
         return nullptr;
     }
     std::vector<std::uint8_t> is_crease = kept.is_crease;
@@ -221,7 +221,7 @@ std::unique_ptr<const CurvePlan> plan_curves(const CleanedInput& cleaned, const 
     if (plan->network.sites_for_locked > 0) {
         throw TooFewSamples{options.num_samples, plan->network.sites_for_locked};
     }
-    if (plan->network.empty()) return nullptr;
+    if (plan->network.empty() && plan->network.cut.surface.num_faces() == 0) return nullptr;
     // Pass the twins: vertex indices do not show a cut along a single edge, whose two sides have
     // the same ends.
     const Surface& cut = plan->network.cut.surface;

@@ -132,7 +132,9 @@ double length_of(const Surface& surface, std::span<const std::uint8_t> is_crease
 NetworkPlan plan_network(const Surface& surface, std::vector<std::uint8_t> is_crease,
                          Index num_vertices, JunctionSet junctions, int num_threads,
                          const Progress& progress, const SizeField* sizes, LockedElements locked) {
-    const double spacing = detail::spacing_of(num_vertices, surface_area(surface), 0);
+    double spacing = detail::spacing_of(num_vertices, surface_area(surface), 0);
+    double length_of_all = 0;
+    for (const double l : surface.length) length_of_all += l;
     NetworkPlan plan;
     plan.junctions = std::move(junctions);
     plan.locked = std::move(locked);
@@ -153,15 +155,20 @@ NetworkPlan plan_network(const Surface& surface, std::vector<std::uint8_t> is_cr
         leave_out(plan.junctions, is_crease);
     }
     const double length_at_first = length_of(surface, is_crease);
-    while (has_creases(is_crease) || !plan.junctions.empty() || !plan.locked.empty()) {
-        if (find() <= num_vertices) {
+    for (;;) {
+        const Index needed = find();
+        if (needed <= num_vertices) {
             divide(surface, is_crease, num_vertices, sizes, num_threads, progress, plan);
             plan.dropped_length = length_at_first - plan.length;
             return plan;
         }
-        // Marked edges of the boundary are no creases: nothing is left that could be dropped.
-        if (!std::ranges::any_of(plan.network.curves, is_free_crease)) break;
-        drop_shortest(surface, plan.network, drop_at_once, is_crease);
+        if (std::ranges::any_of(plan.network.curves, is_free_crease)) {
+            drop_shortest(surface, plan.network, drop_at_once, is_crease);
+        } else if (spacing < length_of_all) {
+            spacing *= 2;
+        } else {
+            break;
+        }
     }
     if (!plan.locked.empty()) {
         plan.sites_for_locked = fewest_locked_vertices(surface, spacing, plan.locked);
