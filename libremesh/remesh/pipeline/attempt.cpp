@@ -1,4 +1,3 @@
-#include <stdexcept>
 #include <utility>
 
 #include "agvd/mesh/surface_points.h"
@@ -12,14 +11,13 @@
 #include "remesh/pipeline/run.h"
 #include "remesh/pipeline/sizes.h"
 #include "remesh/pipeline/stage_context.h"
-#include "remesh/pipeline/work_limit.h"
 
 namespace remesh::detail {
 namespace {
 
-// Welds the sheets. Checks that as many edges have more than two faces as the chain has along
-// junctions.
-void weld_junctions(const CurveNetwork& network, std::span<const ChainEdge> chain, BuiltMesh& built,
+// Welds the sheets.
+// \return whether as many edges have more than two faces as the chain has along junctions.
+bool weld_junctions(const CurveNetwork& network, std::span<const ChainEdge> chain, BuiltMesh& built,
                     RemeshResult& result) {
     built.sites = take(built.sites, weld_sheets(built.first_of_group, built.mesh));
     result.junctions.welded_edges = num_branched_edges(built.mesh.triangles);
@@ -28,11 +26,12 @@ void weld_junctions(const CurveNetwork& network, std::span<const ChainEdge> chai
         const bool is_branched = network.curves[edge.curve].sides.size() > 2;
         if (is_branched && edge.side == 0) ++num_wanted;
     }
-    if (result.junctions.welded_edges != num_wanted) throw NetworkFailed{};
+    return result.junctions.welded_edges == num_wanted;
 }
 
 // Checks and judges the mesh. In between, Junctions::Keep welds the sheets.
-void check_mesh(const CleanedInput& cleaned, const Domain& domain, std::span<const ChainEdge> chain,
+// \return whether it has the topology of the input, all that is locked, and its junctions.
+bool check_mesh(const CleanedInput& cleaned, const Domain& domain, std::span<const ChainEdge> chain,
                 BuiltMesh& built, const StageContext& context) {
     const auto& [options, result] = context;
     const StageClock clock(Stage::Check, result);
@@ -40,26 +39,28 @@ void check_mesh(const CleanedInput& cleaned, const Domain& domain, std::span<con
     poll(progress, 1);
     const Topology topology = analyze_topology(built.mesh.view(), progress);
     if (!topology.is_manifold || !topology.is_oriented ||
-        !same_topology(topology, cleaned.topology)) {
-        if (domain.plan) throw NetworkFailed{};
-        throw std::logic_error("the result does not have the topology of the input");
+        !same_topology(topology, cleaned.topology) ||
+        !has_locked(*domain.whole, cleaned.locked, built.mesh)) {
+        return false;
     }
-    if (!has_locked(*domain.whole, cleaned.locked, built.mesh)) throw NetworkFailed{};
-    if (domain.has_junctions() && options.junctions == Junctions::Keep) {
-        weld_junctions(domain.plan->network.network, chain, built, result);
+    if (domain.has_junctions() && options.junctions == Junctions::Keep &&
+        !weld_junctions(domain.plan->network.network, chain, built, result)) {
+        return false;
     }
-    if (domain.plan && options.vertex_count == VertexCount::Exact &&
+    if (options.vertex_count == VertexCount::Exact &&
         built.mesh.positions.size() != built.num_wanted) {
-        throw NetworkFailed{};
+        return false;
     }
     result.verdict = judge_result(domain.whole->mesh.view(), built.mesh.view(), topology,
                                   options.num_threads, progress);
+    return true;
 }
 
 }  // namespace
 
-AttemptEnd run_attempt(CleanedInput& cleaned, const FoundCurves& found, const KeptCurves& kept,
-                       const SizeField* sizes, WorkLimit& work, const StageContext& context) {
+AttemptEnd run_attempt(const CleanedInput& cleaned, const FoundCurves& found,
+                       const KeptCurves& kept, const SizeField* sizes,
+                       const StageContext& context) {
     const auto& [options, result] = context;
     const double spacing = spacing_for(cleaned, options);
     std::unique_ptr<const CurvePlan> plan =
@@ -67,33 +68,25 @@ AttemptEnd run_attempt(CleanedInput& cleaned, const FoundCurves& found, const Ke
     // Of the vertices that seams take, creases come first.
     if (kept.has_seams && !found.is_seam.empty() && !options.sites &&
         result.features.dropped_length > 0) {
-        throw NetworkFailed{};
+        return {};
     }
+    if (plan->network.sites_for_boundary > 0) return {.num_needed = plan->network.sites_for_boundary};
     Domain domain = prepare_domain(cleaned, std::move(plan), spacing, sizes, context);
-    work.add(domain.base().num_faces());
-    const PlacedSites sites = place_sites(cleaned, domain, context);
-    try {
-        BuiltMesh built = build_mesh(domain, sites, work, context);
-        check_mesh(cleaned, domain, sites.chain, built, context);
-        result.sizing = measure_edges(built.mesh.view(), built.sites, options.num_samples, sizes);
-        result.sites = to_original(built.sites, cleaned.given,
-                                   {domain.whole->mesh.view(), cleaned.face_origin});
-        result.mesh = std::move(built.mesh);
-        if (const auto& crossings = built.self_intersections) {
-            result.self_intersections = crossings->all;
-            result.new_self_intersections = crossings->added;
-        }
-        // The surface is needed again if the edges are not as long as asked for, or as parts are
-        // narrow.
-        const auto& count = options.sizing.count;
-        if (std::holds_alternative<MeanEdge>(count) || std::holds_alternative<MaxError>(count) ||
-            !built.narrow_points.empty())
-            give_back(std::move(domain), cleaned, options.num_threads);
-        return {std::move(built.narrow_points), std::move(built.crossing_corners)};
-    } catch (const TooFewSamples&) {
-        give_back(std::move(domain), cleaned, options.num_threads);
-        throw;
+    const PlacedSites sites = place_sites(domain, context);
+    BuiltMesh built = build_mesh(domain, sites, context);
+    if (built.mesh.triangles.empty() ||
+        !check_mesh(cleaned, domain, sites.chain, built, context)) {
+        return {.num_needed = built.num_vertices};
     }
+    result.sizing = measure_edges(built.mesh.view(), built.sites, options.num_samples, sizes);
+    result.sites = to_original(built.sites, cleaned.given,
+                               {domain.whole->mesh.view(), cleaned.face_origin});
+    result.mesh = std::move(built.mesh);
+    if (const auto& crossings = built.self_intersections) {
+        result.self_intersections = crossings->all;
+        result.new_self_intersections = crossings->added;
+    }
+    return {.has_mesh = true, .crossing_corners = std::move(built.crossing_corners)};
 }
 
 }  // namespace remesh::detail

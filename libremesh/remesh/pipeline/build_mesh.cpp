@@ -15,17 +15,12 @@
 #include "remesh/pipeline/placed_dual.h"
 #include "remesh/pipeline/stage_context.h"
 #include "remesh/pipeline/valid_dual.h"
-#include "remesh/pipeline/work_limit.h"
 
 namespace remesh::detail {
 namespace {
 
-// Most rounds that add sites at self-intersections.
-constexpr int most_rounds = 4;
 // Most rounds that divide edges between patches.
 constexpr int most_split_rounds = 5;
-// As a multiple of the input's pairs. Up to this, further rounds can come down to their number.
-constexpr std::size_t few_more = 2;
 
 // Frees what only the Delaunay stage and those before read: after it Voronoi vertices suffice.
 void drop_points(Diagram& diagram) {
@@ -50,231 +45,160 @@ void compact(std::span<const Index> gone, ValidDual& dual) {
     dual.triangles = rename_vertices(dual.triangles, number);
 }
 
-// The mesh of one round.
-struct Candidate {
-    bool is_failed = false;  // It lacks curves, or has too many vertices.
-    ValidDual dual;
-    PlacedDual placed;
-    std::optional<CrossingFaces> crossings;
-    Index num_removed = 0;
-    DelaunayCounts flips;
-};
-
 class MeshBuilder {
 public:
     MeshBuilder(Domain& domain, const PlacedSites& placed, const StageContext& context)
         : domain_(domain),
           placed_(placed),
           context_(context),
-          finder_(domain, context),
-          layout_(std::move(domain.prepared.layout)),
-          on_base_(domain.prepared.base.to_intrinsic(placed.sites)),
-          first_on_base_(on_base_) {
+          on_base_(domain.prepared.base.to_intrinsic(placed.sites)) {
         domain.prepared.pieces.reset();  // Not needed until vertices are placed.
     }
 
-    BuiltMesh run(WorkLimit& work) {
-        const Index base_faces = domain_.base().num_faces();
-        for (int round = 0;; ++round) {
-            work.add(base_faces);
-            Candidate candidate = build_candidate();
-            if (candidate.is_failed) {
-                if (round == 0) fail(candidate);
-                break;
-            }
-            if (round == 0 || is_better(candidate)) keep(candidate);
-            const std::optional<CrossingFaces>& crossings = candidate.crossings;
-            if (!crossings || domain_.plan || round == most_rounds ||
-                work.num_left(base_faces) == 0 || is_hopeless(crossings->all.size(), context_) ||
-                !add_sites_at(pairs_to_separate(*crossings), candidate.dual)) {
-                break;
-            }
-        }
-        improve_best();
-        return std::move(best_);
+    BuiltMesh run() {
+        dual_ = build_valid_dual(domain_, placed_, on_base_, context_);
+        if (!has_chain(domain_, placed_.chain, dual_)) return {};
+        find_target();
+        built_.num_vertices = fix_edges();
+        if (built_.num_vertices > built_.num_wanted) return std::move(built_);
+        drop_points(dual_.diagram);
+        place();
+        return std::move(built_);
     }
 
 private:
-    Candidate build_candidate() {
-        Candidate candidate;
-        ValidDual& dual = candidate.dual;
-        dual = build_cells();
-        if (domain_.plan && !has_chain(dual, placed_.chain)) {
-            candidate.is_failed = true;
-            return candidate;
+    // How many vertices the result is to have: as many as were asked for, or one for each given
+    // site that owns a part of the surface. Counts the other given sites.
+    void find_target() {
+        const auto& [options, result] = context_;
+        num_other_copies_ = placed_.num_other_copies(domain_);
+        built_.num_wanted = options.num_samples;
+        if (options.sites) {
+            const auto num_copies = static_cast<Index>(placed_.curves.sites.size());
+            const auto num_owning =
+                std::count_if(dual_.diagram.cell_area.begin() + num_copies,
+                              dual_.diagram.cell_area.end(), [](double area) { return area > 0; });
+            built_.num_wanted = num_copies + static_cast<Index>(num_owning) - num_other_copies_;
+            result.sites_dropped = static_cast<Index>(options.sites->size()) - built_.num_wanted;
         }
-        if (!target_) target_ = target_count(dual.diagram);
-        candidate.is_failed = !fix_edges(candidate);
-        if (candidate.is_failed) return candidate;
-        drop_points(dual.diagram);
-        candidate.placed =
-            place_dual(domain_, placed_.curves, dual, points_of_vertices(dual), context_);
-        candidate.crossings =
-            unfit_crossings(finder_, placed_.curves, candidate.placed, context_.result);
-        return candidate;
+        if (options.vertex_count == VertexCount::Add) {
+            built_.num_wanted = std::max(built_.num_wanted, num_vertices());
+        }
+    }
+
+    // Of the result.
+    [[nodiscard]] Index num_vertices() const {
+        return static_cast<Index>(dual_.points.size()) - num_other_copies_;
     }
 
     // Gives the dual its number of vertices and its edges. Edges that would coincide where patches
     // are joined get a vertex in the middle, for which another one goes.
-    // \return false: there are too many vertices, or still such edges.
-    bool fix_edges(Candidate& candidate) {
-        ValidDual& dual = candidate.dual;
-        const bool is_exact = context_.options.vertex_count == VertexCount::Exact;
+    // \return the number of vertices; more than wanted if it failed.
+    Index fix_edges() {
         for (int round = 0; round < most_split_rounds; ++round) {
-            candidate.num_removed += reduce(dual);
-            const auto num_vertices = static_cast<Index>(dual.points.size());
-            if (is_exact && num_vertices > *target_) return false;
-            if (is_exact && num_vertices < *target_ && !context_.options.sites) {
-                add_vertices(domain_, points_of_vertices(dual), *target_ - num_vertices, dual);
+            if (num_vertices() > built_.num_wanted) reduce();
+            if (num_vertices() > built_.num_wanted) return num_vertices();
+            if (!context_.options.sites) {
+                add_vertices(domain_, points_of_vertices(), built_.num_wanted - num_vertices(),
+                             dual_);
             }
-            candidate.flips = flip_edges(dual);
-            if (!domain_.plan ||
-                split_repeated(domain_, placed_.curves, points_of_vertices(dual), dual) == 0) {
-                return true;
+            flip_edges();
+            if (split_repeated(domain_, placed_.curves, points_of_vertices(), dual_) == 0) {
+                return num_vertices();
             }
         }
-        return false;
-    }
-
-    ValidDual build_cells() {
-        ValidDual dual =
-            build_valid_dual(domain_, placed_, layout_, on_base_, is_simplified_, context_);
-        if (domain_.plan) {
-            RemeshResult& result = context_.result;
-            result.features.simplified_patches = std::exchange(result.components_simplified, 0);
-        }
-        return dual;
-    }
-
-    // How many vertices the dual is to have, copies on curves included: as many as were asked for,
-    // or one for each given site that owns a part of the surface. Counts the other given sites.
-    // \param diagram  of the first round.
-    [[nodiscard]] Index target_count(const Diagram& diagram) const {
-        const auto& [options, result] = context_;
-        const Index num_other_copies = placed_.num_other_copies(domain_);
-        if (!options.sites) return options.num_samples + num_other_copies;
-        const auto num_copies = static_cast<Index>(placed_.curves.sites.size());
-        const auto area = diagram.cell_area.begin();
-        const auto num_owning =
-            std::count_if(area + num_copies, area + static_cast<Index>(placed_.sites.size()),
-                          [](double cell) { return cell > 0; });
-        const Index target = num_copies + static_cast<Index>(num_owning);
-        result.sites_dropped =
-            static_cast<Index>(options.sites->size()) - (target - num_other_copies);
-        return target;
+        return built_.num_wanted + 1;
     }
 
     // Where the vertices of the dual lie on the cleaned surface.
-    [[nodiscard]] std::vector<SurfacePoint> points_of_vertices(const ValidDual& dual) const {
+    [[nodiscard]] std::vector<SurfacePoint> points_of_vertices() const {
         std::vector<SurfacePoint> points;
-        points.reserve(dual.site.size());
-        for (Index v = 0; v < dual.site.size(); ++v) {
-            const Index site = dual.site[v];
-            // Not moved or added by repair.
-            const bool is_placed =
-                site < first_on_base_.size() && dual.points[v] == first_on_base_[site];
-            points.push_back(is_placed ? placed_.sites[site]
-                                       : domain_.prepared.base.to_input(dual.points[v]));
+        points.reserve(dual_.site.size());
+        for (Index v = 0; v < dual_.site.size(); ++v) {
+            const Index site = dual_.site[v];
+            points.push_back(site != no_index ? placed_.sites[site]
+                                              : domain_.prepared.base.to_input(dual_.points[v]));
         }
         return points;
     }
 
-    [[nodiscard]] std::vector<Vec3> positions_of_vertices(const ValidDual& dual) const {
+    [[nodiscard]] std::vector<Vec3> positions_of_vertices() const {
         std::vector<Vec3> positions;
-        positions.reserve(dual.site.size());
-        for (const SurfacePoint& point : points_of_vertices(dual)) {
+        positions.reserve(dual_.site.size());
+        for (const SurfacePoint& point : points_of_vertices()) {
             positions.push_back(position(domain_.whole->mesh.view(), point));
         }
         return positions;
     }
 
-    // Removes vertices until the target is reached or the topology allows no further removal. With
-    // VertexCount::Add only simplified components have surplus vertices: more than sites.
-    // \return how many were removed.
-    Index reduce(ValidDual& dual) const {
-        const bool adds = context_.options.vertex_count == VertexCount::Add;
-        if (adds && context_.result.components_simplified == 0) return 0;
-        const auto num_vertices = static_cast<Index>(dual.points.size());
-        const Index target = adds ? static_cast<Index>(on_base_.size()) : *target_;
-        if (num_vertices <= target) return 0;
-        std::vector<std::uint8_t> is_last(num_vertices, 0);  // 1: removed last.
-        for (Index i = 0; i < num_vertices; ++i) {
-            const auto v = vertex_of(domain_.base(), dual.points[i]);
-            const Index site = dual.site[i];
-            is_last[i] = (v && std::ranges::binary_search(placed_.boundary_corners, *v)) ||
-                         site < placed_.curves.sites.size() ||
-                         (i < dual.stays.size() && dual.stays[i] != 0) ||
-                         (site != no_index && site < is_wanted_.size() && is_wanted_[site]);
+    // Removes vertices until there are as many as wanted or the topology allows no further removal.
+    void reduce() {
+        std::vector<std::uint8_t> is_last;  // 1: removed last.
+        for (Index v = 0; v < dual_.points.size(); ++v) {
+            const bool stays = v < dual_.stays.size() && dual_.stays[v] != 0;
+            is_last.push_back(stays || dual_.site[v] < placed_.curves.sites.size());
         }
-        const std::vector<Vec3> positions = positions_of_vertices(dual);
+        const std::vector<Vec3> positions = positions_of_vertices();
         const StageClock clock(Stage::Dual, context_.result);
-        const std::vector<Index> gone = reduce_vertices(positions, dual.triangles, target, is_last,
-                                                        progress_of(Stage::Dual, context_.options));
-        compact(gone, dual);
-        return static_cast<Index>(gone.size());
+        compact(reduce_vertices(positions, dual_.triangles, built_.num_wanted + num_other_copies_,
+                                is_last, progress_of(Stage::Dual, context_.options)),
+                dual_);
     }
 
-    DelaunayCounts flip_edges(ValidDual& dual) const {
+    void flip_edges() {
         const auto& [options, result] = context_;
         const StageClock clock(Stage::Delaunay, result);
         const Progress progress = progress_of(Stage::Delaunay, options);
         poll(progress, 0);
         DelaunayResult made = make_delaunay(
-            domain_.base(), dual.points, positions_of_vertices(dual), dual.triangles,
+            domain_.base(), dual_.points, positions_of_vertices(), dual_.triangles,
             {.mode = options.delaunay, .num_threads = options.num_threads, .progress = progress});
         poll(progress, 1);
-        dual.triangles = std::move(made.triangles);
-        return made.counts;
+        dual_.triangles = std::move(made.triangles);
+        result.delaunay = made.counts;
     }
 
-    [[noreturn]] void fail(const Candidate& candidate) const {
-        if (domain_.plan) throw NetworkFailed{};
-        throw TooFewSamples{*target_, static_cast<Index>(candidate.dual.points.size())};
-    }
-
-    [[nodiscard]] bool is_better(const Candidate& candidate) const {
-        return !candidate.crossings ||
-               candidate.crossings->all.size() < best_.self_intersections->all;
-    }
-
-    // Takes the placed mesh out of the candidate.
-    void keep(Candidate& candidate) {
-        const PlacedDual& placed = candidate.placed;
-        if (best_.mesh.triangles.empty()) {
-            best_.narrow_points = domain_.prepared.base.to_input(candidate.dual.narrow_points);
-        }
-        best_.num_wanted = *target_ - placed_.num_other_copies(domain_);
-        best_.mesh = whole_mesh(*domain_.whole, placed);
-        best_.sites = placed.mesh.points;
-        if (placed.patches) {
-            best_.sites = take(placed.mesh.points, placed.patches->glued.representative);
-            if (domain_.has_junctions()) {
-                best_.first_of_group = placed.patches->glued.first_of_group;
-            }
-            if (domain_.plan->given) order_as_given(candidate.dual, placed.patches->glued);
-        }
-        if (candidate.crossings) {
-            best_.self_intersections = candidate.crossings->counts();
-            best_.crossing_corners.clear();
-            for_each_corner(candidate.crossings->added, placed.mesh.triangles, [&](Index v) {
-                best_.crossing_corners.push_back(
+    // Gives the vertices their positions, joins the patches, and improves the triangles.
+    void place() {
+        PlacedDual placed = place_dual(domain_, placed_.curves, dual_, points_of_vertices(), context_);
+        CrossingFinder finder(domain_, context_);
+        const std::optional<CrossingFaces> crossings =
+            unfit_crossings(finder, placed_.curves, placed, context_.result);
+        take_mesh(placed);
+        if (crossings) {
+            built_.self_intersections = crossings->counts();
+            for_each_corner(crossings->added, placed.mesh.triangles, [&](Index v) {
+                built_.crossing_corners.push_back(
                     placed.mesh.position(domain_.whole->mesh.view(), v));
             });
         }
-        context_.result.sites_removed = candidate.num_removed;
-        context_.result.delaunay = candidate.flips;
-        improvable_.reset();
         if (!is_relaxed(context_.options)) return;
-        improvable_ = find_improvable(domain_, std::move(candidate.placed), context_.options);
+        std::optional<ImprovableMesh> improvable =
+            find_improvable(domain_, std::move(placed), context_.options);
+        if (!improvable ||
+            !improve(domain_, finder, *improvable, built_.self_intersections, context_)) {
+            return;
+        }
+        const PlacedDual improved{std::move(improvable->mesh), {}};
+        built_.mesh = whole_mesh(*domain_.whole, improved);
+        built_.sites = improved.mesh.points;
     }
 
-    // Sorts the vertices in the caller's order of the sites, vertices that repair added last.
-    // Before, the vertices of curves come first.
-    void order_as_given(const ValidDual& dual, const GluedMesh& glued) {
+    void take_mesh(const PlacedDual& placed) {
+        const GluedMesh& glued = placed.patches->glued;
+        built_.mesh = whole_mesh(*domain_.whole, placed);
+        built_.sites = take(placed.mesh.points, glued.representative);
+        if (domain_.has_junctions()) built_.first_of_group = glued.first_of_group;
+        if (domain_.plan->given) order_as_given(glued);
+    }
+
+    // Sorts the vertices in the caller's order of the sites, others last. Before, the vertices of
+    // curves come first.
+    void order_as_given(const GluedMesh& glued) {
         const std::vector<Index>& number = domain_.plan->given->number;
         std::vector<std::pair<Index, Index>> order;  // (number of the site, vertex)
         for (Index v = 0; v < glued.representative.size(); ++v) {
-            const Index site = dual.site[glued.representative[v]];
+            const Index site = dual_.site[glued.representative[v]];
             order.emplace_back(site < number.size() ? number[site] : no_index, v);
         }
         std::sort(order.begin(), order.end());
@@ -283,68 +207,24 @@ private:
             after[v] = static_cast<Index>(before.size());
             before.push_back(v);
         }
-        best_.mesh = {take(best_.mesh.positions, before),
-                      rename_vertices(best_.mesh.triangles, after)};
-        best_.sites = take(best_.sites, before);
-    }
-
-    // None if there are no more than in the input.
-    [[nodiscard]] FacePairs pairs_to_separate(const CrossingFaces& crossings) const {
-        const std::size_t in_input = context_.result.input_self_intersections;
-        if (crossings.all.size() <= in_input) return {};
-        return crossings.all.size() <= few_more * in_input ? crossings.all : crossings.added;
-    }
-
-    // Adds a site at the farthest Voronoi vertex of the cell of each corner of these faces, and
-    // marks the sites of the cells as wanted. False if there is no such vertex.
-    bool add_sites_at(const FacePairs& crossings, const ValidDual& dual) {
-        const std::vector<Index> farthest = farthest_voronoi_vertices(dual.diagram);
-        std::vector<Index> points;  // Vertices of the diagram.
-        is_wanted_.resize(on_base_.size(), false);
-        for_each_corner(crossings, dual.triangles, [&](Index v) {
-            const Index site = dual.site[v];
-            if (site == no_index || farthest[site] == no_index) return;
-            points.push_back(farthest[site]);
-            is_wanted_[site] = true;
-        });
-        if (points.empty()) return false;
-        std::sort(points.begin(), points.end());
-        points.erase(std::unique(points.begin(), points.end()), points.end());
-        for (const Index v : points) on_base_.push_back(dual.diagram.vertices[v]);
-        is_wanted_.resize(on_base_.size(), true);
-        const auto count = static_cast<Index>(points.size());
-        context_.result.sites_added += count;
-        context_.result.added_because[SiteReason::SelfIntersection] += count;
-        return true;
-    }
-
-    void improve_best() {
-        if (!improvable_) return;
-        if (!improve(domain_, finder_, *improvable_, best_.self_intersections, context_)) return;
-        const PlacedDual improved{std::move(improvable_->mesh), {}};
-        best_.mesh = whole_mesh(*domain_.whole, improved);
-        best_.sites = improved.mesh.points;
+        built_.mesh = {take(built_.mesh.positions, before),
+                      rename_vertices(built_.mesh.triangles, after)};
+        built_.sites = take(built_.sites, before);
     }
 
     Domain& domain_;
     const PlacedSites& placed_;
     const StageContext& context_;
-    CrossingFinder finder_;
-    std::optional<SurfaceLayout> layout_;
-    std::vector<SurfacePoint> on_base_;  // The sites: the placed ones, and those added by repair.
-    const std::vector<SurfacePoint> first_on_base_;  // The placed ones.
-    std::vector<bool> is_wanted_;      // By site: its vertex is removed last; may be shorter.
-    std::vector<bool> is_simplified_;  // By component.
-    std::optional<Index> target_;      // Vertices of the dual.
-    BuiltMesh best_;
-    std::optional<ImprovableMesh> improvable_;  // Of best_.
+    const std::vector<SurfacePoint> on_base_;  // The sites.
+    ValidDual dual_;
+    Index num_other_copies_ = 0;  // Of vertices on curves, but for the first of each.
+    BuiltMesh built_;
 };
 
 }  // namespace
 
-BuiltMesh build_mesh(Domain& domain, const PlacedSites& sites, WorkLimit& work,
-                     const StageContext& context) {
-    return MeshBuilder(domain, sites, context).run(work);
+BuiltMesh build_mesh(Domain& domain, const PlacedSites& sites, const StageContext& context) {
+    return MeshBuilder(domain, sites, context).run();
 }
 
 }  // namespace remesh::detail

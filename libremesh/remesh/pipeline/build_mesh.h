@@ -6,31 +6,24 @@
 
 namespace remesh::detail {
 
-class WorkLimit;
 struct Domain;
 struct PlacedSites;
 struct StageContext;
 
-//! Thrown if not all curves of the network could be reproduced.
-struct NetworkFailed {};
-
 struct BuiltMesh {
-    TriangleMesh mesh;
+    TriangleMesh mesh;                  //!< Empty: no mesh has all curves and few enough vertices.
     std::vector<SurfacePoint> sites;    //!< #V, on the cleaned surface.
     std::vector<Index> first_of_group;  //!< #V: see GluedMesh; empty without junctions.
     Index num_wanted = 0;               //!< Vertices that were asked for.
+    Index num_vertices = 0;             //!< To which the sites could be reduced.
     std::optional<CrossingCounts> self_intersections;  //!< Unset without CGAL.
     std::vector<Vec3> crossing_corners;  //!< Corners of the faces that intersect, the input's not.
-    std::vector<SurfacePoint> narrow_points;  //!< On the cleaned surface: see ValidDual.
 };
 
-//! Builds the mesh of the sites. While it self-intersects more often than the input, and where that
-//! does not, builds it again with more sites there. Improves narrow triangles of the best mesh.
+//! Builds the mesh of the sites and improves its narrow triangles.
 //! \param domain  its layout is consumed.
-//! \param work    counts the rounds. A round that adds sites has to fit into it.
-//! \throw TooFewSamples, or NetworkFailed if there is a plan.
-//! Cost: a propagation and a diagram for each round of build_valid_dual.
-[[nodiscard]] BuiltMesh build_mesh(Domain& domain, const PlacedSites& sites, WorkLimit& work,
+//! Cost: a propagation and a diagram, and those of placement.
+[[nodiscard]] BuiltMesh build_mesh(Domain& domain, const PlacedSites& sites,
                                    const StageContext& context);
 
 }  // namespace remesh::detail

@@ -14,7 +14,10 @@
 #include "remesh/curves/select_creases.h"
 #include "remesh/pipeline/cleaned_input.h"
 #include "remesh/pipeline/stage_context.h"
+#include "remesh/sites/cell_measures.h"
 #include "remesh/sites/prepared_surface.h"
+#include "remesh/sites/sampling.h"
+#include "remesh/sites/site_dual.h"
 
 namespace remesh::detail {
 namespace {
@@ -86,16 +89,36 @@ void find_seams(const CleanedInput& cleaned, double spacing, const RemeshOptions
     prune_seams(surface, found.is_crease, spacing, found.is_wide, Ticker(poller));
 }
 
+// Moves sites whose cells meet the boundary onto it, and those nearest to its corners there.
+void move_to_boundary(const Surface& surface, double spacing, int num_threads,
+                      const Progress& progress, std::vector<SurfacePoint>& sites) {
+    std::vector<Index> corners;
+    for (const std::vector<Index>& loop : boundary_loops(surface)) {
+        const std::vector<Index> some = find_corners(surface, loop, spacing);
+        corners.insert(corners.end(), some.begin(), some.end());
+    }
+    const PreparedSurface prepared(surface, spacing, num_threads, progress);
+    const std::vector<std::optional<SurfacePoint>> points =
+        boundary_points(prepared.base, label_vertices(prepared, sites, num_threads, progress),
+                        static_cast<Index>(sites.size()), corners);
+    for (Index i = 0; i < sites.size(); ++i) sites[i] = points[i].value_or(sites[i]);
+}
+
 GivenNetwork plan_with_given(const CleanedInput& cleaned, std::vector<std::uint8_t> is_crease,
                              double spacing, const RemeshOptions& options) {
     const Progress progress = cleaned_progress(options);
-    const std::vector<SurfacePoint> sites = given_sites(cleaned, cleaned.surface, *options.sites);
-    return plan_given_network(cleaned.surface, std::move(is_crease),
-                              take(sites, distinct_points(cleaned.surface, sites)),
-                              {.spacing = spacing,
-                               .tolerance = is_relaxed(options) ? on_curve : site_rounding,
-                               .num_threads = options.num_threads,
-                               .progress = progress});
+    const Surface& surface = cleaned.surface;
+    const GivenNetworkOptions network{.spacing = spacing,
+                                      .tolerance = is_relaxed(options) ? on_curve : site_rounding,
+                                      .num_threads = options.num_threads,
+                                      .progress = progress};
+    std::vector<SurfacePoint> sites = given_sites(cleaned, surface, *options.sites);
+    sites = take(sites, distinct_points(surface, sites));
+    GivenNetwork given = plan_given_network(surface, is_crease, sites, network);
+    if (given.has_boundary || options.boundary != Boundary::Keep) return given;
+    move_to_boundary(surface, spacing, options.num_threads, progress, sites);
+    sites = take(sites, distinct_points(surface, sites));
+    return plan_given_network(surface, std::move(is_crease), sites, network);
 }
 
 void count_plan(const NetworkPlan& plan, RemeshResult& result) {
@@ -196,9 +219,6 @@ std::unique_ptr<const CurvePlan> plan_curves(const CleanedInput& cleaned, const 
     JunctionSet junctions = kept.has_junctions ? found.junctions : JunctionSet{};
     const bool has_seams = kept.has_seams && !found.is_seam.empty();
     if (!found.is_seam.empty()) count_seams(cleaned.surface, {}, found, result.features);
-    if (options.sites && kept.is_crease.empty() && !has_seams && junctions.empty() && cleaned.locked.empty()) {
-        return nullptr;
-    }
     std::vector<std::uint8_t> is_crease = kept.is_crease;
     is_crease.resize(cleaned.surface.num_edges(), 0);
     if (has_seams) add_marks(found.is_wide, is_crease);
@@ -218,10 +238,7 @@ std::unique_ptr<const CurvePlan> plan_curves(const CleanedInput& cleaned, const 
     if (!found.is_seam.empty()) {
         count_seams(cleaned.surface, plan->network, found, result.features);
     }
-    if (plan->network.sites_for_locked > 0) {
-        throw TooFewSamples{options.num_samples, plan->network.sites_for_locked};
-    }
-    if (plan->network.empty() && plan->network.cut.surface.num_faces() == 0) return nullptr;
+    if (plan->network.sites_for_boundary > 0) return plan;
     // Pass the twins: vertex indices do not show a cut along a single edge, whose two sides have
     // the same ends.
     const Surface& cut = plan->network.cut.surface;

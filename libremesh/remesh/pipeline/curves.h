@@ -33,7 +33,7 @@ struct KeptCurves {
 
 //! A network of curves and the surface cut along it.
 struct CurvePlan {
-    NetworkPlan network;              //!< Has curves.
+    NetworkPlan network;
     Topology patches;                 //!< Of network.cut.surface.
     std::optional<GivenSites> given;  //!< Only with the caller's sites.
 };
@@ -50,8 +50,7 @@ struct CurvePlan {
                                             double spacing, std::span<const std::uint8_t> is_among);
 
 //! \param sizes  target lengths; null: all equal.
-//! \return null if the boundary is all that is to be reproduced.
-//! \throw TooFewSamples  more vertices are locked.
+//! \return see plan_network; without a cut if the sites are too few.
 //! Cost: see plan_network and plan_given_network.
 [[nodiscard]] std::unique_ptr<const CurvePlan> plan_curves(const CleanedInput& cleaned,
                                                            const FoundCurves& found,

@@ -34,34 +34,23 @@ namespace {
 
 }  // namespace
 
-Domain prepare_domain(CleanedInput& cleaned, std::unique_ptr<const CurvePlan> plan, double spacing,
-                      const SizeField* sizes, const StageContext& context) {
+Domain prepare_domain(const CleanedInput& cleaned, std::unique_ptr<const CurvePlan> plan,
+                      double spacing, const SizeField* sizes, const StageContext& context) {
     const auto& [options, result] = context;
     const StageClock clock(Stage::Clean, result);
-    const Progress all = progress_of(Stage::Clean, options);
-    const Progress progress = within(all, cleaned_fraction, 1);
-    const int num_threads = options.num_threads;
-    const CurvePlan* cut = plan.get();
+    const Progress progress = within(progress_of(Stage::Clean, options), cleaned_fraction, 1);
+    const CurvePlan& cut = *plan;
     Domain domain{.plan = std::move(plan),
-                  .prepared = cut != nullptr ? PreparedSurface(cut->network.cut.surface, spacing,
-                                                               num_threads, progress, sizes)
-                                             : PreparedSurface(std::move(cleaned.surface), spacing,
-                                                               num_threads, progress, sizes),
+                  .prepared = PreparedSurface(cut.network.cut.surface, spacing,
+                                              options.num_threads, progress, sizes),
                   .whole = &cleaned.surface,
-                  .parts = cut != nullptr ? &cut->patches : &cleaned.topology,
                   .spacing = spacing,
                   .sizes = sizes};
-    if (cut == nullptr) domain.whole = &domain.prepared.input();
-    domain.component = parts_of_base(domain.prepared.base, domain.parts->face_component,
-                                     progress_at(Stage::Clean, options, 1));
+    domain.patch = parts_of_base(domain.prepared.base, cut.patches.face_component,
+                                 progress_at(Stage::Clean, options, 1));
     if (!domain.prepared.base.counts().is_delaunay) refuse_narrow_parts(*domain.whole, cleaned);
     result.refined_faces = domain.base().num_faces();
     return domain;
-}
-
-void give_back(Domain domain, CleanedInput& cleaned, int num_threads) {
-    if (domain.plan) return;
-    cleaned.surface = build_surface(domain.whole->mesh.view(), num_threads);
 }
 
 }  // namespace remesh::detail

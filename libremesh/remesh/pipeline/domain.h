@@ -9,28 +9,24 @@ namespace remesh::detail {
 
 //! The cleaned surface, cut along its curves, and the base on which propagation runs.
 struct Domain {
-    std::unique_ptr<const CurvePlan> plan;  //!< Null: the surface is not cut.
-    PreparedSurface prepared;               //!< Of the surface, cut if there is a plan.
-    const Surface* whole;                   //!< The cleaned surface, uncut.
-    const Topology* parts;                  //!< Of prepared.input().
-    std::vector<Index> component = {};      //!< #F of the base: index into parts->components.
-    double spacing = 0;                     //!< Mesh units: mean distance of the sites.
-    const SizeField* sizes = nullptr;       //!< Target lengths; null: all equal.
+    std::unique_ptr<const CurvePlan> plan;
+    PreparedSurface prepared;          //!< Of the surface, cut along the plan's curves.
+    const Surface* whole;              //!< The cleaned surface, uncut.
+    std::vector<Index> patch = {};     //!< #F of the base: index into plan->patches.components.
+    double spacing = 0;                //!< Mesh units: mean distance of the sites.
+    const SizeField* sizes = nullptr;  //!< Target lengths; null: all equal.
 
     //! The surface on which propagation runs.
     [[nodiscard]] const Surface& base() const { return prepared.base.surface(); }
-    [[nodiscard]] bool has_junctions() const { return plan && !plan->network.junctions.empty(); }
-    [[nodiscard]] bool has_locked() const { return plan && !plan->network.locked.empty(); }
+    [[nodiscard]] bool has_junctions() const { return !plan->network.junctions.empty(); }
+    [[nodiscard]] bool has_locked() const { return !plan->network.locked.empty(); }
 };
 
-//! \param cleaned  outlives the domain. Without a plan its surface moves there (see give_back).
+//! \param cleaned  outlives the domain.
 //! \throw InvalidInput  a part of the surface is too thin for double precision.
 //! Cost: that of PreparedSurface.
-[[nodiscard]] Domain prepare_domain(CleanedInput& cleaned, std::unique_ptr<const CurvePlan> plan,
+[[nodiscard]] Domain prepare_domain(const CleanedInput& cleaned, std::unique_ptr<const CurvePlan> plan,
                                     double spacing, const SizeField* sizes,
                                     const StageContext& context);
-
-//! Ends a domain and gives `cleaned` its surface back. Cost: O(#F) if it had moved.
-void give_back(Domain domain, CleanedInput& cleaned, int num_threads);
 
 }  // namespace remesh::detail

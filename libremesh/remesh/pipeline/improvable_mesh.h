@@ -16,7 +16,6 @@ struct ImprovableMesh {
     PlacedMesh mesh;
     std::vector<Mobility> mobility;  //!< #V
     std::vector<DirectedEdge> hard;  //!< Along the curves.
-    CurveNetwork boundary;           //!< The curves of a surface that is not cut.
 };
 
 //! All vertices may move but those at nodes of the network. Those on a curve slide along it.

@@ -1,6 +1,7 @@
 #include "remesh/pipeline/placed_dual.h"
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 #include "agvd/mesh/any_mesh.h"
@@ -71,10 +72,8 @@ void place_vertices(Domain& domain, const CurveSites& curves, const ValidDual& d
     // Vertices at nodes. Those inside faces of the surface are locked; all others are on its
     // boundary.
     std::vector<std::uint8_t> stays;
-    if (domain.plan) {
-        for (const Index site : dual.site) {
-            stays.push_back(site < curves.first_copy[curves.num_nodes()] ? 1 : 0);
-        }
+    for (const Index site : dual.site) {
+        stays.push_back(site < curves.first_copy[curves.num_nodes()] ? 1 : 0);
     }
     const bool is_fitted = options.fit.value_or(is_relaxed(options));
     // The pieces are large: they are freed before the fit.
@@ -92,9 +91,9 @@ void place_vertices(Domain& domain, const CurveSites& curves, const ValidDual& d
         prepared.pieces.reset();
     }
     if (is_fitted) {
-        if (domain.plan) fit_on_curves(domain, curves, options.boundary, placed);
+        fit_on_curves(domain, curves, options.boundary, placed);
         fit_vertices(domain.prepared.base, nearest, std::move(samples), placed.mesh,
-                     options.num_threads, start, domain.plan ? rounding * domain.spacing : 0,
+                     options.num_threads, start, rounding * domain.spacing,
                      stays);
     }
     if (is_relaxed(options)) {
@@ -153,15 +152,25 @@ private:
 
 }  // namespace
 
-bool has_chain(const ValidDual& dual, std::span<const ChainEdge> chain) {
-    std::vector<DirectedEdge> rim = rim_of(dual.triangles), wanted = ends_of(chain);
-    for (auto& [from, to] : rim) {
-        from = dual.site[from];
-        to = dual.site[to];
+bool has_chain(const Domain& domain, std::span<const ChainEdge> chain, const ValidDual& dual) {
+    if (chain.empty()) return true;
+    std::map<DirectedEdge, bool> may_be_divided;
+    for (const ChainEdge& edge : chain) {
+        const Curve& curve = domain.plan->network.network.curves[edge.curve];
+        may_be_divided[{edge.from, edge.to}] = curve.sides.size() == 1 && !curve.is_locked;
     }
-    std::sort(rim.begin(), rim.end());
-    std::sort(wanted.begin(), wanted.end());
-    return rim == wanted;
+    std::map<Index, Index> next;  // Along the rim.
+    for (const auto& [from, to] : rim_of(dual.triangles)) next[from] = to;
+    std::size_t num_found = 0;
+    for (const auto& [from, to] : next) {
+        if (dual.site[from] == no_index) continue;
+        Index end = to;
+        while (dual.site[end] == no_index) end = next.at(end);
+        const auto edge = may_be_divided.find({dual.site[from], dual.site[end]});
+        if (edge == may_be_divided.end() || (end != to && !edge->second)) return false;
+        ++num_found;
+    }
+    return num_found == chain.size();
 }
 
 Index split_repeated(const Domain& domain, const CurveSites& curves,
@@ -212,10 +221,9 @@ PlacedDual place_dual(Domain& domain, const CurveSites& curves, const ValidDual&
                       std::vector<SurfacePoint> points, const StageContext& context) {
     std::vector<Vec3> offsets(points.size(), Vec3::Zero());
     PlacedDual placed{{std::move(points), std::move(offsets), dual.triangles}, {}};
-    if (domain.plan) placed.patches = join_patches(dual, curves);
+    placed.patches = join_patches(dual, curves);
     place_vertices(domain, curves, dual, placed, context);
-    auto& triangles = placed.patches ? placed.patches->glued.triangles : placed.mesh.triangles;
-    flip_flat_faces(whole_mesh(*domain.whole, placed).positions, triangles);
+    flip_flat_faces(whole_mesh(*domain.whole, placed).positions, placed.patches->glued.triangles);
     return placed;
 }
 

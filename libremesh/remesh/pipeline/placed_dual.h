@@ -21,11 +21,13 @@ struct JoinedPatches {
 //! A dual with positions in space.
 struct PlacedDual {
     PlacedMesh mesh;                       //!< Vertices on curves have a copy for each patch.
-    std::optional<JoinedPatches> patches;  //!< Only with a plan.
+    std::optional<JoinedPatches> patches;  //!< Unset: they are joined in `mesh`.
 };
 
-//! Whether each curve is the same chain of edges in all patches on its sides. Cost: O(n log n).
-[[nodiscard]] bool has_chain(const ValidDual& dual, std::span<const ChainEdge> chain);
+//! Whether each curve is the same chain of edges in all patches on its sides. Edges of the boundary
+//! may have vertices between their ends. Cost: O(n log n).
+[[nodiscard]] bool has_chain(const Domain& domain, std::span<const ChainEdge> chain,
+                             const ValidDual& dual);
 
 //! Divides the inner edges of patches that would coincide with other edges when patches are joined,
 //! and that no flip removes, by a vertex in the middle.

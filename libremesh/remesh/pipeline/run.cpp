@@ -1,5 +1,5 @@
-// Runs the stages: cleaning once, then attempts with fewer and fewer curves until one gives a mesh
-// without self-intersections that the input does not have. The best attempt counts.
+// Runs the stages: cleaning once, then attempts with other curves until one gives a mesh without
+// self-intersections that the input does not have. The best attempt counts.
 #include "remesh/pipeline/run.h"
 
 #include <algorithm>
@@ -15,7 +15,6 @@
 #include "remesh/pipeline/sample_count.h"
 #include "remesh/pipeline/sizes.h"
 #include "remesh/pipeline/stage_context.h"
-#include "remesh/pipeline/work_limit.h"
 #include "remesh/sites/shares.h"
 
 namespace remesh::detail {
@@ -44,14 +43,6 @@ bool is_better(const RemeshResult& result, const RemeshResult& best) {
            (is_fine(result) || result.new_self_intersections < best.new_self_intersections);
 }
 
-// Whether lengths are ours to choose, for a number of samples that is given.
-bool may_shorten(const RemeshOptions& options) {
-    const Sizing& sizing = options.sizing;
-    return !options.sites && (sizing.is_adaptive() || sizing.is_even()) &&
-           (std::holds_alternative<NumSamples>(sizing.count) ||
-            std::holds_alternative<NumFaces>(sizing.count));
-}
-
 // Whether an attempt with fewer creases, or without seams, would differ from this one.
 bool has_more_to_drop(const KeptCurves& kept, const FeatureCounts& features) {
     return features.curves > 0 && (kept.has_seams || features.length > 0);
@@ -66,7 +57,7 @@ class Attempts {
 
 public:
     // \param most_lengths  see find_sizes.
-    Attempts(CleanedInput& cleaned, const RemeshResult& after_cleaning, const RemeshOptions& given,
+    Attempts(const CleanedInput& cleaned, const RemeshResult& after_cleaning, const RemeshOptions& given,
              std::span<const double> most_lengths)
         : cleaned_(cleaned), options_(given), first_(after_cleaning) {
         find_lengths(most_lengths);
@@ -78,19 +69,11 @@ public:
     }
 
     RemeshResult run() {
-        WorkLimit work(cleaned_.surface.num_faces(), options_.num_samples);
-        run_all(true, work);
-        if (!best_) run_all(false, work);
-        // Only what is locked can make all attempts fail.
-        if (!best_) throw TooFewSamples{options_.num_samples, options_.num_samples + 1};
+        run_all(true);
+        if (!best_) run_all(false);
+        if (!best_) throw TooFewSamples{options_.num_samples, num_needed_};
         best_->seconds = first_.seconds;
         best_->features.samples_for_all = samples_for_all_;
-        // A rod that is narrower than the spacing gets shorter by some edges.
-        const bool has_lost_part = best_->verdict.largest_distance > best_->verdict.spacing;
-        if (!narrow_points_.empty() && may_shorten(options_) && !work.is_spent() && has_lost_part &&
-            !is_hopeless(best_->self_intersections.value_or(0), {options_, *best_})) {
-            shorten_narrow(work);
-        }
         return *std::move(best_);
     }
 
@@ -103,19 +86,17 @@ private:
         sizes_ = find_sizes(cleaned_, found_, spacing, most_lengths, {}, {options_, first_});
     }
 
-    void run_all(bool has_junctions, WorkLimit& work) {
+    void run_all(bool has_junctions) {
         KeptCurves kept{has_junctions, !found_.is_seam.empty(), found_.is_crease};
         for (int num_changes = 0;;) {
             std::vector<Vec3> crossings;
-            if (try_curves(kept, work, crossings) || (work.is_spent() && best_)) return;
-            const bool has_time = !work.is_spent();
-            if (has_time && kept.has_seams) {
+            if (try_curves(kept, crossings)) return;
+            if (kept.has_seams) {
                 kept.has_seams = false;
                 continue;
             }
-            if (has_time && change_near(crossings, num_changes, kept.is_crease)) continue;
+            if (change_near(crossings, num_changes, kept.is_crease)) continue;
             if (!has_creases(kept.is_crease)) return;
-            kept.has_seams = false;
             kept.is_crease.assign(kept.is_crease.size(), 0);
         }
     }
@@ -147,66 +128,33 @@ private:
     // \param[out] crossings  corners of faces that intersect; none if less creases would not help,
     //                        or there is no mesh.
     // \return whether it is no use to try other curves.
-    bool try_curves(const KeptCurves& kept, WorkLimit& work, std::vector<Vec3>& crossings) {
+    bool try_curves(const KeptCurves& kept, std::vector<Vec3>& crossings) {
         RemeshResult result = first_;
-        AttemptEnd end;
-        const std::size_t done = work.done();
-        bool has_mesh = true;
-        try {
-            end = run_attempt(cleaned_, found_, kept, sizes_.field.get(), work, {options_, result});
-        } catch (const NetworkFailed&) {
-            has_mesh = false;
-            work.add_again(done);
-        }
+        AttemptEnd end =
+            run_attempt(cleaned_, found_, kept, sizes_.field.get(), {options_, result});
         first_.seconds = result.seconds;
         samples_for_all_ = std::max(samples_for_all_, result.features.samples_for_all);
         const bool is_bare = !has_more_to_drop(kept, result.features);
-        if (!has_mesh) return is_bare;
+        if (!end.has_mesh) {
+            num_needed_ = std::max(end.num_needed, options_.num_samples + 1);
+            return is_bare;
+        }
         result.features.gave_up = kept.is_crease != found_.is_crease;
         if (!is_hopeless(result.self_intersections.value_or(0), {options_, result})) {
             crossings = std::move(end.crossing_corners);
         }
-        if (!best_ || is_better(result, *best_)) {
-            best_ = std::move(result);
-            kept_ = kept;
-            narrow_points_ = std::move(end.narrow_points);
-        }
+        if (!best_ || is_better(result, *best_)) best_ = std::move(result);
         return is_bare || is_fine(*best_);
     }
 
-    // Runs the best attempt again with shorter edges on narrow parts, where cells wrapped around
-    // them, and keeps the better result.
-    void shorten_narrow(WorkLimit& work) {
-        RemeshResult again = first_;
-        const StageContext context{options_, again};
-        try {
-            const RunSizes sizes = find_sizes(cleaned_, found_, spacing_for(cleaned_, options_), {},
-                                              narrow_points_, context);
-            run_attempt(cleaned_, found_, kept_, sizes.field.get(), work, context);
-        } catch (const TooFewSamples&) {
-            return;
-        } catch (const NetworkFailed&) {
-            return;
-        }
-        best_->seconds = again.seconds;
-        if (num_more_crossings(again) > num_more_crossings(*best_) ||
-            again.verdict.largest_distance >= best_->verdict.largest_distance) {
-            return;
-        }
-        again.features.gave_up = best_->features.gave_up;
-        again.features.samples_for_all = samples_for_all_;
-        best_ = std::move(again);
-    }
-
-    CleanedInput& cleaned_;
+    const CleanedInput& cleaned_;
     RemeshOptions options_;
     RemeshResult first_;  // Of cleaning and what was found here; its times include all attempts.
     FoundCurves found_;
     RunSizes sizes_;
     std::optional<RemeshResult> best_;
-    Index samples_for_all_ = 0;                // Of the attempt with most curves.
-    KeptCurves kept_;                          // Of the best.
-    std::vector<SurfacePoint> narrow_points_;  // Of the best.
+    Index samples_for_all_ = 0;  // Of the attempt with most curves.
+    Index num_needed_ = 0;       // Vertices, by the last attempt without a mesh.
 };
 
 // \throw TooFewSamples  no mesh of this topology has as few vertices as are asked for.
@@ -227,8 +175,7 @@ struct EnoughSamples {
 };
 
 // A number of samples that works. Large numbers are not tried: a run would take minutes.
-// \param cleaned  a copy: a run that gives a mesh uses it up.
-EnoughSamples find_enough(CleanedInput cleaned, const RemeshResult& after_cleaning,
+EnoughSamples find_enough(const CleanedInput& cleaned, const RemeshResult& after_cleaning,
                           const RemeshOptions& options, Index reached) {
     constexpr int max_tries = 6;
     constexpr Index most_tried = 10'000;
@@ -237,20 +184,14 @@ EnoughSamples find_enough(CleanedInput cleaned, const RemeshResult& after_cleani
     more.sites.reset();
     for (int tries = 0; tries < max_tries; ++tries) {
         more.num_samples = reached;
-        try {
-            RemeshResult result = after_cleaning;
-            RunSizes sizes;
-            if (!cleaned.locked.empty()) {
-                sizes = find_sizes(cleaned, {}, spacing_for(cleaned, more), {}, {}, {more, result});
-            }
-            WorkLimit work = WorkLimit::spent();
-            run_attempt(cleaned, {}, {}, sizes.field.get(), work, {more, result});
-            return {.count = reached, .is_tried = true};
-        } catch (const TooFewSamples& failure) {
-            reached = std::max(failure.reached, reached + reached / 4 + 1);
-        } catch (const NetworkFailed&) {
-            reached += reached / 4 + 1;
+        RemeshResult result = after_cleaning;
+        RunSizes sizes;
+        if (!cleaned.locked.empty()) {
+            sizes = find_sizes(cleaned, {}, spacing_for(cleaned, more), {}, {}, {more, result});
         }
+        const AttemptEnd end = run_attempt(cleaned, {}, {}, sizes.field.get(), {more, result});
+        if (end.has_mesh) return {.count = reached, .is_tried = true};
+        reached = std::max(end.num_needed, reached + reached / 4 + 1);
     }
     return {.count = more.num_samples, .is_too_few = true};
 }

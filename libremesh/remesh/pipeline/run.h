@@ -7,7 +7,6 @@
 
 namespace remesh::detail {
 
-class WorkLimit;
 struct FoundCurves;
 struct KeptCurves;
 
@@ -17,19 +16,18 @@ struct KeptCurves;
 
 //! What an attempt tells besides its result.
 struct AttemptEnd {
-    std::vector<SurfacePoint> narrow_points;  //!< Where cells wrapped around narrow parts.
-    std::vector<Vec3> crossing_corners;       //!< See BuiltMesh.
+    bool has_mesh = false;
+    Index num_needed = 0;                     //!< Without a mesh: so many vertices may suffice.
+    std::vector<Vec3> crossing_corners = {};  //!< See BuiltMesh.
 };
 
 //! Runs all stages after cleaning, with some of the curves, and sets what they give in the result
-//! of the context. Checks that the mesh has the topology of the input, which the stages imply, and
-//! the vertex count that was asked for.
+//! of the context. Checks that the mesh has the topology of the input, and the vertex count that
+//! was asked for.
 //! \param sizes  target lengths; null: all equal.
-//! \param work   counts the attempt.
-//! \throw TooFewSamples, NetworkFailed   `cleaned` is unchanged then.
-//! \throw std::logic_error  there is no plan, and the topology differs: a bug.
-AttemptEnd run_attempt(CleanedInput& cleaned, const FoundCurves& found, const KeptCurves& kept,
-                       const SizeField* sizes, WorkLimit& work, const StageContext& context);
+[[nodiscard]] AttemptEnd run_attempt(const CleanedInput& cleaned, const FoundCurves& found,
+                                     const KeptCurves& kept, const SizeField* sizes,
+                                     const StageContext& context);
 
 //! The mean distance of the sites that the options ask for, mesh units.
 [[nodiscard]] inline double spacing_for(const CleanedInput& cleaned, const RemeshOptions& options) {

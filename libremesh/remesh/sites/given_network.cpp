@@ -64,6 +64,7 @@ struct Carrier {
     std::vector<Index> at_node = {};               // By node: its site, or no_index.
     std::vector<std::uint8_t> is_on_network = {};  // #sites
     std::vector<NearestEdge> nearest = {};         // #sites
+    bool has_boundary = true;                      // It is carried.
 
     // Drops creases until all that are left are carried. \return the number dropped.
     Index drop_uncarried() {
@@ -71,15 +72,15 @@ struct Carrier {
             find();
             const std::vector<Index> fewest = fewest_intervals(network);
             const Index dropped_before = num_dropped;
-            bool is_boundary_carried = true;
+            has_boundary = true;
             std::vector<bool> is_carried;
             for (Index c = 0; c < network.curves.size(); ++c) {
                 is_carried.push_back(carries(c, fewest[c]));
-                if (!is_carried[c] && !network.curves[c].is_crease()) is_boundary_carried = false;
+                if (!is_carried[c] && !network.curves[c].is_crease()) has_boundary = false;
             }
             for (Index c = 0; c < network.curves.size(); ++c) {
                 const Curve& curve = network.curves[c];
-                if (!curve.is_crease() || (is_carried[c] && is_boundary_carried)) continue;
+                if (!curve.is_crease() || (is_carried[c] && has_boundary)) continue;
                 for (const Index h : curve.sides[0].half_edges) is_crease[surface.edge[h]] = 0;
                 ++num_dropped;
             }
@@ -184,6 +185,7 @@ struct Carrier {
             at.insert(at.begin(), 0);
             at.push_back(curve.length());
         }
+        if (!curve.is_crease()) return true;
         const auto is_gap = [&](double a, double b) { return b - a > longest_gap * spacing; };
         return std::ranges::adjacent_find(at, is_gap) == at.end();
     }
@@ -202,7 +204,13 @@ GivenNetwork plan_given_network(const Surface& surface, std::vector<std::uint8_t
     NetworkPlan& plan = result.plan;
     plan.length = length_of(surface, carrier.is_crease);
     plan.dropped_length = length_at_first - plan.length;
-    if (!has_creases(carrier.is_crease)) return result;
+    result.has_boundary = carrier.has_boundary;
+    if (!result.has_boundary) {
+        carrier.network = {};
+        carrier.at_node.clear();
+        carrier.stops.clear();
+        carrier.is_on_network.assign(sites.size(), 0);
+    }
     std::vector<Index> of_group = carrier.at_node;
     for (const std::vector<Stop>& of_curve : carrier.stops) {
         std::vector<double>& along = plan.along.emplace_back();

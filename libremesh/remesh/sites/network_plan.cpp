@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "agvd/mesh/scale.h"
 #include "agvd/mesh/surface.h"
 #include "remesh/curves/curve_sites.h"
 #include "remesh/sites/shares.h"
@@ -133,8 +134,7 @@ NetworkPlan plan_network(const Surface& surface, std::vector<std::uint8_t> is_cr
                          Index num_vertices, JunctionSet junctions, int num_threads,
                          const Progress& progress, const SizeField* sizes, LockedElements locked) {
     double spacing = detail::spacing_of(num_vertices, surface_area(surface), 0);
-    double length_of_all = 0;
-    for (const double l : surface.length) length_of_all += l;
+    const double whole = (box_of(surface.mesh.view()).high - box_of(surface.mesh.view()).low).norm();
     NetworkPlan plan;
     plan.junctions = std::move(junctions);
     plan.locked = std::move(locked);
@@ -164,20 +164,15 @@ NetworkPlan plan_network(const Surface& surface, std::vector<std::uint8_t> is_cr
         }
         if (std::ranges::any_of(plan.network.curves, is_free_crease)) {
             drop_shortest(surface, plan.network, drop_at_once, is_crease);
-        } else if (spacing < length_of_all) {
-            spacing *= 2;
+        } else if (spacing < whole) {
+            spacing *= 2;  // Of the corners.
         } else {
             break;
         }
     }
-    if (!plan.locked.empty()) {
-        plan.sites_for_locked = fewest_locked_vertices(surface, spacing, plan.locked);
-    }
-    plan.network = {};
-    plan.junctions = {};
-    plan.locked = {};
-    plan.dropped_length = length_at_first;
-    return plan;
+    NetworkPlan none;
+    none.sites_for_boundary = fewest_vertices(plan.network);
+    return none;
 }
 
 }  // namespace remesh

@@ -21,18 +21,16 @@ struct NetworkPlan {
     double dropped_length = 0;      //!< Of the creases dropped, mesh units.
     Index sites_for_junctions = 0;  //!< Fewest vertices that keep the junctions.
     Index sites_for_all = 0;        //!< Fewest vertices that keep all curves.
-    Index sites_for_locked = 0;     //!< Fewest vertices that keep what is locked.
-
-    [[nodiscard]] bool empty() const { return network.curves.empty() && network.nodes.empty(); }
+    Index sites_for_boundary = 0;   //!< Fewest vertices that keep it and what is locked.
 };
 
 //! Finds the network, and the spacing at which curves and patches together have num_vertices
 //! vertices. If these are too few, the shortest creases are dropped; if too few for the junctions,
-//! all of these; if too few for what is locked, the plan is empty.
+//! all of these; then the boundary has fewer corners. If they are still too few for the boundary
+//! and what is locked, only sites_for_boundary is set.
 //! \param is_crease     #E: 1 for the edges of creases.
 //! \param num_vertices  of the result: see num_curve_vertices.
 //! \param sizes           spacings are in local lengths; null: in mesh units.
-//! \return an empty plan if there is nothing but boundary, or nothing else is left.
 //! \throw Cancelled  the progress callback returned false.
 //! Cost: O(n), once more for each tenth of the creases that is dropped.
 [[nodiscard]] NetworkPlan plan_network(const Surface& surface, std::vector<std::uint8_t> is_crease,
@@ -62,7 +60,8 @@ struct GivenSites {
 };
 
 struct GivenNetwork : GivenSites {
-    NetworkPlan plan;          //!< Without curves if none is carried; does not set sites_for_all.
+    NetworkPlan plan;          //!< Does not set sites_for_all.
+    bool has_boundary = true;  //!< False: the sites do not carry it, and there are no curves.
     Index dropped_curves = 0;  //!< Creases that the sites do not carry.
 };
 
@@ -78,8 +77,8 @@ struct GivenNetworkOptions {
 
 //! A site on the network, up to the tolerance, becomes a vertex of it; of several at one position
 //! only the first. Sites carry a curve if one lies at each end, enough between for a triangulation,
-//! and no gap is above four spacings. Other creases are dropped: all, if part of the boundary is
-//! not carried, since only sites tell creases from it.
+//! and no gap is above four spacings, except on the boundary. Other creases are dropped: all, if
+//! part of the boundary is not carried.
 //! \param is_crease  #E: 1 for the edges of creases.
 //! \param sites      on the surface, no two at one position.
 //! \throw Cancelled  the progress callback returned false.
