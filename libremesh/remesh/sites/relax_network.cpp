@@ -9,6 +9,7 @@
 #include <set>
 
 #include "agvd/mesh/closest_point.h"
+#include "agvd/mesh/surface_points.h"
 #include "agvd/mesh/topology.h"
 #include "remesh/curves/glue.h"
 #include "remesh/curves/walk.h"
@@ -109,7 +110,7 @@ struct MiddleFinder {
         }
         for (const detail::Middle& m : dual.middles) {
             const auto found = by_pair.find({m.low, m.high});
-            if (found != by_pair.end()) found->second = m;
+            if (found != by_pair.end() && !is_at_rim(m.point)) found->second = m;
         }
         for (const Triangle& t : dual.triangles) {
             for (std::size_t k = 0; k < 3; ++k) {
@@ -123,6 +124,12 @@ struct MiddleFinder {
 
     [[nodiscard]] const Surface& surface() const { return plan.cut.surface; }
     [[nodiscard]] Vec3 at(Index site) const { return position(surface().mesh.view(), sites[site]); }
+
+    // Whether a point lies at a vertex of the rim: there may be a site of a curve.
+    [[nodiscard]] bool is_at_rim(const SurfacePoint& point) const {
+        const auto v = vertex_of(surface(), point);
+        return v && surface().is_boundary_vertex(*v);
+    }
 
     // The middle of an edge for which labels give none.
     [[nodiscard]] detail::Middle middle_of(const Pair& pair) const {

@@ -247,6 +247,7 @@ void measure_energy(const SiteMesh& mesh, std::span<const Vec3> positions,
             result.weighted += weighted;
         }
         for (std::size_t k = 0; k < 3; ++k) {
+            if (!part[k].slope.allFinite()) continue;  // The triangle has no width.
             CvtEnergy::Cell& cell = result.cells[t[k]];
             cell.slope += part[k].slope;
             cell.normal += normal;
