@@ -50,9 +50,8 @@ std::string describe_crossings(const remesh::RemeshResult& result, const std::st
                              std::to_string(in_input);
     if (in_input == 0) return text + "; use " + more;
     if (fresh == 0) {
-        const bool has_sites = result.added_because.contains(remesh::SiteReason::SelfIntersection);
-        return text + "; they are where the input intersects itself, and " + more + " give more" +
-               (has_sites ? "" : ", so that no sites were added there") + "; repair the input";
+        return text + "; they are where the input intersects itself, and " + more +
+               " give more; repair the input";
     }
     return text + "; " + std::to_string(fresh) +
            " are not where the input intersects itself: for these use " + more +

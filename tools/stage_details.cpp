@@ -11,7 +11,6 @@ namespace cli {
 namespace {
 
 using remesh::RemeshResult;
-using remesh::SiteReason;
 using remesh::Stage;
 
 std::string after_clean(const RemeshResult& result, std::size_t num_faces) {
@@ -42,27 +41,16 @@ std::string after_relax(const RemeshResult& result) {
 }
 
 std::string after_dual(const RemeshResult& result) {
-    std::string text =
-        std::to_string(result.repair_rounds) + " rounds of repair, " +
-        std::to_string(result.sites_added) + " sites added, " + std::to_string(result.sites_moved) +
-        " moved, " + std::to_string(result.sites_removed) + " removed, " +
-        std::to_string(result.sites_dropped) +
-        " dropped; components simplified: " + std::to_string(result.components_simplified);
-    for (const auto& [reason, count] : result.added_because) {
-        text += "; " + std::to_string(count) + " sites added " + remesh::where_text(reason);
-    }
-    return text;
+    return "patches simplified: " + std::to_string(result.features.simplified_patches) +
+           "; sites dropped: " + std::to_string(result.sites_dropped);
 }
 
 std::string after_check(const RemeshResult& result) {
-    const auto mended = result.added_because.find(SiteReason::SelfIntersection);
-    const agvd::Index added = mended == result.added_because.end() ? 0 : mended->second;
     return "self-intersections: " +
            (result.self_intersections ? std::to_string(*result.self_intersections)
                                       : std::string("not counted")) +
            " in the result, " + std::to_string(result.input_self_intersections) +
-           " in the input; mended by " + std::to_string(added) + " sites, and by " +
-           std::to_string(result.unfitted_vertices) + " vertices moved back";
+           " in the input; " + std::to_string(result.unfitted_vertices) + " vertices moved back";
 }
 
 std::string after_propagate(const RemeshResult& result) {

@@ -11,6 +11,7 @@
 #include "bench/report.h"
 #include "cli.h"
 #include "remesh/sites/prepared_surface.h"
+#include "remesh/sites/relax_network.h"
 #include "remesh/sites/sites.h"
 
 namespace {
@@ -85,6 +86,10 @@ void measure(const std::filesystem::path& path, const Arguments& arguments, Json
     const Surface surface = bench::load(path, 0);
     const remesh::PreparedSurface prepared(surface,
                                            remesh::mean_spacing(surface, arguments.samples));
+    const remesh::NetworkPlan plan = remesh::plan_network(
+        surface, std::vector<std::uint8_t>(surface.num_edges(), 0), arguments.samples);
+    const remesh::PreparedSurface on_plan(plan.cut.surface,
+                                          remesh::mean_spacing(surface, arguments.samples));
     const std::vector<Start> all = starts(surface, arguments.samples);
     if (rows.empty()) {
         for (const Start& start : all) rows.push_back({{"start", start.name}});
@@ -92,8 +97,11 @@ void measure(const std::filesystem::path& path, const Arguments& arguments, Json
     for (const int steps : arguments.steps) {
         // No early end: each start takes all of its steps.
         const remesh::RelaxOptions options{.steps = steps, .tolerance = 0};
-        const double usual = last_energy(
-            remesh::sample_relaxed_sites(prepared, {.num_samples = arguments.samples}, options));
+        const double usual = remesh::sample_network_sites(on_plan, plan,
+                                                          {.num_samples = arguments.samples},
+                                                          options)
+                                 .levels.back()
+                                 .energy.back();
         for (std::size_t i = 0; i < all.size(); ++i) {
             cli::stop_if_interrupted();
             rows[i][path.stem().string() + ' ' + std::to_string(steps)] =

@@ -269,7 +269,6 @@ Json to_json(const RemeshOptions& options, Index num_samples) {
     object["steiner_points_per_edge"] = options.propagation.steiner_points;
     object["lambda"] = options.propagation.lambda;
     object["delaunay"] = delaunay_name(options.delaunay);
-    object["max_repair_rounds"] = options.repair_rounds;
     object["threads"] = options.num_threads;
     return object;
 }
@@ -309,17 +308,10 @@ std::string to_json(const RemeshResult& result, const RunInfo& info) {
     object["kept"] = to_json(result.kept);
     object["refined_faces"] = result.refined_faces;
     object["components_dropped"] = result.components_dropped;
-    object["sites_added"] = result.sites_added;
-    Json& reasons = object["sites_added_because"] = Json::object();
-    for (const auto& [reason, count] : result.added_because) reasons[to_text(reason)] = count;
-    object["sites_moved"] = result.sites_moved;
-    object["sites_removed"] = result.sites_removed;
-    object["components_from_faces"] = result.components_simplified;
     object["sites_dropped"] = result.sites_dropped;
     object["features"] = to_json(result.features);
     object["junctions"] = to_json(result.junctions);
     object["sizing"] = to_json(result.sizing);
-    object["repair_rounds"] = result.repair_rounds;
     object["delaunay"] = to_json(result.delaunay, info.options.delaunay);
     object["unfitted_vertices"] = result.unfitted_vertices;
     Json& levels = object["relaxation"] = Json::array();

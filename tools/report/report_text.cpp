@@ -207,25 +207,6 @@ std::string to_text(const SizingResult& sizing) {
            fixed(sizing.low_ratio, 2) + " to " + fixed(sizing.high_ratio, 2) + " times theirs";
 }
 
-// How often the number of vertices was changed, and why; empty: never.
-std::string describe_repair(const RemeshResult& result) {
-    std::string text;
-    if (result.repair_rounds > 0 || result.sites_removed > 0) {
-        text += "\ntopology repair: " + counted(result.sites_added, "site") + " added, " +
-                counted(result.sites_moved, "site") + " moved, " +
-                counted(result.sites_removed, "site") + " removed in " +
-                counted(static_cast<std::size_t>(result.repair_rounds), "round");
-    }
-    for (const auto& [reason, count] : result.added_because) {
-        text += "\n  " + counted(count, "site") + " added " + where_text(reason);
-    }
-    if (result.components_simplified > 0) {
-        text += "\n" + counted(result.components_simplified, "component") +
-                " simplified to the sites, because cells failed there";
-    }
-    return text;
-}
-
 }  // namespace
 
 std::string to_text(const RemeshResult& result, const RunInfo& info) {
@@ -265,7 +246,6 @@ std::string details_to_text(const RemeshResult& result, const RunInfo& info) {
                     fixed(100 * std::abs(*energy - 1), 1) + " %";
         }
     }
-    text += describe_repair(result);
     if (info.options.features != Features::Off) text += describe(result.features);
     if (info.options.delaunay != Delaunay::Off) {
         text += '\n' + describe(result.delaunay, info.options.delaunay);

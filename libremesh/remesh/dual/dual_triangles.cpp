@@ -9,10 +9,36 @@
 #include "agvd/core/progress.h"
 #include "agvd/core/types.h"
 #include "agvd/core/union_find.h"
-#include "remesh/dual/closed_ball.h"
 
 namespace remesh {
 namespace {
+
+// Relative to the distance from the sites. Voronoi vertices are Newton solutions with errors of
+// about 1e-12, or more where bisectors meet at a small angle.
+constexpr double relative_length = 1e-8;
+
+bool is_inner_vertex(const Diagram& diagram, Index vertex) {
+    for (Index i = diagram.vertex_offsets[vertex]; i < diagram.vertex_offsets[vertex + 1]; ++i) {
+        if (!diagram.vertex_sites[i].is_valid()) return false;
+    }
+    return true;
+}
+
+// #edges: true for an edge between two inner Voronoi vertices that coincide up to rounding. There
+// the dual may use either diagonal.
+std::vector<bool> find_degenerate_edges(const Surface& surface, const Diagram& diagram,
+                                        Ticker ticker) {
+    std::vector<bool> result(diagram.edges.size(), false);
+    for (Index e = 0; e < diagram.edges.size(); ++e) {
+        const VoronoiEdge& edge = diagram.edges[e];
+        ticker.tick(1 + diagram.edge_points[e + 1] - diagram.edge_points[e]);
+        if (edge.tail == no_index || edge.tail == edge.head || !edge.right.is_valid()) continue;
+        if (!is_inner_vertex(diagram, edge.tail) || !is_inner_vertex(diagram, edge.head)) continue;
+        result[e] = curve_length(surface, diagram, e) <=
+                    relative_length * diagram.vertex_distance[edge.tail];
+    }
+    return result;
+}
 
 class DualBuilder {
 public:
@@ -126,30 +152,6 @@ private:
     std::vector<Triangle> triangles_;
 };
 
-struct ReasonTexts {
-    const char* key;
-    const char* where;
-};
-
-const ReasonTexts& texts_of(SiteReason reason) {
-    // In the order of SiteReason.
-    static constexpr ReasonTexts texts[] = {
-        {"a corner of the boundary", "at corners of the boundary"},
-        {"covers a whole component", "in cells that cover a whole component"},
-        {"is not a disc", "in cells that are not discs"},
-        {"meets along a closed curve", "between cells that meet along a closed curve"},
-        {"meets in more than one arc", "between cells that meet in more than one arc"},
-        {"meets the boundary at both ends of its arc with",
-         "between cells whose common arc has both ends on the boundary"},
-        {"meets the boundary more than once", "in cells that meet the boundary more than once"},
-        {"meets twice, each time with the same third cell,",
-         "between cells that meet twice, each time with the same third cell"},
-        {"no site on a component", "on components without a site"},
-        {"self-intersects", "where the mesh self-intersected"},
-    };
-    return texts[static_cast<std::size_t>(reason)];
-}
-
 }  // namespace
 
 std::vector<Triangle> build_dual(const Surface& surface, const Diagram& diagram,
@@ -163,9 +165,5 @@ const char* delaunay_name(Delaunay delaunay) {
     constexpr std::array names = {"intrinsic", "extrinsic", "off"};
     return names[static_cast<std::size_t>(delaunay)];
 }
-
-const char* to_text(SiteReason reason) { return texts_of(reason).key; }
-
-const char* where_text(SiteReason reason) { return texts_of(reason).where; }
 
 }  // namespace remesh

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "agvd/mesh/surface_points.h"
-#include "remesh/dual/closed_ball.h"
 #include "remesh/dual/reduce_vertices.h"
 #include "remesh/pipeline/crossings.h"
 #include "remesh/pipeline/domain.h"

@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
-#include <map>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -44,7 +43,7 @@ enum class Features {
 //! The number of vertices if the topology needs more sites.
 enum class VertexCount {
     Exact,  //!< As many vertices as sites were asked for: others are removed.
-    Add,    //!< Sites that repair adds become vertices as well.
+    Add,    //!< Vertices that the topology needs are added.
 };
 
 //! All lengths in mesh units. `{}` gives a good result.
@@ -55,8 +54,8 @@ struct RemeshOptions {
     //! How long edges are, and where. Some of its fields decide the number of samples instead.
     Sizing sizing = {};
     VertexCount vertex_count = VertexCount::Exact;  //!< What gives way.
-    //! Keep: boundary vertices lie on the input's boundary. Free: they lie near it; if creases are
-    //! kept, only `fit` moves vertices off the boundary.
+    //! Keep: boundary vertices lie on the input's boundary. Free: `fit` may move them off it, and
+    //! given sites need not lie on it.
     Boundary boundary = Boundary::Keep;
     double drop_components = 0;  //!< In [0, 1]: smaller components (share of the area) are dropped.
     Init init = Init::BlueNoise;  //!< How sites are sampled.
@@ -102,8 +101,6 @@ struct RemeshOptions {
     std::optional<bool> fit = {};
     //! How distances are computed. Its num_threads and progress are ignored: those below count.
     PropagationOptions propagation = {};
-    //! Most rounds that add sites, >= 0; components that still fail are simplified.
-    int repair_rounds = 12;
     //! Which edges to flip: those that fail by geodesic or by straight lengths, or none.
     Delaunay delaunay = DelaunayOptions{}.mode;
     int num_threads = 0;  //!< >= 0; 0: all cores.
@@ -123,7 +120,9 @@ struct FeatureCounts {
     double dropped_length = 0;  //!< Of the dropped creases: the sites are too few or lie elsewhere.
     Index uncarried_curves = 0;    //!< Creases that given sites do not lie on.
     Index samples_for_all = 0;     //!< Fewest samples that keep all creases.
-    Index simplified_patches = 0;  //!< Patches that are too narrow for Voronoi cells.
+    //! Patches between curves whose cells do not give their topology, as they are too narrow: they
+    //! were simplified to their sites instead.
+    Index simplified_patches = 0;
     //! Creases were dropped because no mesh with all of them was found, or only one that
     //! self-intersects.
     bool gave_up = false;
@@ -186,17 +185,9 @@ struct RemeshResult {
     Topology input_topology;          //!< Of the cleaned input.
     Index refined_faces = 0;          //!< Faces of the base, on which propagation runs.
     Index components_dropped = 0;     //!< See drop_components.
-    Index sites_added = 0;            //!< By topology repair and against self-intersections.
-    std::map<SiteReason, Index> added_because = {};  //!< The same by reason.
-    Index sites_moved = 0;        //!< Onto the boundary, or from points where they owned nothing.
-    Index sites_removed = 0;      //!< Vertices removed to keep the count.
-    Index sites_dropped = 0;      //!< Given sites that own nothing (e.g. duplicates).
-    int repair_rounds = 0;        //!< Rounds of moving and adding.
-    Index unfitted_vertices = 0;  //!< Moved back onto the surface: triangles intersected.
+    Index sites_dropped = 0;          //!< Given sites that own nothing (e.g. duplicates).
+    Index unfitted_vertices = 0;      //!< Moved back onto the surface: triangles intersected.
     std::vector<RelaxLevel> relaxation = {};  //!< Empty: the sites were not relaxed.
-    //! Components whose cells did not give their topology: they were simplified to their sites
-    //! instead.
-    Index components_simplified = 0;
     FeatureCounts features = {};    //!< What became of creases.
     JunctionCounts junctions = {};  //!< What became of junctions.
     SizingResult sizing = {};       //!< How long the edges are.
@@ -229,8 +220,8 @@ struct RemeshResult {
 //! \throw ConstraintUnmet  num_samples is too small for the topology; the text gives a number
 //!        that was tried and works.
 //! \throw Cancelled        the progress callback returned false.
-//! Cost: mostly that of the propagations, of which each round of repair needs one: about O(n) with
-//! an error bound, O(n sqrt(n / t)) for exact distances; n = faces of the base, t = sites. The
+//! Cost: mostly that of the propagation: about O(n) with an error bound, O(n sqrt(n / t)) for exact
+//! distances; n = faces of the base, t = sites. The
 //! Steiner engine has O(m n) nodes, m = Steiner points per edge. Re-entrant: no global state.
 [[nodiscard]] RemeshResult remesh(const MeshView& mesh, const RemeshOptions& options = {});
 

@@ -70,8 +70,6 @@ void check_sizing(const Sizing& sizing, const MeshView& mesh) {
 
 void check_options(const RemeshOptions& options, const MeshView& mesh) {
     require(options.num_samples >= 1, "num_samples is 0; use 1 or more");
-    require(options.repair_rounds >= 0,
-            "repair_rounds is " + std::to_string(options.repair_rounds) + "; use 0 or more");
     require(options.relax_steps >= 0,
             "relax_steps is " + std::to_string(options.relax_steps) + "; use 0 or more");
     require(options.drop_components >= 0 && options.drop_components <= 1,

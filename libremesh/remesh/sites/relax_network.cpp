@@ -193,6 +193,7 @@ public:
 
     NetworkSites run(const SamplingOptions& sampling) {
         sampling_ = sampling;
+        is_even_ = sampling.init == Init::BlueNoise;
         num_inner_ = sampling.num_samples - num_result_vertices(plan_.network, fine_);
         if (options_.steps == 0) return {fine_, sample(fine_, num_inner_, plan_.spacing), {}};
         std::unique_ptr<Relaxation> last = start_coarse();
@@ -276,6 +277,12 @@ private:
     // Relaxes a level from scratch.
     std::unique_ptr<Relaxation> start(const CurveSites& curves, std::vector<SurfacePoint> sites) {
         const std::vector<ChainEdge> chain = chain_edges(plan_.network, plan_.cut, curves);
+        if (!is_even_) {
+            std::vector<std::uint8_t> is_fixed(sites.size(), 0);
+            std::fill_n(is_fixed.begin(), curves.sites.size(), 1);
+            detail::even_out(surface_, sites, is_fixed, options_.num_threads, levels_.progress(),
+                             options_.sizes);
+        }
         const DistanceBounds labels = levels_.label(sites);
         std::vector<Triangle> triangles = levels_.triangulate(labels, sites, chain);
         repair_patches(chain, sites, triangles,
@@ -353,6 +360,7 @@ private:
     FaceLabels patch_;                       // Of the faces of the input.
     std::vector<std::vector<Index>> faces_;  // Of the base, by patch.
     Index num_inner_ = 0;
+    bool is_even_ = false;  // The sites are spread evenly before relaxation.
 };
 
 }  // namespace

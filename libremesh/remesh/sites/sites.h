@@ -120,12 +120,4 @@ struct RelaxResult {
                                       std::vector<SurfacePoint> sites,
                                       const RelaxOptions& options = {});
 
-//! sample_sites and relax_sites in one, coarse to fine: a quarter of the sites is relaxed, the
-//! others are added between neighbours, and most get six of these. Too few sites or vertices: in
-//! turn.
-//! \throw as these two functions.
-[[nodiscard]] RelaxResult sample_relaxed_sites(const PreparedSurface& surface,
-                                               const SamplingOptions& sampling,
-                                               const RelaxOptions& options = {});
-
 }  // namespace remesh
