@@ -72,7 +72,7 @@ AttemptEnd run_attempt(const CleanedInput& cleaned, const FoundCurves& found,
     }
     if (plan->network.sites_for_boundary > 0) return {.num_needed = plan->network.sites_for_boundary};
     Domain domain = prepare_domain(cleaned, std::move(plan), spacing, sizes, context);
-    const PlacedSites sites = place_sites(domain, context);
+    PlacedSites sites = place_sites(domain, context);
     BuiltMesh built = build_mesh(domain, sites, context);
     if (built.mesh.triangles.empty() ||
         !check_mesh(cleaned, domain, sites.chain, built, context)) {
@@ -86,7 +86,9 @@ AttemptEnd run_attempt(const CleanedInput& cleaned, const FoundCurves& found,
         result.self_intersections = crossings->all;
         result.new_self_intersections = crossings->added;
     }
-    return {.has_mesh = true, .crossing_corners = std::move(built.crossing_corners)};
+    return {.has_mesh = true,
+            .crossing_corners = std::move(built.crossing_corners),
+            .narrow_points = std::move(sites.narrow_points)};
 }
 
 }  // namespace remesh::detail

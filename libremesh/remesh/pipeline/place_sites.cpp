@@ -28,7 +28,9 @@ PlacedSites place_sites(const Domain& domain, const StageContext& context) {
     NetworkSites made = given ? relax_network_sites(domain.prepared, network, given->curves,
                                                     given->inner, relax)
                               : sample_network_sites(domain.prepared, network, sampling, relax);
-    PlacedSites placed{.sites = std::move(made.sites), .curves = std::move(made.curves)};
+    PlacedSites placed{.sites = std::move(made.sites),
+                       .curves = std::move(made.curves),
+                       .narrow_points = std::move(made.narrow_points)};
     placed.chain = chain_edges(network.network, network.cut, placed.curves);
     result.relaxation = std::move(made.levels);
     result.features.vertices = num_result_vertices(network.network, placed.curves);

@@ -14,6 +14,8 @@ struct PlacedSites {
     std::vector<SurfacePoint> sites;
     CurveSites curves = {};             //!< The first of `sites`.
     std::vector<ChainEdge> chain = {};  //!< Edges along the curves that the dual must have.
+    //! On the cleaned surface: see NetworkSites.
+    std::vector<SurfacePoint> narrow_points = {};
 
     //! Copies of sites of curves, the first of each site excluded: they become no vertex of their
     //! own.

@@ -43,6 +43,14 @@ bool is_better(const RemeshResult& result, const RemeshResult& best) {
            (is_fine(result) || result.new_self_intersections < best.new_self_intersections);
 }
 
+// Whether lengths are ours to choose, for a number of samples that is given.
+bool may_shorten(const RemeshOptions& options) {
+    const Sizing& sizing = options.sizing;
+    return !options.sites && (sizing.is_adaptive() || sizing.is_even()) &&
+           (std::holds_alternative<NumSamples>(sizing.count) ||
+            std::holds_alternative<NumFaces>(sizing.count));
+}
+
 // Whether an attempt with fewer creases, or without seams, would differ from this one.
 bool has_more_to_drop(const KeptCurves& kept, const FeatureCounts& features) {
     return features.curves > 0 && (kept.has_seams || features.length > 0);
@@ -72,6 +80,11 @@ public:
         run_all(true);
         if (!best_) run_all(false);
         if (!best_) throw TooFewSamples{options_.num_samples, num_needed_};
+        // A rod that is narrower than the spacing gets shorter by some edges.
+        if (best_->verdict.largest_distance > best_->verdict.spacing &&
+            !narrow_points_.empty() && may_shorten(options_)) {
+            shorten_narrow();
+        }
         best_->seconds = first_.seconds;
         best_->features.samples_for_all = samples_for_all_;
         return *std::move(best_);
@@ -143,8 +156,29 @@ private:
         if (!is_hopeless(result.self_intersections.value_or(0), {options_, result})) {
             crossings = std::move(end.crossing_corners);
         }
-        if (!best_ || is_better(result, *best_)) best_ = std::move(result);
+        if (!best_ || is_better(result, *best_)) {
+            best_ = std::move(result);
+            kept_ = kept;
+            narrow_points_ = std::move(end.narrow_points);
+        }
         return is_bare || is_fine(*best_);
+    }
+
+    // Runs the best attempt again with shorter edges on narrow parts, and keeps the better result.
+    void shorten_narrow() {
+        RemeshResult again = first_;
+        const StageContext context{options_, again};
+        const RunSizes sizes = find_sizes(cleaned_, found_, spacing_for(cleaned_, options_), {},
+                                          narrow_points_, context);
+        const bool has_mesh =
+            run_attempt(cleaned_, found_, kept_, sizes.field.get(), context).has_mesh;
+        first_.seconds = again.seconds;
+        if (!has_mesh || num_more_crossings(again) > num_more_crossings(*best_) ||
+            again.verdict.largest_distance >= best_->verdict.largest_distance) {
+            return;
+        }
+        again.features.gave_up = best_->features.gave_up;
+        best_ = std::move(again);
     }
 
     const CleanedInput& cleaned_;
@@ -153,8 +187,10 @@ private:
     FoundCurves found_;
     RunSizes sizes_;
     std::optional<RemeshResult> best_;
-    Index samples_for_all_ = 0;  // Of the attempt with most curves.
-    Index num_needed_ = 0;       // Vertices, by the last attempt without a mesh.
+    KeptCurves kept_;                          // Of the best.
+    std::vector<SurfacePoint> narrow_points_;  // Of the best.
+    Index samples_for_all_ = 0;                // Of the attempt with most curves.
+    Index num_needed_ = 0;                     // Vertices, by the last attempt without a mesh.
 };
 
 // \throw TooFewSamples  no mesh of this topology has as few vertices as are asked for.

@@ -19,6 +19,8 @@ struct AttemptEnd {
     bool has_mesh = false;
     Index num_needed = 0;                     //!< Without a mesh: so many vertices may suffice.
     std::vector<Vec3> crossing_corners = {};  //!< See BuiltMesh.
+    //! On the cleaned surface, where parts are narrower than the spacing: see PlacedSites.
+    std::vector<SurfacePoint> narrow_points = {};
 };
 
 //! Runs all stages after cleaning, with some of the curves, and sets what they give in the result

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "agvd/mesh/any_mesh.h"
+#include "agvd/core/portable_math.h"
 #include "agvd/mesh/scale.h"
 #include "agvd/mesh/surface_points.h"
 #include "remesh/pipeline/cleaned_input.h"
@@ -35,6 +36,8 @@ constexpr double reach_of_point = 3;
 // Patches that measure curvature have to be narrower than the rod.
 constexpr double patches_per_site = 32;
 constexpr double most_of_sites = 0.25;
+// While that is too much, lengths grow by this factor.
+constexpr double longer = 1.2;
 
 Index bounded_count(double count) { return static_cast<Index>(std::clamp(count, 1.0, 1e9)); }
 
@@ -220,7 +223,8 @@ RunSizes find_sizes(const CleanedInput& cleaned, const FoundCurves& found, doubl
     const std::vector<double> most =
         narrow_points.empty()
             ? most_lengths_on(on, cleaned.surface, most_lengths, locked, options.num_threads)
-            : narrow_lengths(*on.base, narrow_points, on.joined, spacing, num_sites, ticker);
+            : narrow_lengths(*on.base, narrow_points, on.joined, spacing, num_sites,
+                             portable::log(sizing.gradation), ticker);
     const bool gives_count =
         !options.sites && (std::holds_alternative<CountOfLengths>(sizing.count) ||
                            std::holds_alternative<MaxError>(sizing.count));
@@ -244,10 +248,32 @@ RunSizes find_sizes(const CleanedInput& cleaned, const FoundCurves& found, doubl
     return sizes;
 }
 
+namespace {
+
+// Whether lengths below that of the others, with the growth from there, take more than a share of
+// the sites from where all edges are equally long.
+bool takes_too_much(const Surface& surface, std::span<const std::pair<Index, Index>> joined,
+                    std::span<const double> length, double edge, double slope, Ticker& ticker) {
+    std::vector<double> grown;
+    for (const double l : length) grown.push_back(std::min(l, edge));
+    limit_growth(surface, joined, slope, Paths::Edges, grown, ticker);
+    double more = 0, rest = 0;
+    for (Index f = 0; f < surface.num_faces(); ++f) {
+        for (const Index v : surface.mesh.triangles[f]) {
+            const double part = face_area(surface, f) / 3;
+            more += part / (grown[v] * grown[v]) - part / (edge * edge);
+            if (grown[v] == edge) rest += part / (edge * edge);
+        }
+    }
+    return more > most_of_sites * rest;
+}
+
+}  // namespace
+
 std::vector<double> narrow_lengths(const IntrinsicTriangulation& base,
                                    std::span<const SurfacePoint> points,
                                    std::span<const std::pair<Index, Index>> joined, double spacing,
-                                   double num_sites, Ticker& ticker) {
+                                   double num_sites, double slope, Ticker& ticker) {
     const Surface& surface = base.surface();
     std::vector<double> distance(surface.num_vertices(), infinity);
     for (const SurfacePoint& point : base.to_intrinsic(points)) {
@@ -258,25 +284,18 @@ std::vector<double> narrow_lengths(const IntrinsicTriangulation& base,
     limit_growth(surface, joined, 1, Paths::Edges, distance, ticker);
     const std::vector<double> curvature =
         patch_curvature(base, bounded_count(patches_per_site * num_sites), ticker);
+    const double edge = std::sqrt(2 / std::numbers::sqrt3) * spacing;
     std::vector<double> length(surface.num_vertices(), infinity);
     for (Index v = 0; v < length.size(); ++v) {
         if (distance[v] > reach_of_point * spacing) continue;
         // Of a cylinder the root mean square of both curvatures is 1 / (sqrt(2) r).
         const double radius = 1 / (std::numbers::sqrt2 * curvature[v]);
         length[v] = 2 * std::numbers::pi * radius / vertices_around;
-        if (length[v] >= spacing) length[v] = infinity;
-        length[v] = std::max(length[v], shortest_of_spacing * spacing);
+        if (length[v] >= edge) length[v] = infinity;
+        length[v] = std::max(length[v], shortest_of_spacing * edge);
     }
-    double num_narrow = 0;
-    for (Index f = 0; f < surface.num_faces(); ++f) {
-        for (const Index v : surface.mesh.triangles[f]) {
-            num_narrow += face_area(surface, f) / 3 / (length[v] * length[v]);
-        }
-    }
-    num_narrow *= 2 / std::numbers::sqrt3;
-    const double excess = num_narrow / (most_of_sites * num_sites);
-    if (excess > 1) {
-        for (double& l : length) l *= std::sqrt(excess);
+    while (takes_too_much(surface, joined, length, edge, slope, ticker)) {
+        for (double& l : length) l = l * longer < edge ? l * longer : infinity;
     }
     return length;
 }

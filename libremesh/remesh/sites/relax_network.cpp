@@ -168,6 +168,35 @@ struct MiddleFinder {
     }
 };
 
+// The sites from `first` on around which the triangles are not one closed fan.
+std::vector<Index> find_wrapped(std::span<const Triangle> triangles, Index first,
+                                Index num_sites) {
+    std::vector<std::vector<DirectedEdge>> around(num_sites - first);  // Opposite edges.
+    for (const Triangle& t : triangles) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (t[k] >= first) around[t[k] - first].emplace_back(t[(k + 1) % 3], t[(k + 2) % 3]);
+        }
+    }
+    std::vector<Index> wrapped;
+    for (Index i = 0; i < around.size(); ++i) {
+        std::map<Index, Index> next(around[i].begin(), around[i].end());
+        std::size_t length = 0;
+        if (next.size() == around[i].size() && !next.empty()) {
+            const Index start = next.begin()->first;
+            Index at = start;
+            do {
+                const auto edge = next.find(at);
+                if (edge == next.end()) break;
+                at = edge->second;
+                ++length;
+            } while (at != start && length < next.size());
+            if (at != start) length = 0;
+        }
+        if (length < 3 || length != around[i].size()) wrapped.push_back(first + i);
+    }
+    return wrapped;
+}
+
 class NetworkSampler {
 public:
     NetworkSampler(const PreparedSurface& surface, const NetworkPlan& plan, CurveSites fine,
@@ -187,7 +216,7 @@ public:
     NetworkSites run_given(std::span<const SurfacePoint> inner) {
         std::vector<SurfacePoint> sites = fine_.sites;
         sites.insert(sites.end(), inner.begin(), inner.end());
-        if (options_.steps == 0) return {fine_, std::move(sites), {}};
+        if (options_.steps == 0) return {fine_, std::move(sites), {}, {}};
         return finish(*start(fine_, std::move(sites)));
     }
 
@@ -195,7 +224,7 @@ public:
         sampling_ = sampling;
         is_even_ = sampling.init == Init::BlueNoise;
         num_inner_ = sampling.num_samples - num_result_vertices(plan_.network, fine_);
-        if (options_.steps == 0) return {fine_, sample(fine_, num_inner_, plan_.spacing), {}};
+        if (options_.steps == 0) return {fine_, sample(fine_, num_inner_, plan_.spacing), {}, {}};
         std::unique_ptr<Relaxation> last = start_coarse();
         const std::vector<ChainEdge> chain = chain_edges(plan_.network, plan_.cut, fine_);
         if (last) {
@@ -253,8 +282,9 @@ private:
         return patch_.of_face[site.face.value()];
     }
 
-    NetworkSites finish(const Relaxation& last) {
-        return {last.curves()->sites(), last.sites(), levels_.finish({}).levels};
+    [[nodiscard]] NetworkSites finish(const Relaxation& last) {
+        return {last.curves()->sites(), last.sites(), levels_.finish({}).levels,
+                std::move(narrow_points_)};
     }
 
     std::vector<SurfacePoint> sample(const CurveSites& curves, Index num_inner, double spacing) {
@@ -317,6 +347,9 @@ private:
         detail::SiteDual dual =
             detail::label_dual(surface_.base, levels_.label(first.sites()), true);
         close_rim(ends_of(chain), dual.triangles);
+        narrow_points_ = take(first.sites(), find_wrapped(dual.triangles,
+                                                          static_cast<Index>(coarse.sites.size()),
+                                                          static_cast<Index>(first.sites().size())));
         const auto relaxed = sort_by_patch(first.triangles(), first.sites());
         repair_patches(chain, first.sites(), dual.triangles,
                        [&](Index patch) { return relaxed[patch]; });
@@ -361,6 +394,7 @@ private:
     std::vector<std::vector<Index>> faces_;  // Of the base, by patch.
     Index num_inner_ = 0;
     bool is_even_ = false;  // The sites are spread evenly before relaxation.
+    std::vector<SurfacePoint> narrow_points_;
 };
 
 }  // namespace

@@ -12,6 +12,8 @@ struct NetworkSites {
     CurveSites curves;                //!< Of the curves, with their copies.
     std::vector<SurfacePoint> sites;  //!< The copies on curves, then the inner sites.
     std::vector<RelaxLevel> levels;   //!< Coarse to fine; empty: not relaxed.
+    //! Inner sites of the coarse level, on surface.input(), whose cells wrap around narrow parts.
+    std::vector<SurfacePoint> narrow_points;
 };
 
 //! Samples and relaxes sites, coarse to fine; sites of curves slide along these. The result has
@@ -19,7 +21,7 @@ struct NetworkSites {
 //! \param surface   of plan.cut.surface.
 //! \param plan      its network needs at most sampling.num_samples vertices.
 //! \param options   boundary and corners are ignored.
-//! \throw as sample_relaxed_sites.
+//! \throw as sample_sites and relax_sites.
 [[nodiscard]] NetworkSites sample_network_sites(const PreparedSurface& surface,
                                                 const NetworkPlan& plan,
                                                 const SamplingOptions& sampling,
