@@ -70,9 +70,8 @@ TEST_F(Remesh, VerboseTellsTimeMemoryAndWorkOfEachStage) {
          {"\nread:, \n", "\nclean:, \n", "\nrelax:, \n", "\ncheck:, \n", "\ntransfer:, \n",
           "\nwrite:, \n", "\nclean  3600 faces, 3600 when cleaned, ", "; repaired: nothing; ",
           "\nsample  300 samples asked for\n", " sites, 60 steps, energy 1 ",
-          "\ndual  0 rounds of repair, 0 sites added, ", " flips, ",
-          "\nplace  300 vertices, 600 faces\n",
-          "mended by 0 sites, and by 0 vertices moved back\n"}) {
+          "\ndual  patches simplified: 0; sites dropped: 0\n", " flips, ",
+          "\nplace  300 vertices, 600 faces\n", " in the input; 0 vertices moved back\n"}) {
         EXPECT_NE(text.find(line), std::string::npos) << line << " is missing in\n" << text;
     }
     const auto details = [](const std::string& all) {

@@ -146,18 +146,12 @@ TEST_F(Remesh, WhereTheInputIntersectsItselfMoreSamplesAreNoAdvice) {
     const std::string in = put("in.off", cubes);
     const auto told = remesh({in, at("out.off"), "-n", "400", "-q"});
     EXPECT_EQ(told.exit_code, 0) << told.err;
-    EXPECT_NE(told.err.find("where the input intersects itself, and more --samples give more, so "
-                            "that no sites were added there; repair the input\n"),
+    EXPECT_NE(told.err.find("where the input intersects itself, and more --samples give more; "
+                            "repair the input\n"),
               std::string::npos)
         << told.err;
     EXPECT_EQ(told.err.find("use more"), std::string::npos) << told.err;
     EXPECT_EQ(remesh({in, at("out.off"), "-n", "400", "--strict"}).exit_code, 5);
-    // Less than twice the pairs of the input: sites are tried.
-    const agvd::TriangleMesh spheres =
-        shapes::join(shapes::sphere(2), shapes::moved(shapes::sphere(2), {1.2, 0.1, 0}));
-    const auto tried = remesh({put("few.off", spheres), at("out.off"), "-n", "400", "-q"});
-    EXPECT_NE(tried.err.find("more --samples give more; repair the input\n"), std::string::npos)
-        << tried.err;
     // Two shells run through each other besides.
     agvd::TriangleMesh inner = shapes::sphere(2);
     for (agvd::Vec3& p : inner.positions) p *= 0.98;

@@ -31,7 +31,6 @@ remesh::RemeshOptions remesh_options(fuzz::Bytes& bytes) {
         bytes.pick({VertexCount::Exact, VertexCount::Exact, VertexCount::Exact, VertexCount::Add});
     options.fit = bytes.pick<std::optional<bool>>({{}, true, false});
     options.drop_components = bytes.pick({0.0, 0.0, 0.0, 0.01, 0.5, 1.0});
-    options.repair_rounds = bytes.pick({12, 12, 0, 1});
     options.seed = bytes.below(256);
     auto& propagation = options.propagation;
     propagation.engine =

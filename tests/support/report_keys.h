@@ -30,7 +30,7 @@ inline std::string name_of(const std::string& path, const std::string& key) {
         {"bisector_error_a", "BISECTORS"},
         {"bisector_error_b", "BISECTORS"},
     };
-    if (path == "sites_added_because" || path == "stage_seconds") return path + ".*";
+    if (path == "stage_seconds") return path + ".*";
     if (path.empty() || key.starts_with("self_intersecting_")) {
         return path.empty() ? key : path + '.' + key;
     }

@@ -139,26 +139,25 @@ TEST(Simplify, IsTheSameTwice) {
 TEST(Simplify, ServesWhereCellsFailAndTheResultSaysSo) {
     const TriangleMesh mesh = shapes::torus(120, 12, 0.02);
     const remesh::RemeshResult few =
-        remesh::remesh(mesh.view(), {.num_samples = 60, .repair_rounds = 0, .num_threads = 1});
-    EXPECT_EQ(few.components_simplified, 1u);
+        remesh::remesh(mesh.view(), {.num_samples = 60, .num_threads = 1});
+    EXPECT_EQ(few.features.simplified_patches, 1u);
     EXPECT_EQ(few.mesh.positions.size(), 60u);
     EXPECT_TRUE(same_topology(remesh::analyze_topology(few.mesh.view()), few.input_topology));
     const remesh::RemeshResult ample =
         remesh::remesh(shapes::torus(60, 30).view(), {.num_samples = 1000, .num_threads = 1});
-    EXPECT_EQ(ample.components_simplified, 0u);
+    EXPECT_EQ(ample.features.simplified_patches, 0u);
 }
 
 double smallest_angle(const TriangleMesh& mesh) {
     return remesh::measure_triangles(mesh.view()).min_angle * 180 / std::numbers::pi;
 }
 
-// Strips a quarter of a spacing wide, so many that rounds would not end: there are none.
+// Strips a quarter of a spacing wide.
 TEST(Simplify, LipsNarrowerThanTheSpacingGetNoThinTriangles) {
     const TriangleMesh mesh = shapes::lips(300, 96, 12);
     remesh::RemeshOptions options{.num_samples = 2000, .num_threads = 1};
     const remesh::RemeshResult result = remesh::remesh(mesh.view(), options);
-    EXPECT_EQ(result.components_simplified, 1u);
-    EXPECT_EQ(result.repair_rounds, 0);
+    EXPECT_EQ(result.features.simplified_patches, 1u);
     EXPECT_EQ(result.mesh.positions.size(), 2000u);
     EXPECT_EQ(result.sites.size(), 2000u);
     EXPECT_TRUE(same_topology(remesh::analyze_topology(result.mesh.view()), result.input_topology));

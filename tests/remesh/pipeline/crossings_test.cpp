@@ -3,15 +3,8 @@
 
 #include <utility>
 
-#include "remesh/pipeline/build_mesh.h"
-#include "remesh/pipeline/cleaned_input.h"
 #include "remesh/pipeline/crossings.h"
-#include "remesh/pipeline/curves.h"
-#include "remesh/pipeline/domain.h"
-#include "remesh/pipeline/place_sites.h"
 #include "remesh/pipeline/remesh.h"
-#include "remesh/pipeline/stage_context.h"
-#include "remesh/pipeline/work_limit.h"
 #include "remesh/quality/evaluate.h"
 #include "support/parts.h"
 #include "support/shapes.h"
@@ -69,7 +62,7 @@ TEST(CrossingPlaces, PairsFartherThanTheirLongestEdgeAreElsewhere) {
               (remesh::detail::FacePairs{pairs[3], pairs[4], pairs[5]}));
 }
 
-TEST(Crossings, ThatFollowFromTheInputAddNoSitesAndDropNoCreases) {
+TEST(Crossings, ThatFollowFromTheInputAddNoVerticesAndDropNoCreases) {
     if (!has_cgal()) GTEST_SKIP() << "without CGAL";
     const agvd::TriangleMesh cube = shapes::cube();
     const agvd::TriangleMesh cubes = shapes::join(cube, shapes::moved(cube, Vec3(.3, .35, .4)));
@@ -77,43 +70,9 @@ TEST(Crossings, ThatFollowFromTheInputAddNoSitesAndDropNoCreases) {
     EXPECT_GT(*result.self_intersections, result.input_self_intersections);
     EXPECT_GT(result.input_self_intersections, 0u);
     EXPECT_EQ(result.new_self_intersections, 0u);
-    EXPECT_FALSE(result.added_because.contains(remesh::SiteReason::SelfIntersection));
+    EXPECT_EQ(result.mesh.positions.size(), 400u);
     EXPECT_EQ(result.features.dropped_length, 0);
     EXPECT_FALSE(result.features.gave_up);
-}
-
-// A round is counted before it begins, and begins only if the limit has room for it.
-TEST(Crossings, RoundsThatAddSitesEndAtTheLimitOfWork) {
-    if (!has_cgal()) GTEST_SKIP() << "without CGAL";
-    agvd::TriangleMesh inner = shapes::sphere(4);
-    for (Vec3& p : inner.positions) p *= .987;
-    for (agvd::Triangle& t : inner.triangles) std::swap(t[1], t[2]);
-    const agvd::TriangleMesh shell = shapes::join(shapes::sphere(4), inner);
-    const remesh::RemeshOptions options{.num_samples = 400};
-    for (const int most_rounds : {0, 1, 2, 78}) {
-        remesh::RemeshResult result;
-        const remesh::detail::StageContext context{options, result};
-        remesh::detail::CleanedInput cleaned = remesh::detail::clean_stage({shell.view()}, context);
-        const double spacing = remesh::mean_spacing(cleaned.surface, options.num_samples);
-        remesh::detail::Domain domain =
-            remesh::detail::prepare_domain(cleaned, nullptr, spacing, nullptr, context);
-        const agvd::Index faces = domain.base().num_faces();
-        remesh::detail::WorkLimit work(faces, options.num_samples);
-        ASSERT_EQ(work.num_left(faces), 78);
-        while (work.num_left(faces) > most_rounds) work.add(faces);
-        const remesh::detail::PlacedSites sites =
-            remesh::detail::place_sites(cleaned, domain, context);
-        (void)remesh::detail::build_mesh(domain, sites, work, context);
-        const int num_rounds = most_rounds - work.num_left(faces);
-        const bool has_added = result.added_because.contains(remesh::SiteReason::SelfIntersection);
-        EXPECT_EQ(has_added, most_rounds > 1);
-        if (most_rounds < 78) {
-            EXPECT_EQ(work.num_left(faces), 0);
-        } else {
-            EXPECT_GE(num_rounds, 3);
-            EXPECT_LE(num_rounds, 5);
-        }
-    }
 }
 
 // Without creases fewer faces of these boxes intersect, fewer even than those of the input.

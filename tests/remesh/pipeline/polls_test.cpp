@@ -9,7 +9,6 @@
 #include "agvd/propagation/propagate.h"
 #include "paper/compare_diagrams.h"
 #include "remesh/curves/find_creases.h"
-#include "remesh/dual/closed_ball.h"
 #include "remesh/dual/reduce_vertices.h"
 #include "remesh/meshfile/atomic_file.h"
 #include "remesh/meshfile/diagram_file.h"
@@ -237,9 +236,6 @@ TEST(Polls, AreInDiagramsAndTheirMeasures) {
         {.num_threads = 1});
     expect_polls("diagram on the input", 30, [&](const Progress& progress) {
         (void)agvd::diagram_on_input(base, intrinsic, progress);
-    });
-    expect_polls("closed ball", 3, [&](const Progress& progress) {
-        (void)remesh::find_closed_ball_violations(scene.surface, scene.diagram, progress);
     });
     expect_polls("compare", 40, [&](const Progress& progress) {
         (void)agvd::compare_diagrams(

@@ -41,7 +41,9 @@ std::unique_ptr<Remeshed> remeshed(const TriangleMesh& input, Index count, int s
     auto result = std::make_unique<Remeshed>(input);
     const remesh::PreparedSurface& prepared = result->prepared;
     result->mesh.points =
-        remesh::sample_relaxed_sites(prepared, {.num_samples = count}, {.steps = steps}).sites;
+        relax_sites(prepared, remesh::sample_sites(result->surface, {.num_samples = count}),
+                    {.steps = steps})
+            .sites;
     const Surface& base = prepared.base.surface();
     const auto sites = prepared.base.to_intrinsic(result->mesh.points);
     const Diagram diagram =
