@@ -94,10 +94,6 @@ std::string describe(const FeatureCounts& features) {
     add_length(features.seam_length, "texture seams kept");
     add_length(features.dropped_seam_length,
                "texture seams left out as too short or too close to each other");
-    if (features.simplified_patches > 0) {
-        text += "; " + counted(features.simplified_patches, "patch") +
-                " between them simplified to the sites, because cells failed there";
-    }
     return text;
 }
 
@@ -245,6 +241,10 @@ std::string details_to_text(const RemeshResult& result, const RunInfo& info) {
             text += std::string(", energy ") + (*energy > 1 ? "raised" : "lowered") + " by " +
                     fixed(100 * std::abs(*energy - 1), 1) + " %";
         }
+    }
+    if (result.features.simplified_patches > 0) {
+        text += "\n" + counted(result.features.simplified_patches, "patch") +
+                " simplified to the sites, because cells failed there";
     }
     if (info.options.features != Features::Off) text += describe(result.features);
     if (info.options.delaunay != Delaunay::Off) {

@@ -368,6 +368,6 @@ TEST(FaceLabels, OneIsNeededForEachFace) {
     // Where all are the same there is no border.
     const std::vector<Index> same(mesh.triangles.size(), 4);
     EXPECT_EQ(run(mesh, {.num_samples = 50, .features = Features::Off, .face_labels = same})
-                  .features.curves,
-              0u);
+                  .features.length,
+              0);
 }

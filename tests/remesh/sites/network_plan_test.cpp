@@ -76,11 +76,15 @@ TEST(NetworkPlan, ShortCreasesGoFirstWhereSitesAreTooFew) {
     EXPECT_EQ(none.sites_for_all, 8u);
 }
 
-TEST(NetworkPlan, WithoutCreasesThereIsNone) {
-    const NetworkPlan plan = plan_of(agvd::build_surface(shapes::grid(4).view()), 100);
-    EXPECT_TRUE(plan.network.curves.empty());
-    EXPECT_EQ(plan.sites_for_all, 0u);
-    EXPECT_EQ(plan.dropped_length, 0);
+TEST(NetworkPlan, WithoutCreasesItHasTheBoundary) {
+    const NetworkPlan sheet = plan_of(agvd::build_surface(shapes::grid(4).view()), 100);
+    EXPECT_EQ(sheet.network.curves.size(), 4u);
+    EXPECT_EQ(sheet.sites_for_all, 4u);
+    EXPECT_EQ(sheet.length, 0);
+    EXPECT_EQ(sheet.dropped_length, 0);
+    const NetworkPlan closed = plan_of(agvd::build_surface(shapes::sphere(2).view()), 100);
+    EXPECT_TRUE(closed.network.curves.empty());
+    EXPECT_EQ(closed.sites_for_all, 0u);
 }
 
 TEST(SampleInnerSites, PatchesGetTheirShareOffTheirRim) {
