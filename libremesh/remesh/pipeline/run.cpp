@@ -56,7 +56,7 @@ bool has_more_to_drop(const KeptCurves& kept, const FeatureCounts& features) {
     return features.curves > 0 && (kept.has_seams || features.length > 0);
 }
 
-// A run after cleaning. Tries all curves, then all creases. Changes creases where faces
+// A run after cleaning. Tries all curves, those again without strips, then all creases. Changes creases where faces
 // intersect that do not in the input, and at last leaves out all, until a mesh has no such faces.
 // If none of these gives a mesh, tries the same without junctions.
 class Attempts {
@@ -94,8 +94,10 @@ private:
     void find_lengths(std::span<const double> most_lengths) {
         const double spacing = spacing_for(cleaned_, options_);
         // A crease left out costs distance.
-        const bool selects = most_lengths.empty();
-        found_ = find_curves(cleaned_, spacing, selects, {options_, first_});
+        const CloseCreases close = !most_lengths.empty() ? CloseCreases::Stay
+                                   : refines_            ? CloseCreases::GoOrRefine
+                                                         : CloseCreases::Go;
+        found_ = find_curves(cleaned_, spacing, close, {options_, first_});
         sizes_ = find_sizes(cleaned_, found_, spacing, most_lengths, {}, {options_, first_});
     }
 
@@ -104,6 +106,12 @@ private:
         for (int num_changes = 0;;) {
             std::vector<Vec3> crossings;
             if (try_curves(kept, crossings)) return;
+            if (!found_.strips.empty()) {  // The same without them.
+                refines_ = false;
+                find_lengths({});
+                kept.is_crease = found_.is_crease;
+                continue;
+            }
             if (kept.has_seams) {
                 kept.has_seams = false;
                 continue;
@@ -186,6 +194,7 @@ private:
     RemeshResult first_;  // Of cleaning and what was found here; its times include all attempts.
     FoundCurves found_;
     RunSizes sizes_;
+    bool refines_ = may_shorten(options_);  // Strips between close creases.
     std::optional<RemeshResult> best_;
     KeptCurves kept_;                          // Of the best.
     std::vector<SurfacePoint> narrow_points_;  // Of the best.
