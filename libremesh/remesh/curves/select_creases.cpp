@@ -1,10 +1,13 @@
 // Curves are taken in by falling weight; their points go into a grid, in which the points of the
-// following curves find those that are too close. Lengths are in spacings unless stated.
+// following curves find those that are too close. How close is too close is chosen: the closer
+// curves may be, the more vertices their strips take, and the fewer are left for all else. Lengths
+// are in spacings unless stated.
 #include "remesh/curves/select_creases.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <queue>
 
 #include "agvd/mesh/point_grid.h"
@@ -25,6 +28,22 @@ constexpr double most_close = 0.25;
 constexpr double around_node = 1.2;
 // Along one curve, points farther from each other count as two curves.
 constexpr double apart_along = 2.4;
+// Edges on both sides of a strip are as long as so many of its widths. Angles are about 30 degrees
+// if the sites of the sides alternate, and 18 degrees at worst.
+constexpr double lengths_per_width = 3;
+// Depths from `reach` on, each so many times the next, down to the least.
+constexpr double depth_ratio = 1.25, least_depth = 0.11;
+// Share of the vertices that strips may take.
+constexpr double most_of_sites = 0.35;
+// The squared distance has to fall to this share to keep strips, which cost angles, too.
+constexpr double least_gain = 0.85;
+// Root mean square distance of a mesh from a surface that is curved with a radius of one spacing.
+constexpr double smooth_distance = 0.06;
+// The squared distance of one spacing of a crease that is left out, by that of its depth: the
+// distance falls linearly over about a third of a spacing on both sides.
+constexpr double crease_distance = 0.1;
+// The length of even edges, squared: a spacing squared is the area of a vertex.
+constexpr double even_squared = 2 / std::numbers::sqrt3;
 constexpr double least_spur = 1.5;
 constexpr double least_island = 3;
 constexpr double least_closed = 4;
@@ -39,46 +58,31 @@ struct PointOnCurve {
 
 class Selection {
 public:
-    Selection(const Surface& surface, double spacing, std::span<const std::uint8_t> is_fixed,
-              const std::vector<double>& angles, Poller& poller, detail::CreaseSet& set)
+    // \param depth  curves are too close if the step between them is lower: a crease that turns by
+    //               90 degrees if it is closer, and by less if it is closer than `reach`, too.
+    Selection(const Surface& surface, double spacing, double depth,
+              std::span<const std::uint8_t> is_fixed, const std::vector<double>& angles,
+              Poller& poller, detail::CreaseSet& set)
         : surface_(surface),
           spacing_(spacing),
+          depth_(depth),
           is_fixed_(is_fixed),
           angles_(angles),
           ticker_(poller),
           set_(set),
           chains_(detail::chains_of(set, poller)),
-          grid_(box_of(surface.mesh.view()).low, 2.1 * reach * spacing, count_points()) {}
-
-    void run() {
+          grid_(box_of(surface.mesh.view()).low, 2.1 * reach * spacing, count_points()),
+          left_out_(surface.num_edges(), reach) {
         for (Index e = 0; e < surface_.num_edges(); ++e) {
             const Index h = surface_.edge_half[e];
             if (surface_.twin[h] != no_index) continue;
             sample(h, 0, [&](const PointOnCurve& p, double) { add(p); });
         }
-        take_all();
-    }
-
-private:
-    // At least as many as are added.
-    [[nodiscard]] std::size_t count_points() const {
-        double length = 0;
-        std::size_t edges = 0;
-        for (Index e = 0; e < surface_.num_edges(); ++e) {
-            const bool is_boundary = surface_.twin[surface_.edge_half[e]] == no_index;
-            if (!is_boundary && !set_.has(e)) continue;
-            length += surface_.length[e];
-            ++edges;
-        }
-        return edges + static_cast<std::size_t>(length / (sample_step * spacing_)) + 1;
-    }
-    [[nodiscard]] bool is_fixed(Index edge) const {
-        return !is_fixed_.empty() && is_fixed_[edge] != 0;
     }
 
     // The heaviest chain first. A chain weighs more by what was taken in at its ends: of two
     // networks side by side one is taken as a whole.
-    void take_all() {
+    void run() {
         std::vector<double> weight(chains_.size(), 0);
         std::vector<std::vector<Index>> at(surface_.num_vertices());
         std::priority_queue<std::pair<double, Index>> queue;
@@ -107,14 +111,88 @@ private:
         }
     }
 
+    // Lets all curves stay.
+    // \return the points of those that are close to others.
+    std::vector<SizedPoint> find_strips() {
+        const auto for_each_point = [&](const auto& visit) {
+            for (Index c = 0; c < chains_.size(); ++c) {
+                for_each_side(c, [&](Index h, double before) { sample(h, before, visit(h), c); });
+            }
+        };
+        for_each_point([&](Index) { return [&](const PointOnCurve& p, double) { add(p); }; });
+        std::vector<SizedPoint> strips;
+        for_each_point([&](Index h) {
+            return [&, h](const PointOnCurve& p, double t) {
+                const double width = nearest(p, h, t, reach * spacing_);
+                const double length = lengths_per_width * std::max(width, least_depth * spacing_);
+                if (width >= reach * spacing_ || length >= spacing_) return;
+                strips.push_back({point_of(h, t), length});
+                strips.push_back({point_of(surface_.twin[h], 1 - t), length});
+                num_vertices_ += num_added(width / spacing_, length / spacing_) *
+                                 surface_.length_of(h) / (num_parts(h) * spacing_);
+            };
+        });
+        return strips;
+    }
+    // How many vertices the strips found take in addition.
+    [[nodiscard]] double num_vertices() const { return num_vertices_; }
+
+    // The squared distance, integrated over the area, that the creases of another set cost which
+    // are not in this one.
+    [[nodiscard]] double distance_without(const detail::CreaseSet& all) const {
+        double sum = 0;
+        for (Index e = all.next(0); e < surface_.num_edges(); e = all.next(e + 1)) {
+            if (set_.has(e)) continue;
+            const double depth = left_out_[e] * turn(e);
+            sum += crease_distance * surface_.length[e] / spacing_ * depth * depth;
+        }
+        return sum;
+    }
+
+private:
+    // At least as many as are added.
+    [[nodiscard]] std::size_t count_points() const {
+        double length = 0;
+        std::size_t edges = 0;
+        for (Index e = 0; e < surface_.num_edges(); ++e) {
+            const bool is_boundary = surface_.twin[surface_.edge_half[e]] == no_index;
+            if (!is_boundary && !set_.has(e)) continue;
+            length += surface_.length[e];
+            ++edges;
+        }
+        return edges + static_cast<std::size_t>(length / (sample_step * spacing_)) + 1;
+    }
+    [[nodiscard]] bool is_fixed(Index edge) const {
+        return !is_fixed_.empty() && is_fixed_[edge] != 0;
+    }
+
+    // The sine of the angle by which the surface turns, at most a right one: Bhaskara's formula,
+    // which is the same on all machines.
+    [[nodiscard]] double turn(Index edge) const {
+        constexpr double pi = std::numbers::pi;
+        const double angle = std::min(angles_[edge], pi / 2), product = angle * (pi - angle);
+        return 16 * product / (5 * pi * pi - 4 * product);
+    }
+
+    // Of one side of a strip, for each spacing of its length: its row of vertices instead of half
+    // the strip's, and the rows where lengths grow again.
+    [[nodiscard]] static double num_added(double width, double length) {
+        const double shorter = std::sqrt(even_squared) - length;
+        return 0.5 / length - width / 2 + shorter * shorter / (strip_slope * length);
+    }
+
+    [[nodiscard]] int num_parts(Index h) const {
+        return std::max(
+            1, static_cast<int>(std::ceil(surface_.length_of(h) / (sample_step * spacing_))));
+    }
+
     // Points at the middles of equal parts of an edge, from the tail of h on.
     template <typename Visit>
     void sample(Index h, double before, const Visit& visit, Index curve = no_index) {
         const Vec3 &a = surface_.mesh.positions[surface_.tail(h)],
                    &b = surface_.mesh.positions[surface_.head(h)];
         const double length = surface_.length_of(h);
-        const auto parts =
-            std::max(1, static_cast<int>(std::ceil(length / (sample_step * spacing_))));
+        const int parts = num_parts(h);
         ticker_.tick(static_cast<std::size_t>(parts));
         for (int i = 0; i < parts; ++i) {
             const double t = (i + 0.5) / parts;
@@ -152,6 +230,13 @@ private:
         return along <= apart_along * spacing_;
     }
 
+    [[nodiscard]] static SurfacePoint point_of(Index h, double share) {
+        SurfacePoint point{FaceId(Surface::face(h)), {0, 0, 0}};
+        point.barycentric[h % 3] = 1 - share;
+        point.barycentric[(h % 3 + 1) % 3] = share;
+        return point;
+    }
+
     // Whether the straightest way along the surface from a point of a half-edge leads to another
     // point: the two may also lie on both sides of a thin wall.
     [[nodiscard]] bool leads_to(Index h, double share, const Vec3& from, const Vec3& to) const {
@@ -164,9 +249,7 @@ private:
             const Vec3 inward = (apex - axis.dot(apex) * axis).normalized();
             const Vec3 in_plane = axis.dot(way) * axis + inward.dot(way) * inward;
             if (!(inward.dot(way) > 0) || !(in_plane.norm() > 0)) continue;
-            SurfacePoint start{FaceId(Surface::face(side)), {0, 0, 0}};
-            start.barycentric[side % 3] = side == h ? 1 - share : share;
-            start.barycentric[(side % 3 + 1) % 3] = side == h ? share : 1 - share;
+            const SurfacePoint start = point_of(side, side == h ? share : 1 - share);
             const SurfacePoint end =
                 detail::walk_straight(surface_, start, in_plane * (way.norm() / in_plane.norm()))
                     .end;
@@ -175,53 +258,66 @@ private:
         return false;
     }
 
-    // Whether a point of a half-edge is too close to what was taken in.
-    [[nodiscard]] bool is_close(const PointOnCurve& p, Index h, double share) const {
-        bool is_found = false;
-        grid_.visit_near(p.at, reach * spacing_, [&](Index i) {
+    // The distance from a point of a half-edge to what was taken in, or a bound if that is less.
+    [[nodiscard]] double nearest(const PointOnCurve& p, Index h, double share, double bound) const {
+        grid_.visit_near(p.at, bound, [&](Index i) {
             const PointOnCurve& other = points_[i];
-            if (is_found || (p.at - other.at).norm() >= reach * spacing_) return;
+            const double distance = (p.at - other.at).norm();
+            if (distance >= bound) return;
             const bool may_be =
                 other.curve == p.curve ? is_same_part(p, other) : is_at_node(p, other);
-            is_found = !may_be && leads_to(h, share, p.at, other.at);
+            if (!may_be && leads_to(h, share, p.at, other.at)) bound = distance;
         });
-        return is_found;
+        return bound;
+    }
+
+    // Calls visit(half-edge, length before it) for the edges of a chain in their order.
+    template <typename Visit>
+    void for_each_side(Index c, const Visit& visit) const {
+        const detail::CreaseChain& chain = chains_[c];
+        Index at = chain.ends[0];
+        double before = 0;
+        for (const Index e : chain.edges) {
+            Index h = surface_.edge_half[e];
+            if (surface_.tail(h) != at && surface_.head(h) != at) at = surface_.tail(h);
+            if (surface_.tail(h) != at) h = surface_.twin[h];
+            visit(h, before);
+            before += surface_.length[e];
+            at = surface_.head(h);
+        }
     }
 
     // Takes in a chain but for its edges that are too close to what was taken in.
     // \return the weight of the edges that stay.
     double take_in(Index c) {
-        const detail::CreaseChain& chain = chains_[c];
-        Index at = chain.ends[0];
-        double taken = 0, before = 0;
-        for (const Index e : chain.edges) {
-            Index h = surface_.edge_half[e];
-            if (surface_.tail(h) != at && surface_.head(h) != at) at = surface_.tail(h);
-            const bool is_along = surface_.tail(h) == at;
-            if (!is_along) h = surface_.twin[h];
+        double taken = 0;
+        for_each_side(c, [&](Index h, double before) {
+            const Index e = surface_.edge[h];
+            const double bound =
+                std::clamp(depth_ / std::max(turn(e), depth_), depth_, reach) * spacing_;
             std::vector<PointOnCurve> points;
-            std::size_t close = 0;
-            sample(
-                h, before,
-                [&](const PointOnCurve& p, double t) {
-                    points.push_back(p);
-                    if (!is_fixed(e) && is_close(p, h, t)) ++close;
-                },
-                c);
-            before += surface_.length[e];
-            at = surface_.head(h);
-            if (static_cast<double>(close) > most_close * static_cast<double>(points.size())) {
+            double num_close = 0, sum = 0;
+            const auto look_at = [&](const PointOnCurve& p, double t) {
+                points.push_back(p);
+                const double distance = is_fixed(e) ? bound : nearest(p, h, t, bound);
+                if (distance >= bound) return;
+                ++num_close;
+                sum += distance / spacing_;
+            };
+            sample(h, before, look_at, c);
+            if (num_close > most_close * static_cast<double>(points.size())) {
                 set_.remove(e);
+                left_out_[e] = sum / num_close;
             } else {
                 for (const PointOnCurve& p : points) add(p);
                 taken += surface_.length[e] * angles_[e];
             }
-        }
+        });
         return taken;
     }
 
     const Surface& surface_;
-    const double spacing_;
+    const double spacing_, depth_;
     const std::span<const std::uint8_t> is_fixed_;
     const std::vector<double>& angles_;
     Ticker ticker_;
@@ -229,23 +325,13 @@ private:
     const std::vector<detail::CreaseChain> chains_;
     PointGrid grid_;
     std::vector<PointOnCurve> points_;  // Of what was taken in; boundary: without a curve.
+    std::vector<double> left_out_;      // #E: how far from what was taken in; reach: unknown.
+    double num_vertices_ = 0;
 };
 
-}  // namespace
-
-void select_creases(const Surface& surface, double spacing, std::span<const std::uint8_t> is_fixed,
-                    int num_threads, const Progress& progress,
-                    std::vector<std::uint8_t>& is_crease) {
-    Poller poller(progress);
-    detail::CreaseSet set(surface);
-    for (Index e = 0; e < surface.num_edges(); ++e) {
-        if (is_crease[e] != 0 && surface.twin[surface.edge_half[e]] != no_index) set.add(e);
-    }
-    if (set.next(0) == surface.num_edges()) return;
-    const std::vector<double> angles =
-        detail::edge_angles(surface, narrow * spacing, num_threads, poller);
-    Selection(surface, spacing, is_fixed, angles, poller, set).run();
-    const std::vector<double> ones(surface.num_edges(), 1);
+// Drops what dangles, and closed chains of a few spacings.
+void drop_short(double spacing, detail::CreaseSet& set, Poller& poller) {
+    const std::vector<double> ones(set.surface().num_edges(), 1);
     detail::prune(set, ones,
                   {.least_spur = least_spur * spacing,
                    .least_island = least_island * spacing,
@@ -258,8 +344,69 @@ void select_creases(const Surface& surface, double spacing, std::span<const std:
         if (chain.length >= least_closed * spacing) continue;
         for (const Index e : chain.edges) set.remove(e);
     }
-    is_crease = set.take_flags();
+}
+
+// The squared distance of a mesh of even edges, integrated over the area between creases. Bends
+// much narrower than a spacing count as if they turned by a right angle: meshes do without them.
+double smooth_distance_of(const Surface& surface, double spacing, const detail::CreaseSet& creases,
+                          std::span<const double> angles) {
+    double sum = 0;
+    for (Index e = 0; e < surface.num_edges(); ++e) {
+        const Index h = surface.edge_half[e], twin = surface.twin[h];
+        if (twin == no_index || creases.has(e)) continue;
+        const double length = surface.length[e] / spacing;
+        const double area =
+            (face_area(surface, Surface::face(h)) + face_area(surface, Surface::face(twin))) /
+            (3 * spacing * spacing);
+        if (!(area > 0)) continue;
+        const double across = std::min(area / length, 1.0);
+        sum += length * angles[e] * std::min(angles[e] / across, std::numbers::pi / 2);
+    }
+    return smooth_distance * smooth_distance * sum;
+}
+
+}  // namespace
+
+std::vector<SizedPoint> select_creases(const Surface& surface, double spacing, double num_sites,
+                                       std::span<const std::uint8_t> is_fixed, int num_threads,
+                                       const Progress& progress,
+                                       std::vector<std::uint8_t>& is_crease) {
+    Poller poller(progress);
+    detail::CreaseSet all(surface);
+    for (Index e = 0; e < surface.num_edges(); ++e) {
+        if (is_crease[e] != 0 && surface.twin[surface.edge_half[e]] != no_index) all.add(e);
+    }
+    if (all.next(0) == surface.num_edges()) return {};
+    const std::vector<double> angles =
+        detail::edge_angles(surface, narrow * spacing, num_threads, poller);
+    const double smooth = smooth_distance_of(surface, spacing, all, angles);
+    detail::CreaseSet best(surface);
+    std::vector<SizedPoint> strips;
+    double least = std::numeric_limits<double>::infinity();
+    for (double depth = reach; depth > least_depth; depth /= depth_ratio) {
+        detail::CreaseSet set = all;
+        Selection selection(surface, spacing, depth, is_fixed, angles, poller, set);
+        selection.run();
+        drop_short(spacing, set, poller);
+        const double lost = selection.distance_without(all);
+        if (depth == reach) {
+            best = set;
+            least = least_gain * (lost + smooth);
+            if (num_sites == 0 || smooth >= least) break;
+            continue;
+        }
+        Selection kept(surface, spacing, depth, is_fixed, angles, poller, set);
+        std::vector<SizedPoint> points = kept.find_strips();
+        const double rest = 1 - kept.num_vertices() / num_sites;
+        const double distance = lost + smooth / (rest * rest);
+        if (rest < 1 - most_of_sites || distance >= least) continue;
+        least = distance;
+        best = std::move(set);
+        strips = std::move(points);
+    }
+    is_crease = best.take_flags();
     for (Index e = 0; e < is_fixed.size(); ++e) is_crease[e] |= is_fixed[e];
+    return strips;
 }
 
 }  // namespace remesh

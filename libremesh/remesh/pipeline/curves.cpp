@@ -36,7 +36,7 @@ void add_marks(std::span<const std::uint8_t> more, std::vector<std::uint8_t>& ma
 }
 
 // Sets the creases.
-void find_all_creases(const CleanedInput& cleaned, double spacing, bool selects,
+void find_all_creases(const CleanedInput& cleaned, double spacing, CloseCreases close,
                       const RemeshOptions& options, FoundCurves& found) {
     const Surface& surface = cleaned.surface;
     if (options.features == Features::Off && options.feature_edges.empty() &&
@@ -64,10 +64,13 @@ void find_all_creases(const CleanedInput& cleaned, double spacing, bool selects,
                   found.is_given);
     }
     add_marks(found.is_given, found.is_crease);
-    if (options.features != Features::Auto || options.sites || !selects) return;
+    if (options.features != Features::Auto || options.sites || close == CloseCreases::Stay) {
+        return;
+    }
     found.is_close = found.is_crease;
-    select_creases(surface, spacing, found.is_given, options.num_threads, progress,
-                   found.is_crease);
+    found.strips = select_creases(surface, spacing,
+                                  close == CloseCreases::GoOrRefine ? options.num_samples : 0,
+                                  found.is_given, options.num_threads, progress, found.is_crease);
     for (Index e = 0; e < found.is_crease.size(); ++e) found.is_close[e] ^= found.is_crease[e];
 }
 
@@ -135,7 +138,7 @@ void count_seams(const Surface& surface, const NetworkPlan& plan, const FoundCur
 
 }  // namespace
 
-FoundCurves find_curves(const CleanedInput& cleaned, double spacing, bool selects,
+FoundCurves find_curves(const CleanedInput& cleaned, double spacing, CloseCreases close,
                         const StageContext& context) {
     const auto& [options, result] = context;
     const StageClock clock(Stage::Clean, result);
@@ -148,7 +151,7 @@ FoundCurves find_curves(const CleanedInput& cleaned, double spacing, bool select
     } else if (options.junctions == Junctions::Apart) {
         drop_short_junctions(cleaned.surface, least_junction * spacing, found.junctions);
     }
-    find_all_creases(cleaned, spacing, selects, options, found);
+    find_all_creases(cleaned, spacing, close, options, found);
     if (!options.texture_seams.empty()) find_seams(cleaned, spacing, options, found);
     return found;
 }
@@ -196,7 +199,8 @@ std::unique_ptr<const CurvePlan> plan_curves(const CleanedInput& cleaned, const 
     JunctionSet junctions = kept.has_junctions ? found.junctions : JunctionSet{};
     const bool has_seams = kept.has_seams && !found.is_seam.empty();
     if (!found.is_seam.empty()) count_seams(cleaned.surface, {}, found, result.features);
-    if (options.sites && kept.is_crease.empty() && !has_seams && junctions.empty() && cleaned.locked.empty()) {
+    if (options.sites && kept.is_crease.empty() && !has_seams && junctions.empty() &&
+        cleaned.locked.empty()) {
         return nullptr;
     }
     std::vector<std::uint8_t> is_crease = kept.is_crease;

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "agvd/mesh/topology.h"
+#include "remesh/curves/select_creases.h"
 #include "remesh/sites/network_plan.h"
 
 namespace remesh::detail {
@@ -19,9 +20,17 @@ struct FoundCurves {
     std::vector<std::uint8_t> is_given;   //!< #E: of these the caller's own, or borders of labels.
     //! #E: creases beside these which select_creases() left out.
     std::vector<std::uint8_t> is_close;
+    std::vector<SizedPoint> strips;  //!< Between creases that are closer than the sites.
     //! #E: texture seams; empty: there are none. Those of `is_wide` can be curves at the spacing.
     std::vector<std::uint8_t> is_seam, is_wide;
     JunctionSet junctions;
+};
+
+//! What becomes of creases that are closer than sites can be (select_creases).
+enum class CloseCreases {
+    Stay,
+    Go,
+    GoOrRefine  //!< They stay where shorter edges between them are worth it.
 };
 
 //! Which of these curves one attempt reproduces.
@@ -39,10 +48,9 @@ struct CurvePlan {
 };
 
 //! \param spacing  of the sites, mesh units.
-//! \param selects  leaves out creases closer than sites can be (select_creases).
 //! Cost: O(#E) for each length at which creases are sought.
-[[nodiscard]] FoundCurves find_curves(const CleanedInput& cleaned, double spacing, bool selects,
-                                      const StageContext& context);
+[[nodiscard]] FoundCurves find_curves(const CleanedInput& cleaned, double spacing,
+                                      CloseCreases close, const StageContext& context);
 
 //! Of some edges those within two spacings of some points. Cost: O(#E + #points).
 //! \param is_among  #E: 1 for these edges.

@@ -57,9 +57,9 @@ bool has_more_to_drop(const KeptCurves& kept, const FeatureCounts& features) {
     return features.curves > 0 && (kept.has_seams || features.length > 0);
 }
 
-// A run after cleaning. Tries all curves, then all creases. Changes creases where faces
-// intersect that do not in the input, and at last leaves out all, until a mesh has no such faces.
-// If none of these gives a mesh, tries the same without junctions.
+// A run after cleaning. Tries all curves, then those without strips, then all creases. Changes
+// creases where faces intersect that do not in the input, and at last leaves out all, until a mesh
+// has no such faces. If none of these gives a mesh, tries the same without junctions.
 class Attempts {
     // Changes of creases in places before all go.
     static constexpr int most_changes = 3;
@@ -98,8 +98,10 @@ private:
     void find_lengths(std::span<const double> most_lengths) {
         const double spacing = spacing_for(cleaned_, options_);
         // A crease left out costs distance.
-        const bool selects = most_lengths.empty();
-        found_ = find_curves(cleaned_, spacing, selects, {options_, first_});
+        const CloseCreases close = !most_lengths.empty() ? CloseCreases::Stay
+                                   : refines_            ? CloseCreases::GoOrRefine
+                                                         : CloseCreases::Go;
+        found_ = find_curves(cleaned_, spacing, close, {options_, first_});
         sizes_ = find_sizes(cleaned_, found_, spacing, most_lengths, {}, {options_, first_});
     }
 
@@ -108,6 +110,12 @@ private:
         for (int num_changes = 0;;) {
             std::vector<Vec3> crossings;
             if (try_curves(kept, work, crossings) || (work.is_spent() && best_)) return;
+            if (!found_.strips.empty()) {  // The same without them.
+                refines_ = false;
+                find_lengths({});
+                kept.is_crease = found_.is_crease;
+                continue;
+            }
             const bool has_time = !work.is_spent();
             if (has_time && kept.has_seams) {
                 kept.has_seams = false;
@@ -203,6 +211,7 @@ private:
     RemeshResult first_;  // Of cleaning and what was found here; its times include all attempts.
     FoundCurves found_;
     RunSizes sizes_;
+    bool refines_ = may_shorten(options_);  // Strips between close creases.
     std::optional<RemeshResult> best_;
     Index samples_for_all_ = 0;                // Of the attempt with most curves.
     KeptCurves kept_;                          // Of the best.

@@ -36,6 +36,9 @@ constexpr double reach_of_point = 3;
 constexpr double patches_per_site = 32;
 constexpr double most_of_sites = 0.25;
 
+// A point lies on an edge if its third barycentric coordinate is no more.
+constexpr double on_edge = 1e-6;
+
 Index bounded_count(double count) { return static_cast<Index>(std::clamp(count, 1.0, 1e9)); }
 
 // What target lengths are found on.
@@ -164,6 +167,21 @@ std::vector<double> most_lengths_on(const FieldBase& on, const Surface& surface,
     return carry_values(most, on);
 }
 
+// Lowers bounds at the ends of the base's edges on which strips have points.
+// \param most  #V of the base, or empty: there are no bounds.
+void limit_on_strips(const FieldBase& on, std::span<const SizedPoint> strips,
+                     std::vector<double>& most) {
+    const Surface& surface = on.base->surface();
+    most.resize(surface.num_vertices(), infinity);
+    for (const SizedPoint& point : strips) {
+        const SurfacePoint at = on.base->to_intrinsic(point.at);
+        for (std::size_t k = 0; k < 3; ++k) {
+            double& here = most[surface.mesh.triangles[at.face.value()][k]];
+            if (at.barycentric[k] > on_edge) here = std::min(here, point.length);
+        }
+    }
+}
+
 // The lengths of locked edges on the base. Vertices that it added inside faces have none.
 std::vector<double> least_lengths_on(const FieldBase& on, std::span<const double> locked) {
     if (locked.empty()) return {};
@@ -204,23 +222,29 @@ RunSizes find_sizes(const CleanedInput& cleaned, const FoundCurves& found, doubl
                     std::span<const double> most_lengths,
                     std::span<const SurfacePoint> narrow_points, const StageContext& context) {
     const auto& [options, result] = context;
-    const Sizing& sizing = options.sizing;
-    if (sizing.is_even() && narrow_points.empty()) return {nullptr, options.num_samples};
+    Sizing sizing = options.sizing;
+    const bool has_strips = !found.strips.empty();
+    if (sizing.is_even() && narrow_points.empty() && !has_strips)
+        return {nullptr, options.num_samples};
     const StageClock clock(Stage::Clean, result);
     const Progress progress = cleaned_progress(options);
     Poller poller(progress);
     Ticker ticker(poller);
     const double num_sites =
         options.sites ? static_cast<double>(options.sites->size()) : options.num_samples;
-    const bool drops_vertices = sizing.is_adaptive() || !narrow_points.empty();
+    const bool drops_vertices = sizing.is_adaptive() || !narrow_points.empty() || has_strips;
     const FieldBase on = make_base(cleaned, found, spacing, num_sites, drops_vertices, options);
     const std::vector<double> values = values_for(sizing, cleaned, on, num_sites, ticker);
     const std::vector<double> locked = locked_lengths(cleaned);
     const std::vector<double> least = least_lengths_on(on, locked);
-    const std::vector<double> most =
+    std::vector<double> most =
         narrow_points.empty()
             ? most_lengths_on(on, cleaned.surface, most_lengths, locked, options.num_threads)
             : narrow_lengths(*on.base, narrow_points, on.joined, spacing, num_sites, ticker);
+    if (has_strips) {
+        limit_on_strips(on, found.strips, most);
+        sizing.gradation = std::max(sizing.gradation, gradation_for(strip_slope));
+    }
     const bool gives_count =
         !options.sites && (std::holds_alternative<CountOfLengths>(sizing.count) ||
                            std::holds_alternative<MaxError>(sizing.count));

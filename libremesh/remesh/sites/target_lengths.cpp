@@ -154,6 +154,8 @@ private:
 
 }  // namespace
 
+double gradation_for(double slope) { return portable::exp(slope * path_excess); }
+
 double length_for_error(double curvature, double error) {
     if (!(curvature > 0)) return std::numeric_limits<double>::infinity();
     const double radius = std::max(1 / curvature, error);

@@ -31,6 +31,9 @@ namespace remesh {
 //! \param error      > 0.
 [[nodiscard]] double length_for_error(double curvature, double error);
 
+//! The gradation with which target_lengths() lets targets grow by a slope.
+[[nodiscard]] double gradation_for(double slope);
+
 //! Calls each(other end, length) for the edges at a vertex.
 template <typename Each>
 void for_each_edge(const Surface& surface, Index vertex, const Each& each) {

@@ -23,7 +23,7 @@ struct Creases {
     [[nodiscard]] std::vector<std::uint8_t> select(
         double spacing, const std::vector<std::uint8_t>& is_fixed = {}) const {
         std::vector<std::uint8_t> left = all;
-        remesh::select_creases(surface, spacing, is_fixed, 1, {}, left);
+        remesh::select_creases(surface, spacing, 0, is_fixed, 1, {}, left);
         return left;
     }
     // The length of the marked edges whose ends are all like that.
@@ -72,6 +72,18 @@ TriangleMesh sheet_angle(double t, int steps) {
     }
     return mesh;
 }
+
+// What stays of the two rims of a plate of this thickness, and the strip between them.
+struct Rims {
+    Rims(double thickness, double spacing, double num_sites)
+        : plate(parts::box({4, 3, thickness}, 6)), left(plate.all) {
+        strips = remesh::select_creases(plate.surface, spacing, num_sites, {}, 1, {}, left);
+    }
+
+    Creases plate;
+    std::vector<std::uint8_t> left;
+    std::vector<remesh::SizedPoint> strips;
+};
 
 }  // namespace
 
@@ -183,4 +195,26 @@ TEST(SelectCreases, ShortClosedOnesAndShortEndsGo) {
     }
     EXPECT_NEAR(tube.length(tube.select(around / 4.1)), 0, 0);
     EXPECT_EQ(tube.select(around / 50), tube.all);
+}
+
+TEST(SelectCreases, TheRimsOfAThinPlateStayWhereShorterEdgesAreWorthTheirVertices) {
+    const double thickness = 0.05, spacing = 0.2;  // Some 600 sites.
+    const Rims rims(thickness, spacing, 600);
+    EXPECT_EQ(rims.left, rims.plate.all);
+    ASSERT_FALSE(rims.strips.empty());
+    for (const auto& [at, length] : rims.strips) {
+        EXPECT_NEAR(length, 3 * thickness, 0.2 * thickness);
+        const double z = position(rims.plate.surface.mesh.view(), at).z();
+        EXPECT_NEAR(std::min(std::abs(z), std::abs(z - thickness)), 0, 1e-12);
+    }
+    // Too few sites, or none to choose lengths for: one rim stays.
+    for (const double num_sites : {200, 0}) {
+        const Rims one(thickness, spacing, num_sites);
+        EXPECT_NEAR(one.plate.length(one.left), 14, 1e-12);
+        EXPECT_TRUE(one.strips.empty());
+    }
+    // Narrower than what edges follow.
+    const Rims thin(0.01, spacing, 600);
+    EXPECT_NEAR(thin.plate.length(thin.left), 14, 1e-12);
+    EXPECT_TRUE(thin.strips.empty());
 }

@@ -10,6 +10,7 @@
 #include "agvd/core/random.h"
 #include "remesh/pipeline/remesh.h"
 #include "remesh/quality/evaluate.h"
+#include "support/parts.h"
 #include "support/shapes.h"
 
 using namespace agvd;
@@ -203,4 +204,13 @@ TEST(Rims, VerticesOfGivenSitesStayNearTheirSites) {
     }
     EXPECT_LT(farthest, 0.3);
     EXPECT_GT(farthest, 0);
+}
+
+// The two are a quarter of the mean edge apart.
+TEST(Rims, OfAThinPlateBothStayAndTrianglesBetweenThemAreGood) {
+    const RemeshResult result =
+        remesh::remesh(parts::box({4, 3, 0.05}, 6).view(), {.num_samples = 600});
+    EXPECT_EQ(result.self_intersections, 0u);
+    EXPECT_LT(result.verdict.largest_distance, 0.1 * 0.05);
+    EXPECT_GT(result.verdict.min_angle, 0.3);
 }
