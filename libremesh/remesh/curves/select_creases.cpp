@@ -36,7 +36,7 @@ constexpr double depth_ratio = 1.25, least_depth = 0.11;
 // Share of the vertices that strips may take.
 constexpr double most_of_sites = 0.35;
 // The squared distance has to fall to this share to keep strips, which cost angles, too.
-constexpr double least_gain = 0.85;
+constexpr double least_gain = 0.75;
 // Root mean square distance of a mesh from a surface that is curved with a radius of one spacing.
 constexpr double smooth_distance = 0.06;
 // The squared distance of one spacing of a crease that is left out, by that of its depth: the
@@ -166,9 +166,12 @@ private:
         return !is_fixed_.empty() && is_fixed_[edge] != 0;
     }
 
-    // The sine of the angle by which the surface turns.
+    // The sine of the angle by which the surface turns, at most a right one: Bhaskara's formula,
+    // which is the same on all machines.
     [[nodiscard]] double turn(Index edge) const {
-        return std::sin(std::min(angles_[edge], std::numbers::pi / 2));
+        constexpr double pi = std::numbers::pi;
+        const double angle = std::min(angles_[edge], pi / 2), product = angle * (pi - angle);
+        return 16 * product / (5 * pi * pi - 4 * product);
     }
 
     // Of one side of a strip, for each spacing of its length: its row of vertices instead of half

@@ -116,11 +116,11 @@ GivenNetwork plan_with_given(const CleanedInput& cleaned, std::vector<std::uint8
                                       .num_threads = options.num_threads,
                                       .progress = progress};
     std::vector<SurfacePoint> sites = given_sites(cleaned, surface, *options.sites);
-    sites = take(sites, distinct_points(surface, sites));
+    // Relaxation parts sites at one position.
+    if (!is_relaxed(options)) sites = take(sites, distinct_points(surface, sites));
     GivenNetwork given = plan_given_network(surface, is_crease, sites, network);
     if (given.has_boundary || options.boundary != Boundary::Keep) return given;
     move_to_boundary(surface, spacing, options.num_threads, progress, sites);
-    sites = take(sites, distinct_points(surface, sites));
     return plan_given_network(surface, std::move(is_crease), sites, network);
 }
 

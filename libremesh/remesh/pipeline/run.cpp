@@ -56,9 +56,9 @@ bool has_more_to_drop(const KeptCurves& kept, const FeatureCounts& features) {
     return features.curves > 0 && (kept.has_seams || features.length > 0);
 }
 
-// A run after cleaning. Tries all curves, those again without strips, then all creases. Changes creases where faces
-// intersect that do not in the input, and at last leaves out all, until a mesh has no such faces.
-// If none of these gives a mesh, tries the same without junctions.
+// A run after cleaning. Tries all curves, then those without strips, then all creases. Changes
+// creases where faces intersect that do not in the input, and at last leaves out all, until a mesh
+// has no such faces. If none of these gives a mesh, tries the same without junctions.
 class Attempts {
     // Changes of creases in places before all go.
     static constexpr int most_changes = 3;
@@ -236,7 +236,7 @@ EnoughSamples find_enough(const CleanedInput& cleaned, const RemeshResult& after
         }
         const AttemptEnd end = run_attempt(cleaned, {}, {}, sizes.field.get(), {more, result});
         if (end.has_mesh) return {.count = reached, .is_tried = true};
-        reached = std::max(end.num_needed, reached + reached / 4 + 1);
+        reached = end.num_needed > reached ? end.num_needed : reached + reached / 4 + 1;
     }
     return {.count = more.num_samples, .is_too_few = true};
 }

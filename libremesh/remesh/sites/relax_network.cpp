@@ -231,6 +231,9 @@ public:
             levels_.run(*last, nullptr, {}, chain);
         } else {
             last = start(fine_, sample(fine_, num_inner_, plan_.spacing));
+            std::vector<Triangle> triangles =
+                levels_.triangulate(levels_.label(last->sites()), last->sites(), chain);
+            find_narrow(fine_, last->sites(), triangles);
         }
         return finish(*last);
     }
@@ -276,6 +279,13 @@ private:
             for (Index& i : t) i = number[i];
         }
         return std::move(simple.triangles);
+    }
+
+    void find_narrow(const CurveSites& curves, const std::vector<SurfacePoint>& sites,
+                     std::span<const Triangle> triangles) {
+        narrow_points_ =
+            take(sites, find_wrapped(triangles, static_cast<Index>(curves.sites.size()),
+                                     static_cast<Index>(sites.size())));
     }
 
     [[nodiscard]] Index patch_of(const SurfacePoint& site) const {
@@ -347,9 +357,7 @@ private:
         detail::SiteDual dual =
             detail::label_dual(surface_.base, levels_.label(first.sites()), true);
         close_rim(ends_of(chain), dual.triangles);
-        narrow_points_ = take(first.sites(), find_wrapped(dual.triangles,
-                                                          static_cast<Index>(coarse.sites.size()),
-                                                          static_cast<Index>(first.sites().size())));
+        find_narrow(coarse, first.sites(), dual.triangles);
         const auto relaxed = sort_by_patch(first.triangles(), first.sites());
         repair_patches(chain, first.sites(), dual.triangles,
                        [&](Index patch) { return relaxed[patch]; });
