@@ -106,9 +106,10 @@ private:
     // Faces stay where they once were listed: what they are now is tested.
     void insert(Index f) {
         const Box box = box_of(mesh_.corners_of(f));
-        if (!for_each_cell(box, [&](std::int64_t key) { faces_[key].push_back(f); })) {
-            large_.push_back(f);
-        }
+        const auto add = [&](std::vector<Index>& list) {
+            if (std::find(list.begin(), list.end(), f) == list.end()) list.push_back(f);
+        };
+        if (!for_each_cell(box, [&](std::int64_t key) { add(faces_[key]); })) add(large_);
     }
     [[nodiscard]] std::vector<Index> faces_near(const Box& box) const {
         std::vector<Index> near = large_;
@@ -122,6 +123,8 @@ private:
             near.resize(mesh_.num_faces());
             std::iota(near.begin(), near.end(), Index{0});
         }
+        std::sort(near.begin(), near.end());
+        near.erase(std::unique(near.begin(), near.end()), near.end());
         return near;
     }
     // Faces that intersect one, each once.
@@ -136,8 +139,6 @@ private:
             return (box.low.array() > other.high.array()).any() ||
                    (other.low.array() > box.high.array()).any() || !do_cross(f, corners, g, others);
         });
-        std::sort(found.begin(), found.end());
-        found.erase(std::unique(found.begin(), found.end()), found.end());
         return found;
     }
     [[nodiscard]] bool do_cross(Index f, const Corners& at_f, Index g, const Corners& at_g) const {
