@@ -73,9 +73,9 @@ public:
 
 private:
     // Of quality, for a growth of squared distances by the fourth power of a mean edge length.
-    static constexpr double cost = 5;
+    static constexpr double cost = 2;
     // In mean edge lengths: no sample gets farther than that.
-    static constexpr double largest = 0.3;
+    static constexpr double largest = 0.4;
     // For each vertex of the mesh, at most: inside faces, and vertices of the surface.
     static constexpr double samples_for_each = 4;
 

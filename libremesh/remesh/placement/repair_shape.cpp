@@ -200,8 +200,9 @@ private:
 };
 
 // Triangles below these qualities are repaired, one after the other: the worst triangles first have
-// all the vertices that can be spared. Angles of 21.3 and 29.1 degrees count as .425 and .57.
-constexpr std::array goals{0.425, 0.57};
+// all the vertices that can be spared. Angles of 21.3, 29.1 and 32.5
+// degrees count as .425, .57 and .63.
+constexpr std::array goals{0.425, 0.57, 0.63};
 // Least gain of an edit.
 constexpr double least_trial_gain = 0.02;
 // Budgets for each initially bad triangle: where all are bad, work would not end. Lips use half of
