@@ -348,6 +348,11 @@ std::vector<Index> repair_shape(const detail::MeshCurves& curves,
     Ticker ticker(poller);
     std::vector<Index> numbers;
     EditedMesh edited(curves, mesh, mobility, hard);
+    bool is_good = true;  // Most meshes are not, but the guards cost more than a look.
+    for (Index f = 0; f < edited.num_faces(); ++f) {
+        is_good = is_good && edited.face(f).quality >= goals.back();
+    }
+    if (is_good) return numbers;
     EditGuard guard(edited, curves.surface());
     const EditedMesh::Mark start = edited.mark();
     for (const double goal : goals) {
