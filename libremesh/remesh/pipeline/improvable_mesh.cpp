@@ -12,32 +12,38 @@
 namespace remesh::detail {
 namespace {
 
-// Most tries; in each one fewer vertices may move.
-constexpr int most_tries = 4;
+// Most tries; in the second one fewer vertices may move. Repair adds no intersections but those in
+// one plane or by rounding.
+constexpr int most_tries = 2;
+
+MeshCurves curves_of(const Domain& domain) {
+    return {*domain.whole, domain.prepared.input(), domain.plan->network.network};
+}
+
 }  // namespace
 
-std::optional<ImprovableMesh> find_improvable(const Domain& domain, PlacedDual placed,
+std::optional<ImprovableMesh> find_improvable(const Domain& domain, const PlacedDual& placed,
                                               const RemeshOptions& options) {
     if (options.sites || domain.has_junctions()) return std::nullopt;
     // Bounds of the distance are met by vertices where they are missing: one that is taken away
     // elsewhere comes back in the next round.
-    const CurveNetwork& network = domain.plan->network.network;
-    if (options.vertex_count == VertexCount::Add && !network.curves.empty()) return std::nullopt;
+    if (std::holds_alternative<MaxDistance>(options.sizing.count)) return std::nullopt;
     ImprovableMesh result;
     const GluedMesh& glued = placed.patches->glued;
-    result.mesh = {take(placed.mesh.points, glued.representative),
-                   take(placed.mesh.offsets, glued.representative), glued.triangles};
     for (const auto& [from, to] : rim_of(placed.mesh.triangles)) {
         result.hard.emplace_back(glued.vertex[from], glued.vertex[to]);
     }
+    result.mesh = {take(placed.mesh.points, glued.representative),
+                   take(placed.mesh.offsets, glued.representative), glued.triangles};
     std::vector<bool> is_on_edge(result.mesh.points.size(), false);
     for (const auto& [from, to] : result.hard) is_on_edge[from] = is_on_edge[to] = true;
-    const MeshCurves curves(*domain.whole, domain.prepared.input(), network);
+    const MeshCurves curves = curves_of(domain);
     for (Index v = 0; v < result.mesh.points.size(); ++v) {
         const CurvePlace place = curves.place_of(result.mesh.points[v]);
         Mobility mobility = place.is_free()           ? Mobility::Free
                             : place.curve != no_index ? Mobility::Boundary
-                                                      : Mobility::Fixed;
+                            : domain.has_locked()     ? Mobility::Fixed
+                                                      : Mobility::Node;
         // A mesh may pass by a vertex on a curve, and a rim may lie off the boundary.
         if (!is_on_edge[v]) {
             if (place.node == no_index) mobility = Mobility::Free;
@@ -51,7 +57,7 @@ std::optional<ImprovableMesh> find_improvable(const Domain& domain, PlacedDual p
 
 bool improve(const Domain& domain, CrossingFinder& finder, ImprovableMesh& improvable,
              std::optional<CrossingCounts>& crossings, const StageContext& context) {
-    const MeshCurves curves(*domain.whole, domain.prepared.input(), domain.plan->network.network);
+    const MeshCurves curves = curves_of(domain);
     for (int round = 0; round < most_tries; ++round) {
         PlacedDual improved{improvable.mesh, {}};
         std::vector<Index> numbers;

@@ -18,19 +18,21 @@ struct ImprovableMesh {
     std::vector<DirectedEdge> hard;  //!< Along the curves.
 };
 
-//! All vertices may move but those at nodes of the network. Those on a curve slide along it.
-//! \return nothing with given sites, whose vertices stay, where sheets meet, and, on curves, with
+//! All vertices may move but those at nodes of the network, which may only be merged with others.
+//! Those on a curve slide along it.
+//! \return nothing with given sites, whose vertices stay, where sheets meet, and with
 //!         VertexCount::Add.
 //! Cost: O(#surface + #mesh).
-[[nodiscard]] std::optional<ImprovableMesh> find_improvable(const Domain& domain, PlacedDual placed,
+[[nodiscard]] std::optional<ImprovableMesh> find_improvable(const Domain& domain,
+                                                            const PlacedDual& placed,
                                                             const RemeshOptions& options);
 
 //! Improves narrow triangles (repair_shape). If more of the improved triangles intersect than
-//! before, fixes their corners and tries again, a few times.
+//! before, fixes their corners and tries again, once.
 //! \param improvable   its mesh becomes the improved one.
 //! \param crossings  of the mesh, then of the improved one; unset without CGAL.
 //! \return false: no improved mesh is better, and `crossings` is as before.
-//! Cost: that of repair_shape, four times at most.
+//! Cost: that of repair_shape, twice at most.
 [[nodiscard]] bool improve(const Domain& domain, CrossingFinder& finder, ImprovableMesh& improvable,
                            std::optional<CrossingCounts>& crossings, const StageContext& context);
 

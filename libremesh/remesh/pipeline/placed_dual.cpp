@@ -78,16 +78,12 @@ void place_vertices(Domain& domain, const CurveSites& curves, const ValidDual& d
     const bool is_fitted = options.fit.value_or(is_relaxed(options));
     // The pieces are large: they are freed before the fit.
     std::vector<CellSample> samples;
-    std::vector<CellPlanes> planes;
     const Progress start = progress_at(Stage::Place, options, 0);
-    if (is_fitted || is_relaxed(options)) {
+    if (is_fitted) {
         const auto num_vertices = static_cast<Index>(placed.mesh.points.size());
         PreparedSurface& prepared = domain.prepared;
         prepared.find_pieces(options.num_threads, start);
-        if (is_relaxed(options)) {
-            planes = planes_of_cells(prepared, nearest, num_vertices, options.num_threads, start);
-        }
-        if (is_fitted) samples = sample_cells(prepared, nearest, num_vertices, start);
+        samples = sample_cells(prepared, nearest, num_vertices, start);
         prepared.pieces.reset();
     }
     if (is_fitted) {
@@ -95,10 +91,6 @@ void place_vertices(Domain& domain, const CurveSites& curves, const ValidDual& d
         fit_vertices(domain.prepared.base, nearest, std::move(samples), placed.mesh,
                      options.num_threads, start, rounding * domain.spacing,
                      stays);
-    }
-    if (is_relaxed(options)) {
-        improve_shape(domain.prepared.input(), planes, placed.mesh,
-                      progress_at(Stage::Place, options, 0.5), domain.sizes, stays);
     }
     poll(progress_of(Stage::Place, options), 1);
 }

@@ -45,7 +45,7 @@ void add_vertices(const Domain& domain, std::vector<SurfacePoint> points, Index 
 //! the options ask for it, and flips triangles without area.
 //! \param domain  its pieces are found if they were reset, and reset then.
 //! \param points  #V of the dual: where each vertex lies on the cleaned surface.
-//! Cost: that of glue, fit_vertices and improve_shape.
+//! Cost: that of glue, fit_vertices.
 [[nodiscard]] PlacedDual place_dual(Domain& domain, const CurveSites& curves, const ValidDual& dual,
                                     std::vector<SurfacePoint> points, const StageContext& context);
 

@@ -81,7 +81,12 @@ public:
         }
         for (Index h = 0; h < 3 * num_faces(); ++h) {
             if (half_edge(head(h), tail(h)) != no_index) continue;
-            vertices_[tail(h)].is_on_rim = vertices_[head(h)].is_on_rim = true;
+            for (const Index v : {tail(h), head(h)}) {
+                vertices_[v].is_on_rim = true;
+                if (vertices_[v].mobility == Mobility::Node) {
+                    vertices_[v].mobility = Mobility::Fixed;
+                }
+            }
         }
     }
 
@@ -91,6 +96,10 @@ public:
     //! In no order; empty: the vertex was removed.
     [[nodiscard]] std::span<const Index> faces_at(Index v) const { return fans_[v]; }
     [[nodiscard]] const Vec3& at(Index v) const { return vertices_[v].at; }
+    [[nodiscard]] std::array<Vec3, 3> corners_of(Index f) const {
+        const auto& [a, b, c] = faces_[f].corner;
+        return {at(a), at(b), at(c)};
+    }
     [[nodiscard]] Mobility mobility(Index v) const { return vertices_[v].mobility; }
     [[nodiscard]] double worst_at(Index v) const {
         double worst = 1;
@@ -145,8 +154,8 @@ public:
         const auto keeps_normal = [&](Index side) {
             const Vec3 &p = at(tail(side)), &q = at(head(side)), &r = at(apex(side));
             const Vec3 before = (q - p).cross(r - p);
-            return is_gentle(before, (vertex.at - p).cross(r - p)) &&
-                   is_gentle(before, (q - vertex.at).cross(r - vertex.at));
+            return is_gentle(side / 3, before, (vertex.at - p).cross(r - p)) &&
+                   is_gentle(side / 3, before, (q - vertex.at).cross(r - vertex.at));
         };
         if (!keeps_normal(h) || (twin != no_index && !keeps_normal(twin))) return no_index;
         const Index added = num_vertices();
@@ -159,8 +168,10 @@ public:
     //! Collapses the edge between two vertices: removes `gone`; `into` stays in place.
     bool collapse(Index gone, Index into) {
         if (!may_collapse(gone, into)) return false;
+        if (mobility(gone) == Mobility::Node) detach_curves(gone, into);
         const std::vector<Index> fan = fans_[gone];
-        // Two sides of a removed face become one edge: hard if the side at `into` is.
+        // Two sides of a removed face become one edge: hard if one of them is, with the curve of
+        // that at `into` if both are.
         std::vector<std::pair<DirectedEdge, Index>> hard;
         log_fan(gone);
         log_fan(into);
@@ -178,6 +189,12 @@ public:
                 if (apex(h) == gone && is_hard(h)) {
                     hard.push_back({{tail(h), head(h)}, curve_of(h)});
                 }
+                const Index other = tail(h) == gone ? Surface::next(h) : Surface::previous(h);
+                if (apex(h) == into && is_hard(h) && !is_hard(other)) {
+                    hard.push_back({{tail(h) == gone ? into : tail(h),
+                                     head(h) == gone ? into : head(h)},
+                                    curve_of(h)});
+                }
             }
             drop_face(f);
             for (const Index w : old.corner) {
@@ -187,7 +204,7 @@ public:
             }
         }
         for (const auto& [ends, curve] : hard) {
-            // The face beyond the removed one now has this edge, in the same direction.
+            // A face beyond the removed one has this edge, in the same direction.
             const Index h = half_edge(ends.first, ends.second);
             if (h == no_index) continue;
             Face face = faces_[h / 3];
@@ -200,7 +217,10 @@ public:
     //! `gain`. Does not if its walk is cut off.
     bool move(Index v, const Vec3& step, double gain) {
         Vertex vertex = vertices_[v];
-        if (vertex.mobility == Mobility::Fixed) return false;
+        if (vertex.mobility >= Mobility::Node) return false;
+        const double worst = worst_at(v);
+        // Most steps do not even help in the plane, without a walk.
+        if (!all_better(v, vertex.at + step, worst + gain)) return false;
         if (vertex.mobility == Mobility::Boundary) {
             if (vertex.place.curve == no_index) return false;
             const std::optional<CurvePlace> place = curves_.moved(vertex.place, step);
@@ -214,7 +234,6 @@ public:
             vertex.point = walk.end;
         }
         locate(vertex);
-        const double worst = worst_at(v);
         const Vertex before = vertices_[v];
         std::vector<Vec3> normals;
         for (const Index f : fans_[v]) normals.push_back(normal_of(faces_[f].corner));
@@ -222,7 +241,7 @@ public:
         bool is_better = true;
         for (std::size_t i = 0; i < normals.size() && is_better; ++i) {
             const Triangle& t = faces_[fans_[v][i]].corner;
-            is_better = quality_of(t) > worst + gain && is_gentle(normals[i], normal_of(t));
+            is_better = quality_of(t) > worst + gain && is_gentle(fans_[v][i], normals[i], normal_of(t));
         }
         if (is_better && vertex.mobility == Mobility::Boundary) {
             vertices_[v] = before;
@@ -242,6 +261,9 @@ public:
     //! Edges of the surface that all calls of `move` together crossed: their cost.
     [[nodiscard]] std::size_t num_crossings() const { return num_crossings_; }
 
+    //! Of the initial edges.
+    [[nodiscard]] double mean_length() const { return mean_length_; }
+
     [[nodiscard]] Mark mark() const {
         return {old_faces_.size(), old_vertices_.size(), old_fans_.size(), num_faces(),
                 num_vertices()};
@@ -260,7 +282,16 @@ public:
         vertices_.resize(mark.num_vertices);
         fans_.resize(mark.num_vertices);
     }
-    //! Faces changed since the mark, each once.
+    //! Faces changed since the mark, each once, also those that were removed.
+    [[nodiscard]] std::vector<Index> changed_since(const Mark& mark) const {
+        std::vector<Index> changed;
+        for (std::size_t i = mark.faces; i < old_faces_.size(); ++i) {
+            changed.push_back(old_faces_[i].first);
+        }
+        std::sort(changed.begin(), changed.end());
+        changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
+        return changed;
+    }
     //! \param[out] now     the changed faces that exist now.
     //! \param[out] before  the old qualities of those that existed at the mark.
     void changed_since(const Mark& mark, std::vector<Index>& now,
@@ -304,6 +335,9 @@ public:
 private:
     // Cosine of the largest turn of a normal.
     static constexpr double gentle_turn = 0.5;
+    // Nodes are merged along edges shorter than this, in mean lengths.
+    static constexpr double short_edge = 0.35;
+    static constexpr double sliver_quality = 0.1;  // An angle of 5 degrees.
     // Share of the edge's length: a new vertex farther from the middle lies on another part of the
     // surface.
     static constexpr double largest_miss = 0.35;
@@ -314,8 +348,13 @@ private:
     // Of an edge whose curve is not found: it stays as it is.
     static constexpr Index unknown_curve = no_index - 1;
 
-    static bool is_gentle(const Vec3& before, const Vec3& after) {
-        return after.dot(before) > gentle_turn * after.norm() * before.norm();
+    // Whether a triangle may take the place of a face. The normal of a sliver tells nothing.
+    [[nodiscard]] bool is_gentle(Index f, const Vec3& before, const Vec3& after) const {
+        return is_sliver(f) || after.dot(before) > gentle_turn * after.norm() * before.norm();
+    }
+    [[nodiscard]] bool is_sliver(Index f) const {
+        const double quality = faces_[f].quality;
+        return (quality < 0 ? quality + 1 : quality) < sliver_quality;
     }
 
     struct Vertex {
@@ -336,6 +375,14 @@ private:
         const Vec3 facing = vertices_[a].facing + vertices_[b].facing + vertices_[c].facing;
         const bool is_turned = normal_of(t).dot(facing) < 0;
         return shape_quality(at(a), at(b), at(c)) - (is_turned ? 1 : 0);
+    }
+    // Whether all faces around a vertex have a better shape with it at a position.
+    [[nodiscard]] bool all_better(Index v, const Vec3& position, double than) const {
+        return std::all_of(fans_[v].begin(), fans_[v].end(), [&](Index f) {
+            const auto& [a, b, c] = faces_[f].corner;
+            return shape_quality(a == v ? position : at(a), b == v ? position : at(b),
+                                 c == v ? position : at(c)) > than;
+        });
     }
     [[nodiscard]] Vec3 normal_of(const Triangle& t) const {
         return (at(t[1]) - at(t[0])).cross(at(t[2]) - at(t[0]));
@@ -389,12 +436,37 @@ private:
                           [&](std::size_t i) -> std::optional<Vec3> {
                               if (is_hard(rim[i])) return std::nullopt;
                               const Index across = half_edge(head(rim[i]), tail(rim[i]));
-                              if (across == no_index) return std::nullopt;
+                              if (across == no_index || is_sliver(across / 3)) return std::nullopt;
                               return unit(faces_[across / 3].corner);
                           });
     }
+    // Before a node is merged with another vertex: its curves end there now, which the network does
+    // not know. Their edges there keep their ends.
+    void detach_curves(Index node, Index into) {
+        for (const Index f : std::vector<Index>(fans_[node])) {
+            Face face = faces_[f];
+            for (Index k = 0; k < 3; ++k) {
+                const Index a = face.corner[k], b = face.corner[(k + 1) % 3];
+                if (!face.is_hard(k) || (a != node && b != node)) continue;
+                face.curve[k] = unknown_curve;
+                pin(a == node ? b : a);
+            }
+            put_face(f, face.corner, face.curve);
+        }
+        pin(into);
+    }
+    void pin(Index v) {
+        if (mobility(v) >= Mobility::Node) return;
+        Vertex vertex = vertices_[v];
+        vertex.mobility = vertex.is_on_rim ? Mobility::Fixed : Mobility::Node;
+        put_vertex(v, vertex);
+    }
     [[nodiscard]] bool may_collapse(Index gone, Index into) const {
         if (mobility(gone) == Mobility::Fixed) return false;
+        if (mobility(gone) == Mobility::Node &&
+            (at(into) - at(gone)).norm() > short_edge * mean_length_) {
+            return false;
+        }
         std::array<Index, 2> apexes{no_index, no_index};
         std::size_t num_apexes = 0;
         std::vector<Index> ring;
@@ -429,18 +501,19 @@ private:
             if (has_corner(f, into)) return true;
             Triangle moved = faces_[f].corner;
             std::replace(moved.begin(), moved.end(), gone, into);
-            return is_gentle(normal_of(faces_[f].corner), normal_of(moved));
+            return is_gentle(f, normal_of(faces_[f].corner), normal_of(moved));
         });
     }
-    // For a vertex on the boundary: whether it goes along it, no triangle alone
-    // would be left, and the boundary stays near that of the surface.
+    // For a vertex on a curve: whether it goes along it, no triangle of the rim alone would be left,
+    // and the curve stays as near as it was.
     [[nodiscard]] bool may_leave_boundary(Index gone, Index into,
                                           const std::array<Index, 2>& apexes) const {
         const auto [before, after] = hard_neighbours(gone);
         if (before == no_index || after == no_index) return false;
         if (into != before && into != after) return false;
         const Index other = into == after ? before : after;
-        return other != apexes[0] && other != apexes[1] &&
+        const bool is_ear = other == apexes[0] || other == apexes[1];
+        return !(is_ear && vertices_[gone].is_on_rim) &&
                keeps_bend(vertices_[gone].place.curve, before, after, largest_bend_at(gone));
     }
     // Finds a point of the surface, or of a curve, near the middle. False if walks from both ends
@@ -513,7 +586,7 @@ private:
 
     const MeshCurves& curves_;
     const Surface& surface_;
-    double mean_length_ = 0;  // Of the initial edges.
+    double mean_length_ = 0;
     std::size_t num_crossings_ = 0;
     std::vector<Face> faces_;
     std::vector<Vertex> vertices_;          // By vertex.

@@ -10,7 +10,6 @@
 #include "agvd/mesh/mesh.h"
 #include "remesh/curves/curve_sites.h"
 #include "remesh/curves/glue.h"
-#include "remesh/sites/cell_measures.h"
 #include "remesh/sites/prepared_surface.h"
 #include "remesh/sites/sites.h"
 
@@ -67,32 +66,11 @@ void fit_vertices(const IntrinsicTriangulation& base, std::span<const Index> nea
                   std::vector<CellSample> samples, PlacedMesh& mesh, int num_threads,
                   const Progress& progress, double least_way, std::span<const std::uint8_t> stays);
 
-//! The planes of the surface in the cell of each vertex: what improve_shape() reads of the pieces.
-//! They are smaller than these.
-//! \param nearest_vertex  see sample_cells().
-//! \param num_threads     >= 0; 0: all cores. The result is the same for any number.
-//! Cost: O(#surface).
-[[nodiscard]] std::vector<detail::CellPlanes> planes_of_cells(const PreparedSurface& surface,
-                                                              std::span<const Index> nearest_vertex,
-                                                              Index num_vertices, int num_threads,
-                                                              const Progress& progress);
-
-//! Moves the corners of triangles of low quality along the surface in small steps; their offsets
-//! stay. A step is taken if the worst triangle around gains more than it costs to leave the planes
-//! nearby: vertices at a crease stay there. The boundary stays, and no triangle turns over.
-//! \param input  PreparedSurface::input().
-//! \param sizes  target lengths of the edges; null: all are equal.
-//! \param stays  #V of the mesh: 1 for vertices that stay; or empty.
-//! \throw Cancelled  the progress callback returned false; `mesh` is unspecified then.
-//! Cost: O(#surface + #triangles), and about 20 us for each vertex at such a triangle.
-void improve_shape(const Surface& input, std::span<const detail::CellPlanes> planes,
-                   PlacedMesh& mesh, const Progress& progress, const SizeField* sizes,
-                   std::span<const std::uint8_t> stays);
-
 namespace detail {
 
-//! Where a vertex may go: along the surface, along its curve (Boundary), or nowhere.
-enum class Mobility : std::uint8_t { Free, Boundary, Fixed };
+//! Where a vertex may go: along the surface, along its curve (Boundary), or nowhere. A Node may be
+//! merged with a near vertex, unless it is on the rim.
+enum class Mobility : std::uint8_t { Free, Boundary, Node, Fixed };
 
 class MeshCurves;
 
@@ -100,7 +78,8 @@ class MeshCurves;
 
 //! Flips edges, slides vertices, or splits an edge and collapses another one elsewhere, the worst
 //! triangles first, where the worst one touched gets better. Keeps the number of vertices (not
-//! their order), the topology and the hard edges.
+//! their order), the topology and the hard edges. Adds no intersections, and distance from the
+//! surface only for better shapes.
 //! \param curves    where the points of the mesh lie, and the curves along which vertices slide.
 //! \param mobility  #V: Fixed ones stay; those on hard edges are not Free.
 //! \param hard      edges that are not flipped; must include all edges of a single face.

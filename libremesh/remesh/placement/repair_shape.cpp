@@ -1,5 +1,5 @@
 // Repairs bad triangles, the worst first: by a flip or slides, otherwise by the best collapse or
-// split. At the end the count is balanced elsewhere.
+// split. Elsewhere vertices are removed before and added at the end, so that their count stays.
 #include "remesh/placement/placement.h"
 
 #include <algorithm>
@@ -8,6 +8,8 @@
 #include <queue>
 
 #include "agvd/core/progress.h"
+#include "remesh/placement/crossing_guard.h"
+#include "remesh/placement/distance_guard.h"
 #include "remesh/placement/shape_steps.h"
 
 namespace remesh {
@@ -19,33 +21,49 @@ using detail::ShapeEdit;
 using detail::ShapeGain;
 using detail::ShapeSteps;
 
+// What a change elsewhere, for the count, is worth.
+constexpr double gain_elsewhere = 0.03;
+
+// The changes that may stay: those that neither add intersections nor leave the surface.
+class EditGuard {
+public:
+    EditGuard(const EditedMesh& mesh, const Surface& surface)
+        : mesh_(mesh), crossings_(mesh), distances_(mesh, surface) {}
+
+    [[nodiscard]] bool accepts(const EditedMesh::Mark& mark, double gain) {
+        const std::vector<Index> changed = mesh_.changed_since(mark);
+        return distances_.accepts(changed, gain) && crossings_.accepts(changed);
+    }
+    // Also takes over the changes; they must not be taken back later.
+    [[nodiscard]] bool accept(const EditedMesh::Mark& mark, double gain) {
+        if (!accepts(mark, gain)) return false;
+        distances_.take_over();
+        crossings_.take_over();
+        return true;
+    }
+
+private:
+    const EditedMesh& mesh_;
+    detail::CrossingGuard crossings_;
+    detail::DistanceGuard distances_;
+};
+
 // Collapses leave spare vertices, splits need them. Balances the count by edits elsewhere.
 class SpareVertices {
 public:
-    // \param mesh, steps, ticker  outlive this.
+    // \param mesh, steps, guard, ticker  outlive this.
     // \param wanted  of `steps`: all triangles that edits touch here keep at least this quality.
-    SpareVertices(EditedMesh& mesh, ShapeSteps& steps, double wanted, Ticker& ticker)
-        : mesh_(mesh), steps_(steps), ticker_(ticker), wanted_(wanted) {}
+    SpareVertices(EditedMesh& mesh, ShapeSteps& steps, EditGuard& guard, double wanted,
+                  Ticker& ticker)
+        : mesh_(mesh), steps_(steps), guard_(guard), ticker_(ticker), wanted_(wanted) {}
 
-    // Begins at 0.
-    // \param elsewhere  least quality of triangles, before and after, where collapse_one()
-    //                   removes a vertex.
-    void restart(double elsewhere) {
-        count_ = 0;
-        elsewhere_ = elsewhere;
-        has_collapses_ = has_edges_ = false;
-        collapses_.clear();
-        edges_ = {};
-    }
-
-    // Vertices that were removed and not yet added elsewhere; below 0: to be removed.
+    // Vertices that were removed and not yet added elsewhere.
     [[nodiscard]] int count() const { return count_; }
     // Counts a split (-1) or a collapse (+1) of the caller.
     void add(int change) { count_ += change; }
 
     // Removes a vertex where triangles stay good, by the best collapses first.
-    // \return false if there is none. Cost: O(#triangles log #triangles) for the first call after
-    // restart().
+    // \return false if there is none. Cost: O(#triangles log #triangles) for the first call.
     bool collapse_one() {
         if (!has_collapses_) list_collapses();
         while (!collapses_.empty()) {
@@ -53,10 +71,10 @@ public:
             collapses_.pop_back();
             if (mesh_.faces_at(gone).empty() || mesh_.faces_at(into).empty()) continue;
             const EditedMesh::Mark before = mesh_.mark();
-            if (mesh_.worst_at(gone) >= elsewhere_ && mesh_.collapse(gone, into)) {
+            if (mesh_.worst_at(gone) >= wanted_ && mesh_.collapse(gone, into)) {
                 (void)steps_.move_to_mean(into);
                 steps_.relax(before);
-                if (steps_.worst_since(before) >= elsewhere_) {
+                if (steps_.worst_since(before) >= wanted_ && guard_.accept(before, gain_elsewhere)) {
                     ++count_;
                     return true;
                 }
@@ -65,13 +83,18 @@ public:
         }
         return false;
     }
-    // Splits long edges or removes vertices until the count is 0.
+    // Splits long edges until the count is 0.
     // \return false if that fails. Cost: O(log #edges) and a trial for each edge and each change.
     bool balance() {
-        if (count_ < 0) prune();
-        while (count_ > 0 && split_one()) {
-        }
-        while (count_ < 0 && collapse_one()) {
+        for (const double least : {wanted_, 0.0}) {
+            edges_ = {};
+            if (count_ > 0) {
+                for (Index f = 0; f < mesh_.num_faces(); ++f) {
+                    if (mesh_.face(f).is_there) push_edges(f);
+                }
+            }
+            while (count_ > 0 && split_one(least)) {
+            }
         }
         return count_ == 0;
     }
@@ -89,29 +112,8 @@ private:
         [[nodiscard]] auto operator<=>(const LongEdge&) const = default;
     };
 
-    // Removes boundary vertices whose worst triangle lies between the wanted quality and that of
-    // elsewhere_, if all triangles keep the wanted one.
-    void prune() {
-        for (Index v = 0; v < mesh_.num_vertices() && count_ < 0; ++v) {
-            if (mesh_.mobility(v) != Mobility::Boundary || mesh_.faces_at(v).empty()) continue;
-            const double worst = mesh_.worst_at(v);
-            if (worst < wanted_ || worst >= elsewhere_) continue;
-            for (const Index into : mesh_.hard_neighbours(v)) {
-                if (into == no_index) continue;
-                const EditedMesh::Mark before = mesh_.mark();
-                if (mesh_.collapse(v, into)) {
-                    steps_.relax(before);
-                    if (steps_.worst_since(before) >= wanted_) {
-                        ++count_;
-                        break;
-                    }
-                }
-                mesh_.take_back(before);
-            }
-        }
-    }
-    // Lists collapses by the quality that triangles have with the edge's middle in place of its
-    // ends.
+    // Lists collapses by the quality that triangles have with one point in place of both ends: the
+    // second one, or the middle of an edge that is off the curves.
     void list_collapses() {
         has_collapses_ = true;
         for (Index f = 0; f < mesh_.num_faces(); ++f) {
@@ -120,11 +122,13 @@ private:
             const Triangle& t = mesh_.face(f).corner;
             for (Index k = 0; k < 3; ++k) {
                 const Index a = t[k], b = t[(k + 1) % 3];
-                if (a > b) continue;  // Each edge once.
-                if (mesh_.mobility(a) != Mobility::Free || mesh_.mobility(b) != Mobility::Free) {
-                    continue;
-                }
-                const double quality = quality_of_middle(a, b);
+                const bool is_free = mesh_.mobility(a) == Mobility::Free;
+                const bool are_free = is_free && mesh_.mobility(b) == Mobility::Free;
+                const bool is_along = is_free || (mesh_.mobility(a) == Mobility::Boundary &&
+                                                  mesh_.face(f).is_hard(k));
+                if (!is_along || (are_free && a > b)) continue;
+                const double quality =
+                    quality_at(are_free ? (mesh_.at(a) + mesh_.at(b)) / 2 : mesh_.at(b), a, b);
                 if (quality >= wanted_) collapses_.push_back({quality, a, b});
             }
         }
@@ -138,8 +142,7 @@ private:
             if (a < b) edges_.push({-(mesh_.at(a) - mesh_.at(b)).squaredNorm(), face, k});
         }
     }
-    [[nodiscard]] double quality_of_middle(Index a, Index b) const {
-        const Vec3 middle = (mesh_.at(a) + mesh_.at(b)) / 2;
+    [[nodiscard]] double quality_at(const Vec3& point, Index a, Index b) const {
         double worst = 1;
         for (const Index v : {a, b}) {
             for (const Index f : mesh_.faces_at(v)) {
@@ -149,7 +152,7 @@ private:
                 for (std::size_t k = 0; k < 3; ++k) {
                     const bool is_moved = t[k] == a || t[k] == b;
                     num_moved += is_moved ? 1 : 0;
-                    at[k] = is_moved ? middle : mesh_.at(t[k]);
+                    at[k] = is_moved ? point : mesh_.at(t[k]);
                 }
                 if (num_moved == 1) {
                     worst = std::min(worst, detail::shape_quality(at[0], at[1], at[2]));
@@ -158,14 +161,8 @@ private:
         }
         return worst;
     }
-    // Splits the longest edge that can be split well.
-    bool split_one() {
-        if (!has_edges_) {
-            has_edges_ = true;
-            for (Index f = 0; f < mesh_.num_faces(); ++f) {
-                if (mesh_.face(f).is_there) push_edges(f);
-            }
-        }
+    // Splits the longest edge whose triangles keep a quality.
+    bool split_one(double least) {
         while (!edges_.empty()) {
             const auto [minus_square, face, k] = edges_.top();
             edges_.pop();
@@ -174,7 +171,10 @@ private:
             const Index a = t[k], b = t[(k + 1) % 3];
             if (a > b || -(mesh_.at(a) - mesh_.at(b)).squaredNorm() != minus_square) continue;
             const EditedMesh::Mark before = mesh_.mark();
-            if (steps_.edit({face, k, true, false}) && steps_.worst_since(before) >= wanted_) {
+            const bool is_done = steps_.edit({face, k, true, false});
+            steps_.relax(before);
+            if (is_done && steps_.worst_since(before) >= least &&
+                guard_.accept(before, gain_elsewhere)) {
                 mesh_.changed_since(before, changed_, before_);
                 for (const Index changed : changed_) push_edges(changed);
                 --count_;
@@ -187,11 +187,11 @@ private:
 
     EditedMesh& mesh_;
     ShapeSteps& steps_;
+    EditGuard& guard_;
     Ticker& ticker_;
     const double wanted_;
-    double elsewhere_ = 0;
     int count_ = 0;
-    bool has_collapses_ = false, has_edges_ = false;
+    bool has_collapses_ = false;
     std::vector<Candidate> collapses_;  // The best one last.
     // Edges to split. One that could not be split comes back when its face changes.
     std::priority_queue<LongEdge, std::vector<LongEdge>, std::greater<>> edges_;
@@ -199,19 +199,12 @@ private:
     std::vector<double> before_;
 };
 
-struct Goal {
-    double quality;  // Triangles below it are repaired.
-    // Least quality of triangles, before and after, where a vertex is removed to balance the count.
-    double elsewhere;
-};
-// Met one after the other: the worst triangles first have all the vertices that can be spared. As
-// qualities, angles of 21.3 and 29.1 degrees count as .425 and .57.
-constexpr std::array goals{Goal{0.425, 0.6}, Goal{0.57, 0.63}};
+// Triangles below these qualities are repaired, one after the other: the worst triangles first have
+// all the vertices that can be spared. Angles of 21.3, 29.1 and 32.5
+// degrees count as .425, .57 and .63.
+constexpr std::array goals{0.425, 0.57, 0.63};
 // Least gain of an edit.
 constexpr double least_trial_gain = 0.02;
-// At most one of so many vertices may be missing: a surface that is thinner than the spacing
-// everywhere has nowhere to take them from.
-constexpr Index most_moved = 8;
 // Budgets for each initially bad triangle: where all are bad, work would not end. Lips use half of
 // them.
 constexpr std::size_t edits_for_each = 3, slides_for_each = 200;
@@ -219,23 +212,21 @@ constexpr std::size_t edits_for_each = 3, slides_for_each = 200;
 // have at most some 20 bad triangles, thin walls over a thousand.
 constexpr std::size_t paid_in_full = 64, slides_for_others = 25;
 constexpr int most_rounds_of_repair = 6;
+// Collapses and splits tried in full for one triangle: all nine are hardly better.
+constexpr std::size_t most_trials = 3;
 
 class ShapeRepair {
 public:
     // \param num_faces  of the surface.
-    ShapeRepair(EditedMesh& mesh, Index num_faces, const Goal& goal, Ticker& ticker)
+    ShapeRepair(EditedMesh& mesh, EditGuard& guard, Index num_faces, double goal, Ticker& ticker)
         : mesh_(mesh),
-          goal_(goal),
-          steps_(mesh, num_faces, goal.quality, ticker),
-          spare_(mesh, steps_, goal.quality, ticker),
-          least_spare_(-static_cast<int>(mesh.num_vertices() / most_moved)) {}
+          guard_(guard),
+          steps_(mesh, num_faces, goal, ticker),
+          spare_(mesh, steps_, guard, goal, ticker) {}
 
-    // First balances the count at the end, when the number of missing vertices is known: it is
-    // below the number of splits. If that fails, starts again and removes a vertex after each
-    // split.
-    // \return whether the mesh has changed; it does not if the count cannot be kept.
+    // A vertex is removed elsewhere before a split adds one; what is left over is added at the end.
+    // \return false if the count is not kept.
     bool run() {
-        const EditedMesh::Mark start = mesh_.mark();
         const std::size_t num_bad = steps_.bad_faces().size();
         // Where most triangles are bad, as on spikes, the repair gains nothing.
         const std::size_t num_good = mesh_.num_faces() - num_bad;
@@ -244,41 +235,34 @@ public:
         const std::size_t num_full = std::min(num_paid, paid_in_full);
         const std::size_t num_slides =
             slides_for_each * num_full + slides_for_others * (num_paid - num_full);
-        for (const bool pays_at_once : {false, true}) {
-            pays_at_once_ = pays_at_once;
-            edits_left_ = edits_for_each * num_paid;
-            spare_.restart(pays_at_once ? goal_.quality + least_trial_gain : goal_.elsewhere);
-            steps_.allow_slides(num_slides);
-            const bool is_changed = work();
-            steps_.allow_slides(num_slides);
-            if (spare_.balance()) return is_changed;
-            mesh_.take_back(start);
-        }
-        return false;
+        edits_left_ = edits_for_each * num_paid;
+        steps_.allow_slides(num_slides);
+        work();
+        steps_.allow_slides(num_slides);
+        return spare_.balance();
     }
 
 private:
-    bool work() {
-        bool is_changed = false;
+    void work() {
         for (int round = 0; round < most_rounds_of_repair; ++round) {
             bool is_better = false;
             for (const auto& [quality, f] : steps_.bad_faces()) {
                 if (!steps_.is_bad(f)) continue;
                 is_better = repair(f) || is_better;
             }
-            if (!is_better) break;
-            is_changed = true;
+            if (!is_better) return;
         }
-        return is_changed;
     }
 
     bool repair(Index f) {
         const EditedMesh::Mark before = mesh_.mark();
-        if (steps_.improve(f)) {
+        bool is_better = steps_.improve(f);
+        if (is_better) {
             steps_.relax(before);
-            if (!steps_.is_bad(f)) return true;
+            is_better = guard_.accept(before, steps_.gain_since(before).sum);
+            if (!is_better) mesh_.take_back(before);
+            if (is_better && !steps_.is_bad(f)) return true;
         }
-        const bool is_better = mesh_.mark().faces > before.faces;
         return try_edits(f) || is_better;
     }
 
@@ -293,19 +277,23 @@ private:
         return gain.worst < least_trial_gain ? 0 : gain.worst;
     }
 
-    // Collapses first, the shortest edge first; then splits, the longest first.
-    [[nodiscard]] std::array<ShapeEdit, 9> trials_at(Index f) const {
-        const Triangle& t = mesh_.face(f).corner;
-        std::array<std::pair<double, Index>, 3> edges;
+    // The collapses and splits that gain most before the triangles around are relaxed.
+    [[nodiscard]] std::vector<ShapeEdit> trials_at(Index f) {
+        std::vector<std::pair<double, ShapeEdit>> all;
         for (Index k = 0; k < 3; ++k) {
-            edges[k] = {(mesh_.at(t[k]) - mesh_.at(t[(k + 1) % 3])).norm(), k};
+            for (const auto& [is_split, is_reversed] :
+                 {std::pair(false, false), {false, true}, {true, false}}) {
+                const ShapeEdit edit{f, k, is_split, is_reversed};
+                const EditedMesh::Mark before = mesh_.mark();
+                if (steps_.edit(edit)) all.emplace_back(steps_.gain_since(before).sum, edit);
+                mesh_.take_back(before);
+            }
         }
-        std::sort(edges.begin(), edges.end());
-        std::array<ShapeEdit, 9> trials;
-        for (std::size_t i = 0; i < 3; ++i) {
-            trials[2 * i] = {f, edges[i].second, false, false};
-            trials[2 * i + 1] = {f, edges[i].second, false, true};
-            trials[8 - i] = {f, edges[i].second, true, false};
+        std::stable_sort(all.begin(), all.end(),
+                         [](const auto& a, const auto& b) { return a.first > b.first; });
+        std::vector<ShapeEdit> trials;
+        for (const auto& [gain, edit] : std::span(all).first(std::min(all.size(), most_trials))) {
+            trials.push_back(edit);
         }
         return trials;
     }
@@ -318,36 +306,35 @@ private:
         double most = 0;
         for (const ShapeEdit& trial : trials_at(f)) {
             const EditedMesh::Mark before = mesh_.mark();
-            const bool is_done = steps_.edit(trial);
-            const ShapeGain gain = is_done ? steps_.gain_since(before) : ShapeGain{};
+            (void)steps_.edit(trial);
+            steps_.relax(before);
+            const ShapeGain gain = steps_.gain_since(before);
+            const double score = score_of(gain, trial.is_split);
+            const bool is_best = score > most && guard_.accepts(before, gain.sum);
             mesh_.take_back(before);
-            const double score = is_done ? score_of(gain, trial.is_split) : 0;
-            if (!(score > most)) continue;
+            if (!is_best) continue;
             most = score;
             best = trial;
             if (gain.is_all) break;
         }
-        if (best.face == no_index || (best.is_split && spare_.count() <= least_spare_))
-            return false;
+        if (best.face == no_index) return false;
+        if (best.is_split && spare_.count() == 0 && !spare_.collapse_one()) return false;
         const EditedMesh::Mark before = mesh_.mark();
-        (void)steps_.edit(best);
-        if (!best.is_split) {
-            spare_.add(1);
-            return true;
+        if (steps_.is_bad(f) && steps_.edit(best)) {
+            steps_.relax(before);
+            if (guard_.accept(before, steps_.gain_since(before).sum)) {
+                spare_.add(best.is_split ? -1 : 1);
+                return true;
+            }
         }
-        spare_.add(-1);
-        if (!pays_at_once_ || spare_.count() >= 0 || spare_.collapse_one()) return true;
-        spare_.add(1);
         mesh_.take_back(before);
         return false;
     }
 
     EditedMesh& mesh_;
-    const Goal goal_;
+    EditGuard& guard_;
     ShapeSteps steps_;
     SpareVertices spare_;
-    const int least_spare_;
-    bool pays_at_once_ = false;
     std::size_t edits_left_ = 0;
 };
 
@@ -361,12 +348,19 @@ std::vector<Index> repair_shape(const detail::MeshCurves& curves,
     Ticker ticker(poller);
     std::vector<Index> numbers;
     EditedMesh edited(curves, mesh, mobility, hard);
-    bool is_changed = false;
-    for (const Goal& goal : goals) {
-        is_changed =
-            ShapeRepair(edited, curves.surface().num_faces(), goal, ticker).run() || is_changed;
+    bool is_good = true;  // Most meshes are not, but the guards cost more than a look.
+    for (Index f = 0; f < edited.num_faces(); ++f) {
+        is_good = is_good && edited.face(f).quality >= goals.back();
     }
-    if (is_changed) mesh = edited.result(numbers);
+    if (is_good) return numbers;
+    EditGuard guard(edited, curves.surface());
+    const EditedMesh::Mark start = edited.mark();
+    for (const double goal : goals) {
+        if (!ShapeRepair(edited, guard, curves.surface().num_faces(), goal, ticker).run()) {
+            return numbers;
+        }
+    }
+    if (edited.mark().faces > start.faces) mesh = edited.result(numbers);
     return numbers;
 }
 

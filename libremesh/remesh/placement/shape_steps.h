@@ -109,19 +109,12 @@ public:
             if (!is_better) return;
         }
     }
-    //! Splits or collapses, then relaxes.
     //! \return false if the edge cannot be edited; the mesh has not changed then.
     bool edit(const ShapeEdit& edit) {
-        const EditedMesh::Mark before = mesh_.mark();
         const Triangle& t = mesh_.face(edit.face).corner;
         const Index a = t[edit.k], b = t[(edit.k + 1) % 3];
-        if (edit.is_split) {
-            if (mesh_.split(edit.face, edit.k) == no_index) return false;
-        } else if (!mesh_.collapse(edit.is_reversed ? b : a, edit.is_reversed ? a : b)) {
-            return false;
-        }
-        relax(before);
-        return true;
+        if (edit.is_split) return mesh_.split(edit.face, edit.k) != no_index;
+        return mesh_.collapse(edit.is_reversed ? b : a, edit.is_reversed ? a : b);
     }
     //! Moves a vertex towards the mean of its neighbours if no triangle around it gets worse.
     bool move_to_mean(Index v) { return mesh_.move(v, ways_of(v).to_mean, 0); }
@@ -189,7 +182,7 @@ private:
         return false;
     }
     bool slide(Index v) {
-        if (mesh_.mobility(v) == Mobility::Fixed || slides_left_ == 0) return false;
+        if (mesh_.mobility(v) >= Mobility::Node || slides_left_ == 0) return false;
         --slides_left_;
         const Ways ways = ways_of(v);
         if (ways.steps.empty()) return false;

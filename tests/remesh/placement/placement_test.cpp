@@ -61,14 +61,6 @@ void fit_vertices(const Remeshed& r, PlacedMesh& mesh, int num_threads = 0) {
                          num_threads, {}, 0, {});
 }
 
-void improve_shape(Remeshed& r) {
-    const auto num_vertices = static_cast<Index>(r.mesh.points.size());
-    remesh::improve_shape(
-        r.prepared.input(),
-        remesh::planes_of_cells(r.prepared, r.nearest_vertex, num_vertices, 0, {}), r.mesh, {},
-        nullptr, {});
-}
-
 TriangleMesh shape_of(const Remeshed& r) {
     TriangleMesh mesh{{}, r.mesh.triangles};
     for (Index v = 0; v < r.mesh.points.size(); ++v) {
@@ -185,73 +177,3 @@ TEST(FitVertices, NoTriangleTurnsOver) {
     }
 }
 
-TEST(ImproveShape, TheWorstTriangleGetsBetterAndVerticesStayOnTheSurface) {
-    for (const TriangleMesh& input : smooth_shapes()) {
-        const auto owner = remeshed(input, 300, 0);
-        Remeshed& r = *owner;
-        const std::vector<SurfacePoint> points = r.mesh.points;
-        const double before = remesh::measure_triangles(shape_of(r).view()).min_quality;
-        ASSERT_LT(before, 0.55);
-        improve_shape(r);
-        EXPECT_GT(remesh::measure_triangles(shape_of(r).view()).min_quality, before + 0.05);
-        for (Index v = 0; v < points.size(); ++v) {
-            EXPECT_EQ(r.mesh.offsets[v], Vec3(Vec3::Zero()));
-            const auto& [x, y, z] = r.mesh.points[v].barycentric;
-            EXPECT_GE(std::min({x, y, z}), 0);
-            if (!is_on_boundary(r.surface, points[v])) continue;
-            EXPECT_EQ(r.mesh.points[v].face, points[v].face);
-            EXPECT_EQ(r.mesh.points[v].barycentric, points[v].barycentric);
-        }
-    }
-}
-
-// From the middle of its neighbours a vertex does not see all sides of their pentagon. The angles
-// are better there, but a triangle turns over.
-TEST(ImproveShape, NoTriangleTurnsOver) {
-    const TriangleMesh pentagon{{{0.1, 1.1, 0},
-                                 {-0.7, -0.9, 0},
-                                 {-0.4, -0.5, 0},
-                                 {0.1, -1.6, 0},
-                                 {1.9, -0.9, 0},
-                                 {-0.15, 0.1, 0}},
-                                {{0, 1, 5}, {1, 2, 5}, {2, 3, 5}, {3, 4, 5}, {4, 0, 5}}};
-    Remeshed r(pentagon);
-    r.mesh.triangles = pentagon.triangles;
-    for (Index v = 0; v < 6; ++v) {
-        r.mesh.points.push_back(point_at(r.surface, v));
-        r.mesh.offsets.emplace_back(Vec3::Zero());
-        r.nearest_vertex.push_back(v);
-    }
-    improve_shape(r);
-    const TriangleMesh after = shape_of(r);
-    for (const auto& [a, b, c] : after.triangles) {
-        const auto& p = after.positions;
-        EXPECT_GT((p[b] - p[a]).cross(p[c] - p[a]).z(), 0);
-    }
-}
-
-TEST(ImproveShape, VerticesStayAtTheEdgesOfACube) {
-    TriangleMesh cube = shapes::cube();
-    for (int i = 0; i < 5; ++i) cube = shapes::subdivide(cube);
-    const auto owner = remeshed(cube, 500, 0);
-    Remeshed& r = *owner;
-    fit_vertices(r, r.mesh);
-    const double distance = mean_square_distance(r);
-    const double quality = remesh::measure_triangles(shape_of(r).view()).min_quality;
-    improve_shape(r);
-    EXPECT_GT(remesh::measure_triangles(shape_of(r).view()).min_quality, quality + 0.02);
-    EXPECT_LT(mean_square_distance(r), 2 * distance);
-}
-
-TEST(ImproveShape, WhatIsGoodStays) {
-    const auto owner = remeshed(shapes::sphere(5), 300, 100);
-    Remeshed& r = *owner;
-    improve_shape(r);
-    const std::vector<SurfacePoint> points = r.mesh.points;
-    ASSERT_GE(remesh::measure_triangles(shape_of(r).view()).min_quality, 0.6);
-    improve_shape(r);
-    for (Index v = 0; v < points.size(); ++v) {
-        EXPECT_EQ(r.mesh.points[v].face, points[v].face);
-        EXPECT_EQ(r.mesh.points[v].barycentric, points[v].barycentric);
-    }
-}

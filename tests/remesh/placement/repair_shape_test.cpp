@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "agvd/mesh/topology.h"
+#include "remesh/placement/crossing_guard.h"
 #include "remesh/quality/evaluate.h"
 #include "support/movable_mesh.h"
 #include "support/shapes.h"
@@ -69,7 +70,7 @@ TEST(RepairShape, ThinTrianglesGoAndTheCountAndTheTopologyStay) {
 }
 
 // Walks on a spike of small faces are long. Without their part in the budget the repair polled 3790
-// times instead of 146.
+// times instead of 327.
 TEST(RepairShape, LongWalksUseUpTheBudget) {
     const TriangleMesh coarse = shapes::sphere(1);
     TriangleMesh fine = coarse;
@@ -84,7 +85,7 @@ TEST(RepairShape, LongWalksUseUpTheBudget) {
     placed.mobility.resize(coarse.positions.size());
     const Index polls = polls_of_repair(placed);
     EXPECT_GT(polls, 0u);
-    EXPECT_LT(polls, 300u);
+    EXPECT_LT(polls, 400u);
 }
 
 // Where nearly all triangles are bad, the budget is that of a few. Without this the repair polled
@@ -99,12 +100,12 @@ TEST(RepairShape, ANeedleWhereAllIsBadEndsSoon) {
 }
 
 // Beside a ball of good triangles: each triangle of the needle has a part of the budget of a few.
-// With all of it the repair polled 2741 times instead of 1384, and 2512 times when each spare
+// With all of it the repair polled 2741 times with two goals; now 2106, and 2512 times when each spare
 // vertex tried all edges again.
 TEST(RepairShape, ManyBadTrianglesHaveSmallerBudgets) {
     const Index polls = polls_beside_a_ball(shapes::sphere(2));
     EXPECT_GT(polls, 0u);
-    EXPECT_LT(polls, 2000u);
+    EXPECT_LT(polls, 2300u);
 }
 
 // Beside a ball of as many good triangles. With a part of the budget for each triangle the repair
@@ -113,6 +114,15 @@ TEST(RepairShape, WhereHalfIsBadTheBudgetIsThatOfAFew) {
     const Index polls = polls_beside_a_ball(shapes::sphere(3));
     EXPECT_GT(polls, 0u);
     EXPECT_LT(polls, 2000u);
+}
+
+TEST(CrossingGuard, ASegmentPassesThroughOrOnlyTouches) {
+    const std::array<Vec3, 3> t{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
+    using remesh::detail::passes_through;
+    EXPECT_TRUE(passes_through({0.2, 0.2, -1}, {0.2, 0.2, 1}, t));
+    EXPECT_FALSE(passes_through({0.8, 0.8, -1}, {0.8, 0.8, 1}, t));
+    EXPECT_FALSE(passes_through({0.2, 0.2, 0}, {0.2, 0.2, 1}, t));
+    EXPECT_FALSE(passes_through({-1, 0.2, 0}, {1, 0.2, 1e-13}, t));
 }
 
 TEST(RepairShape, FixedVerticesStay) {

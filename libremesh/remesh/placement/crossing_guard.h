@@ -1,0 +1,172 @@
+//! \file
+//! Keeps the edits of a mesh from adding intersections. Private to repair_shape().
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <set>
+#include <span>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "remesh/placement/edited_mesh.h"
+
+namespace remesh::detail {
+
+//! Whether a segment passes through a triangle; touching it up to rounding does not count.
+[[nodiscard]] inline bool passes_through(const Vec3& p, const Vec3& q,
+                                         const std::array<Vec3, 3>& t) {
+    constexpr double rounding = 1e-9;
+    const Vec3 normal = (t[1] - t[0]).cross(t[2] - t[0]), way = q - p;
+    const double from = normal.dot(p - t[0]), to = normal.dot(q - t[0]);
+    const double least = rounding * normal.norm() * way.norm();
+    if (!(std::min(from, to) < -least && std::max(from, to) > least)) return false;
+    std::array<double, 3> volume{};
+    for (std::size_t k = 0; k < 3; ++k) volume[k] = way.dot((t[k] - p).cross(t[(k + 1) % 3] - p));
+    return std::min({volume[0], volume[1], volume[2]}) >= 0 ||
+           std::max({volume[0], volume[1], volume[2]}) <= 0;
+}
+
+//! Knows the pairs of faces that intersect, up to rounding. Faces that share an edge, or lie in one
+//! plane, do not count.
+class CrossingGuard {
+public:
+    //! \param mesh  outlives this. Cost: O(#faces).
+    explicit CrossingGuard(const EditedMesh& mesh) : mesh_(mesh), cell_(mesh.mean_length()) {
+        for (Index f = 0; f < mesh.num_faces(); ++f) insert(f);
+        for (Index f = 0; f < mesh.num_faces(); ++f) {
+            for (const Index other : faces_through(f)) pairs_.emplace(f, other);
+        }
+    }
+
+    //! Compares the intersections of some faces with those that were taken over last.
+    //! \param changed  each once, also those that are no longer there.
+    //! \return false if there are more. Cost: O(faces nearby).
+    [[nodiscard]] bool accepts(std::span<const Index> changed) {
+        before_.clear();
+        now_.clear();
+        for (const Index f : changed) {
+            for (auto i = pairs_.lower_bound({f, 0}); i != pairs_.end() && i->first == f; ++i) {
+                before_.insert(std::minmax(f, i->second));
+            }
+            if (mesh_.face(f).is_there) insert(f);
+        }
+        for (const Index f : changed) {
+            if (!mesh_.face(f).is_there) continue;
+            for (const Index other : faces_through(f)) now_.insert(std::minmax(f, other));
+            if (now_.size() > before_.size()) return false;
+        }
+        return true;
+    }
+    //! Takes over what accepts() has found.
+    void take_over() {
+        for (const auto& [f, g] : before_) {
+            pairs_.erase({f, g});
+            pairs_.erase({g, f});
+        }
+        for (const auto& [f, g] : now_) {
+            pairs_.emplace(f, g);
+            pairs_.emplace(g, f);
+        }
+    }
+
+private:
+    using Pairs = std::set<std::pair<Index, Index>>;
+    using Corners = std::array<Vec3, 3>;
+    struct Box {
+        Vec3 low, high;
+    };
+    // Faces over more cells are listed apart.
+    static constexpr double most_cells = 64;
+
+    [[nodiscard]] static Box box_of(const Corners& t) {
+        return {t[0].cwiseMin(t[1]).cwiseMin(t[2]), t[0].cwiseMax(t[1]).cwiseMax(t[2])};
+    }
+    // Calls each(key) for the cells of a box. False if there are too many.
+    template <typename Each>
+    bool for_each_cell(const Box& box, const Each& each) const {
+        const Eigen::Array3d low = (box.low.array() / cell_).floor(),
+                             high = (box.high.array() / cell_).floor();
+        if (!((high - low + 1).prod() <= most_cells)) return false;
+        for (double x = low[0]; x <= high[0]; ++x) {
+            for (double y = low[1]; y <= high[1]; ++y) {
+                for (double z = low[2]; z <= high[2]; ++z) {
+                    // Cells may share a key: that costs time only.
+                    each(static_cast<std::int64_t>(x) + 1'000'003 * static_cast<std::int64_t>(y) +
+                         998'244'353'011 * static_cast<std::int64_t>(z));
+                }
+            }
+        }
+        return true;
+    }
+    // Faces stay where they once were listed: what they are now is tested.
+    void insert(Index f) {
+        const Box box = box_of(mesh_.corners_of(f));
+        const auto add = [&](std::vector<Index>& list) {
+            if (std::find(list.begin(), list.end(), f) == list.end()) list.push_back(f);
+        };
+        if (!for_each_cell(box, [&](std::int64_t key) { add(faces_[key]); })) add(large_);
+    }
+    [[nodiscard]] std::vector<Index> faces_near(const Box& box) const {
+        std::vector<Index> near = large_;
+        const bool is_small = for_each_cell(box, [&](std::int64_t key) {
+            const auto found = faces_.find(key);
+            if (found != faces_.end()) {
+                near.insert(near.end(), found->second.begin(), found->second.end());
+            }
+        });
+        if (!is_small) {
+            near.resize(mesh_.num_faces());
+            std::iota(near.begin(), near.end(), Index{0});
+        }
+        std::sort(near.begin(), near.end());
+        near.erase(std::unique(near.begin(), near.end()), near.end());
+        return near;
+    }
+    // Faces that intersect one, each once.
+    [[nodiscard]] std::vector<Index> faces_through(Index f) const {
+        const Corners corners = mesh_.corners_of(f);
+        const Box box = box_of(corners);
+        std::vector<Index> found = faces_near(box);
+        std::erase_if(found, [&](Index g) {
+            if (g == f || !mesh_.face(g).is_there) return true;
+            const Corners others = mesh_.corners_of(g);
+            const Box other = box_of(others);
+            return (box.low.array() > other.high.array()).any() ||
+                   (other.low.array() > box.high.array()).any() || !do_cross(f, corners, g, others);
+        });
+        return found;
+    }
+    [[nodiscard]] bool do_cross(Index f, const Corners& at_f, Index g, const Corners& at_g) const {
+        const Triangle &s = mesh_.face(f).corner, &t = mesh_.face(g).corner;
+        const auto shares = [](const Triangle& of, Index v) {
+            return v == of[0] || v == of[1] || v == of[2];
+        };
+        if (shares(t, s[0]) + shares(t, s[1]) + shares(t, s[2]) > 1) return false;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::size_t next = (k + 1) % 3;
+            if (!shares(t, s[k]) && !shares(t, s[next]) &&
+                passes_through(at_f[k], at_f[next], at_g)) {
+                return true;
+            }
+            if (!shares(s, t[k]) && !shares(s, t[next]) &&
+                passes_through(at_g[k], at_g[next], at_f)) {
+                return true;
+            }
+        }
+        return false;
+    }
+
+    const EditedMesh& mesh_;
+    const double cell_;
+    std::unordered_map<std::int64_t, std::vector<Index>> faces_;  // By cell.
+    std::vector<Index> large_;
+    Pairs pairs_;         // Each in both orders.
+    Pairs before_, now_;  // Of the faces that accepts() compared; each once.
+};
+
+}  // namespace remesh::detail
