@@ -167,8 +167,7 @@ private:
         if (crossings) {
             built_.self_intersections = crossings->counts();
             for_each_corner(crossings->added, placed.mesh.triangles, [&](Index v) {
-                built_.crossing_corners.push_back(
-                    placed.mesh.position(domain_.whole->mesh.view(), v));
+                built_.crossing_corners.push_back(placed.mesh.points[v]);
             });
         }
         if (!is_relaxed(context_.options)) return;

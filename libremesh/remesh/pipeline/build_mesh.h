@@ -17,7 +17,8 @@ struct BuiltMesh {
     Index num_wanted = 0;               //!< Vertices that were asked for.
     Index num_vertices = 0;             //!< To which the sites could be reduced.
     std::optional<CrossingCounts> self_intersections;  //!< Unset without CGAL.
-    std::vector<Vec3> crossing_corners;  //!< Corners of the faces that intersect, the input's not.
+    //! Corners of the faces that intersect, the input's not; on the cleaned surface.
+    std::vector<SurfacePoint> crossing_corners;
 };
 
 //! Builds the mesh of the sites and improves its narrow triangles.

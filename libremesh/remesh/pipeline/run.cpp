@@ -43,12 +43,13 @@ bool is_better(const RemeshResult& result, const RemeshResult& best) {
            (is_fine(result) || result.new_self_intersections < best.new_self_intersections);
 }
 
-// Whether lengths are ours to choose, for a number of samples that is given.
+// Whether lengths in places are ours to choose, for a number of samples or a mean that is given.
 bool may_shorten(const RemeshOptions& options) {
     const Sizing& sizing = options.sizing;
     return !options.sites && (sizing.is_adaptive() || sizing.is_even()) &&
            (std::holds_alternative<NumSamples>(sizing.count) ||
-            std::holds_alternative<NumFaces>(sizing.count));
+            std::holds_alternative<NumFaces>(sizing.count) ||
+            std::holds_alternative<MeanEdge>(sizing.count));
 }
 
 // Whether an attempt with fewer creases, or without seams, would differ from this one.
@@ -62,6 +63,8 @@ bool has_more_to_drop(const KeptCurves& kept, const FeatureCounts& features) {
 class Attempts {
     // Changes of creases in places before all go.
     static constexpr int most_changes = 3;
+    // Runs with shorter edges in places.
+    static constexpr int most_shortenings = 3;
 
 public:
     // \param most_lengths  see find_sizes.
@@ -80,11 +83,7 @@ public:
         run_all(true);
         if (!best_) run_all(false);
         if (!best_) throw TooFewSamples{options_.num_samples, num_needed_};
-        // A rod that is narrower than the spacing gets shorter by some edges.
-        if (best_->verdict.largest_distance > best_->verdict.spacing &&
-            !narrow_points_.empty() && may_shorten(options_)) {
-            shorten_narrow();
-        }
+        shorten_edges();
         best_->seconds = first_.seconds;
         best_->features.samples_for_all = samples_for_all_;
         return *std::move(best_);
@@ -98,13 +97,13 @@ private:
                                    : refines_            ? CloseCreases::GoOrRefine
                                                          : CloseCreases::Go;
         found_ = find_curves(cleaned_, spacing, close, {options_, first_});
-        sizes_ = find_sizes(cleaned_, found_, spacing, most_lengths, {}, {options_, first_});
+        sizes_ = find_sizes(cleaned_, found_, spacing, most_lengths, {}, {}, {options_, first_});
     }
 
     void run_all(bool has_junctions) {
         KeptCurves kept{has_junctions, !found_.is_seam.empty(), found_.is_crease};
         for (int num_changes = 0;;) {
-            std::vector<Vec3> crossings;
+            std::vector<SurfacePoint> crossings;
             if (try_curves(kept, crossings)) return;
             if (!found_.strips.empty()) {  // The same without them.
                 refines_ = false;
@@ -126,7 +125,7 @@ private:
     // time all go there.
     // \param num_changes  so far.
     // \return whether there was a change.
-    bool change_near(std::span<const Vec3> crossings, int& num_changes,
+    bool change_near(std::span<const SurfacePoint> crossings, int& num_changes,
                      std::vector<std::uint8_t>& is_crease) const {
         const double spacing = spacing_for(cleaned_, options_);
         while (num_changes < most_changes && !crossings.empty()) {
@@ -137,8 +136,12 @@ private:
                     if (found_.is_given[e] != 0) is_among[e] = 0;
                 }
             }
+            std::vector<Vec3> corners;
+            for (const SurfacePoint& point : crossings) {
+                corners.push_back(position(cleaned_.surface.mesh.view(), point));
+            }
             const std::vector<Index> near =
-                edges_near(crossings, cleaned_.surface, spacing, is_among);
+                edges_near(corners, cleaned_.surface, spacing, is_among);
             for (const Index e : near) is_crease[e] = come_back ? 1 : 0;
             if (!near.empty()) return true;
         }
@@ -149,7 +152,7 @@ private:
     // \param[out] crossings  corners of faces that intersect; none if less creases would not help,
     //                        or there is no mesh.
     // \return whether it is no use to try other curves.
-    bool try_curves(const KeptCurves& kept, std::vector<Vec3>& crossings) {
+    bool try_curves(const KeptCurves& kept, std::vector<SurfacePoint>& crossings) {
         RemeshResult result = first_;
         AttemptEnd end =
             run_attempt(cleaned_, found_, kept, sizes_.field.get(), {options_, result});
@@ -162,31 +165,56 @@ private:
         }
         result.features.gave_up = kept.is_crease != found_.is_crease;
         if (!is_hopeless(result.self_intersections.value_or(0), {options_, result})) {
-            crossings = std::move(end.crossing_corners);
+            crossings = end.crossing_corners;
         }
         if (!best_ || is_better(result, *best_)) {
             best_ = std::move(result);
             kept_ = kept;
             narrow_points_ = std::move(end.narrow_points);
+            crossings_ = std::move(end.crossing_corners);
         }
         return is_bare || is_fine(*best_);
     }
 
-    // Runs the best attempt again with shorter edges on narrow parts, and keeps the better result.
-    void shorten_narrow() {
+    // Runs the best attempt again with shorter edges on narrow parts, if such a part was lost, and
+    // where faces intersect that do not in the input. Keeps the best result.
+    void shorten_edges() {
+        if (!may_shorten(options_)) return;
+        // A rod that is narrower than the spacing gets shorter by some edges.
+        const bool has_lost_part = best_->verdict.largest_distance > best_->verdict.spacing;
+        if (!has_lost_part) narrow_points_.clear();
+        double length = best_->verdict.spacing;
+        std::vector<SizedPoint> points;
+        std::vector<SurfacePoint> crossings = std::move(crossings_);
+        for (int round = 0; round < most_shortenings; ++round) {
+            const bool is_lost = round == 0 && !narrow_points_.empty();
+            if ((is_fine(*best_) || crossings.empty()) && !is_lost) return;
+            length /= 2;
+            if (is_hopeless(best_->self_intersections.value_or(0), {options_, *best_})) {
+                crossings.clear();
+            }
+            for (const SurfacePoint& point : crossings) points.push_back({point, length});
+            crossings = run_shorter(points);
+        }
+    }
+
+    // \return corners of faces that intersect.
+    std::vector<SurfacePoint> run_shorter(std::span<const SizedPoint> points) {
         RemeshResult again = first_;
         const StageContext context{options_, again};
         const RunSizes sizes = find_sizes(cleaned_, found_, spacing_for(cleaned_, options_), {},
-                                          narrow_points_, context);
-        const bool has_mesh =
-            run_attempt(cleaned_, found_, kept_, sizes.field.get(), context).has_mesh;
+                                          narrow_points_, points, context);
+        const Index asked = std::exchange(options_.num_samples, sizes.num_samples);
+        AttemptEnd end = run_attempt(cleaned_, found_, kept_, sizes.field.get(), context);
+        options_.num_samples = asked;
         first_.seconds = again.seconds;
-        if (!has_mesh || num_more_crossings(again) > num_more_crossings(*best_) ||
-            again.verdict.largest_distance >= best_->verdict.largest_distance) {
-            return;
+        const Index crossings = num_more_crossings(again), before = num_more_crossings(*best_);
+        const bool is_nearer = again.verdict.largest_distance < best_->verdict.largest_distance;
+        if (end.has_mesh && (crossings < before || (crossings == before && is_nearer))) {
+            again.features.gave_up = best_->features.gave_up;
+            best_ = std::move(again);
         }
-        again.features.gave_up = best_->features.gave_up;
-        best_ = std::move(again);
+        return std::move(end.crossing_corners);
     }
 
     const CleanedInput& cleaned_;
@@ -198,6 +226,7 @@ private:
     std::optional<RemeshResult> best_;
     KeptCurves kept_;                          // Of the best.
     std::vector<SurfacePoint> narrow_points_;  // Of the best.
+    std::vector<SurfacePoint> crossings_;      // Corners of the best that intersect.
     Index samples_for_all_ = 0;                // Of the attempt with most curves.
     Index num_needed_ = 0;                     // Vertices, by the last attempt without a mesh.
 };
@@ -232,7 +261,7 @@ EnoughSamples find_enough(const CleanedInput& cleaned, const RemeshResult& after
         RemeshResult result = after_cleaning;
         RunSizes sizes;
         if (!cleaned.locked.empty()) {
-            sizes = find_sizes(cleaned, {}, spacing_for(cleaned, more), {}, {}, {more, result});
+            sizes = find_sizes(cleaned, {}, spacing_for(cleaned, more), {}, {}, {}, {more, result});
         }
         const AttemptEnd end = run_attempt(cleaned, {}, {}, sizes.field.get(), {more, result});
         if (end.has_mesh) return {.count = reached, .is_tried = true};

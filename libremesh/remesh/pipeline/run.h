@@ -18,7 +18,7 @@ struct KeptCurves;
 struct AttemptEnd {
     bool has_mesh = false;
     Index num_needed = 0;                     //!< Without a mesh: so many vertices may suffice.
-    std::vector<Vec3> crossing_corners = {};  //!< See BuiltMesh.
+    std::vector<SurfacePoint> crossing_corners = {};  //!< See BuiltMesh.
     //! On the cleaned surface, where parts are narrower than the spacing: see PlacedSites.
     std::vector<SurfacePoint> narrow_points = {};
 };

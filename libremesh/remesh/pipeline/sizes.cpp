@@ -170,13 +170,14 @@ std::vector<double> most_lengths_on(const FieldBase& on, const Surface& surface,
     return carry_values(most, on);
 }
 
-// Lowers bounds at the ends of the base's edges on which strips have points.
+// Lowers bounds at the corners of the base's faces, or the ends of its edges, that have points.
 // \param most  #V of the base, or empty: there are no bounds.
-void limit_on_strips(const FieldBase& on, std::span<const SizedPoint> strips,
+void limit_at_points(const FieldBase& on, std::span<const SizedPoint> points,
                      std::vector<double>& most) {
+    if (points.empty()) return;
     const Surface& surface = on.base->surface();
     most.resize(surface.num_vertices(), infinity);
-    for (const SizedPoint& point : strips) {
+    for (const SizedPoint& point : points) {
         const SurfacePoint at = on.base->to_intrinsic(point.at);
         for (std::size_t k = 0; k < 3; ++k) {
             double& here = most[surface.mesh.triangles[at.face.value()][k]];
@@ -223,19 +224,21 @@ double mean_edge(const MeshView& mesh) {
 
 RunSizes find_sizes(const CleanedInput& cleaned, const FoundCurves& found, double spacing,
                     std::span<const double> most_lengths,
-                    std::span<const SurfacePoint> narrow_points, const StageContext& context) {
+                    std::span<const SurfacePoint> narrow_points,
+                    std::span<const SizedPoint> short_points, const StageContext& context) {
     const auto& [options, result] = context;
     Sizing sizing = options.sizing;
-    const bool has_strips = !found.strips.empty();
-    if (sizing.is_even() && narrow_points.empty() && !has_strips)
+    const bool has_limits = !found.strips.empty() || !short_points.empty();
+    if (sizing.is_even() && narrow_points.empty() && !has_limits) {
         return {nullptr, options.num_samples};
+    }
     const StageClock clock(Stage::Clean, result);
     const Progress progress = cleaned_progress(options);
     Poller poller(progress);
     Ticker ticker(poller);
     const double num_sites =
         options.sites ? static_cast<double>(options.sites->size()) : options.num_samples;
-    const bool drops_vertices = sizing.is_adaptive() || !narrow_points.empty() || has_strips;
+    const bool drops_vertices = sizing.is_adaptive() || !narrow_points.empty() || has_limits;
     const FieldBase on = make_base(cleaned, found, spacing, num_sites, drops_vertices, options);
     const std::vector<double> values = values_for(sizing, cleaned, on, num_sites, ticker);
     const std::vector<double> locked = locked_lengths(cleaned);
@@ -245,8 +248,9 @@ RunSizes find_sizes(const CleanedInput& cleaned, const FoundCurves& found, doubl
             ? most_lengths_on(on, cleaned.surface, most_lengths, locked, options.num_threads)
             : narrow_lengths(*on.base, narrow_points, on.joined, spacing, num_sites,
                              portable::log(sizing.gradation), ticker);
-    if (has_strips) {
-        limit_on_strips(on, found.strips, most);
+    limit_at_points(on, found.strips, most);
+    limit_at_points(on, short_points, most);
+    if (!found.strips.empty()) {
         sizing.gradation = std::max(sizing.gradation, gradation_for(strip_slope));
     }
     const bool gives_count =

@@ -18,10 +18,12 @@ struct RunSizes {
 //! \param most_lengths  #V of the cleaned mesh: no target is longer; or empty. Nor is one longer
 //!                      than the locked edges beside it.
 //! \param narrow_points   on the cleaned surface: where edges have to be shorter (narrow_lengths).
+//! \param short_points    likewise, by these lengths.
 //! Cost: that of a base, and a few sweeps over the edges.
 [[nodiscard]] RunSizes find_sizes(const CleanedInput& cleaned, const FoundCurves& found,
                                   double spacing, std::span<const double> most_lengths,
                                   std::span<const SurfacePoint> narrow_points,
+                                  std::span<const SizedPoint> short_points,
                                   const StageContext& context);
 
 //! Longest edges on parts that are narrower than the spacing: some five vertices lie around each.
