@@ -141,7 +141,7 @@ TEST_F(Remesh, LabelsGiveLengthsOfEdges) {
             for (std::size_t k = 0; k < 3; ++k) {
                 const agvd::Vec3 &a = result.positions[t[k]], &b = result.positions[t[(k + 1) % 3]];
                 const double level = (a.z() + b.z()) / 2;
-                if (level == 1) flat.push_back((a - b).norm());
+                if (std::abs(level - 1) < 1e-9) flat.push_back((a - b).norm());
                 if (std::abs(level - 0.5) < 0.15) middle.push_back((a - b).norm());
             }
         }

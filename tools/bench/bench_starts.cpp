@@ -88,7 +88,7 @@ void measure(const std::filesystem::path& path, const Arguments& arguments, Json
                                            remesh::mean_spacing(surface, arguments.samples));
     const remesh::NetworkPlan plan = remesh::plan_network(
         surface, std::vector<std::uint8_t>(surface.num_edges(), 0), arguments.samples);
-    const remesh::PreparedSurface on_plan(plan.cut.surface,
+    const remesh::PreparedSurface on_plan(plan.cut.surface(),
                                           remesh::mean_spacing(surface, arguments.samples));
     const std::vector<Start> all = starts(surface, arguments.samples);
     if (rows.empty()) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -143,14 +144,18 @@ struct CurveNetwork {
 
 //! A surface cut along a network of curves.
 struct CutSurface {
-    //! Faces and half-edges keep their numbers, so surface points stay valid. A vertex on curves
-    //! has a copy for each wedge between them; the first copy keeps the old number.
-    Surface surface;
+    const Surface* whole = nullptr;      //!< The surface before the cut, which outlives this.
+    std::optional<Surface> own = {};     //!< After it; unset: nothing inside the surface is cut.
     std::vector<Index> original;  //!< #V: the vertex that each is a copy of.
     Index num_original = 0;       //!< Vertices before the cut, their own originals.
+
+    //! Faces and half-edges keep their numbers, so surface points stay valid. A vertex on curves
+    //! has a copy for each wedge between them; the first copy keeps the old number.
+    [[nodiscard]] const Surface& surface() const { return own ? *own : *whole; }
 };
 
 //! Cuts a surface along edges, which become boundary edges on both sides.
+//! \param surface  outlives the result.
 //! \param is_cut  #E: 1 for edges to cut; boundary edges may be among them.
 //! \param num_threads  >= 0; 0: all cores. The result is the same for any number.
 //! \throw Cancelled  the progress callback returned false.

@@ -236,7 +236,7 @@ CurveSites curve_sites_at(const CurveNetwork& network, const CutSurface& cut,
     SitePlacer placer(result);
     for (const std::vector<Index>& copies : copies_of_nodes(network, cut)) {
         for (const Index v : copies) {
-            placer.add_copy(point_at(cut.surface, v), cut.original[v]);
+            placer.add_copy(point_at(cut.surface(), v), cut.original[v]);
         }
         placer.end_group(0);
     }
@@ -275,7 +275,7 @@ std::vector<DirectedEdge> ends_of(std::span<const ChainEdge> chain) {
 
 std::vector<ChainEdge> chain_edges(const CurveNetwork& network, const CutSurface& cut,
                                    const CurveSites& sites) {
-    std::vector<Index> site_at(cut.surface.num_vertices(), no_index);  // Copies of nodes.
+    std::vector<Index> site_at(cut.surface().num_vertices(), no_index);  // Copies of nodes.
     const std::vector<std::vector<Index>> copies = copies_of_nodes(network, cut);
     Index next = 0;
     for (const std::vector<Index>& node : copies) {
@@ -286,13 +286,13 @@ std::vector<ChainEdge> chain_edges(const CurveNetwork& network, const CutSurface
         const Curve& curve = network.curves[c];
         for (Index side = 0; side < curve.sides.size(); ++side) {
             std::vector<Index> chain;
-            if (!curve.is_closed()) chain.push_back(site_at[curve.vertex(cut.surface, 0, side)]);
+            if (!curve.is_closed()) chain.push_back(site_at[curve.vertex(cut.surface(), 0, side)]);
             for (Index g = sites.first_of_curve[c]; g < sites.first_of_curve[c + 1]; ++g) {
                 chain.push_back(sites.first_copy[g] + side);
             }
             chain.push_back(curve.is_closed()
                                 ? chain.front()
-                                : site_at[curve.vertex(cut.surface, curve.num_edges(), side)]);
+                                : site_at[curve.vertex(cut.surface(), curve.num_edges(), side)]);
             for (Index i = 0; i + 1 < chain.size(); ++i) {
                 ChainEdge edge{chain[i], chain[i + 1], c, i, side};
                 if (!curve.sides[side].runs_along) std::swap(edge.from, edge.to);

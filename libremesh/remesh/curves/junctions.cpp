@@ -150,14 +150,19 @@ std::vector<Index> first_copies(const JunctionSet& junctions, Index num_vertices
 
 CutSurface cut_surface(const Surface& surface, std::span<const std::uint8_t> is_cut,
                        int num_threads, const Progress& progress) {
+    std::vector<Index> original(surface.num_vertices());
+    std::iota(original.begin(), original.end(), Index{0});
+    bool is_whole = true;
+    for (Index e = 0; e < surface.num_edges(); ++e) {
+        if (is_cut[e] != 0 && surface.twin[surface.edge_half[e]] != no_index) is_whole = false;
+    }
+    if (is_whole) return {&surface, {}, std::move(original), surface.num_vertices()};
     TriangleMesh mesh = surface.mesh;
     Connectivity connectivity{surface.twin, surface.outgoing};
-    std::vector<Index> original(surface.num_vertices());
     for (Index h = 0; h < connectivity.twin.size(); ++h) {
         if (is_cut[surface.edge[h]] != 0) connectivity.twin[h] = no_index;
     }
     for (Index v = 0; v < surface.num_vertices(); ++v) {
-        original[v] = v;
         std::vector<Index> firsts;  // The first half-edge of each wedge.
         for_each_outgoing(surface, v, [&](Index h) {
             if (!is_open(surface, is_cut, h)) firsts.push_back(h);
@@ -177,7 +182,7 @@ CutSurface cut_surface(const Surface& surface, std::span<const std::uint8_t> is_
             }
         }
     }
-    return {build_surface(std::move(mesh), std::move(connectivity), num_threads, progress),
+    return {&surface, build_surface(std::move(mesh), std::move(connectivity), num_threads, progress),
             std::move(original), surface.num_vertices()};
 }
 

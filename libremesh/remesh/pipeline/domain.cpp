@@ -41,7 +41,7 @@ Domain prepare_domain(const CleanedInput& cleaned, std::unique_ptr<const CurvePl
     const Progress progress = within(progress_of(Stage::Clean, options), cleaned_fraction, 1);
     const CurvePlan& cut = *plan;
     Domain domain{.plan = std::move(plan),
-                  .prepared = PreparedSurface(cut.network.cut.surface, spacing,
+                  .prepared = PreparedSurface(cut.network.cut.surface(), spacing,
                                               options.num_threads, progress, sizes),
                   .whole = &cleaned.surface,
                   .spacing = spacing,

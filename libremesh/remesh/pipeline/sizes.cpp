@@ -65,7 +65,7 @@ FieldBase make_base(const CleanedInput& cleaned, const FoundCurves& found, doubl
     }
     made.original = std::move(cut.original);
     made.base = std::make_shared<const IntrinsicTriangulation>(
-        std::move(cut.surface),
+        cut.own ? *std::move(cut.own) : *cut.whole,
         IntrinsicOptions{
             .max_length = longest_edge * spacing,
             .min_length = drops_vertices ? shortest_edge * spacing : 0,

@@ -67,9 +67,9 @@ void divide(const Surface& surface, const std::vector<std::uint8_t>& is_crease, 
             const SizeField* sizes, int num_threads, const Progress& progress, NetworkPlan& plan) {
     plan.cut = cut_surface(surface, edges_to_cut(plan.junctions, is_crease), num_threads, progress);
     SpacingSearch search{surface, plan.network, length_function(sizes)};
-    for (const Component& component : detail::sized_components(plan.cut.surface, sizes, progress)) {
+    for (const Component& component : detail::sized_components(plan.cut.surface(), sizes, progress)) {
         search.patches.push_back(
-            {component.area(), detail::sized_boundary_length(plan.cut.surface, component, sizes)});
+            {component.area(), detail::sized_boundary_length(plan.cut.surface(), component, sizes)});
     }
     plan.spacing = search.run(num_vertices);
     plan.along = search.positions_at(plan.spacing);

@@ -122,7 +122,7 @@ struct MiddleFinder {
         for (const auto& [pair, middle] : by_pair) dual.middles.push_back(middle);
     }
 
-    [[nodiscard]] const Surface& surface() const { return plan.cut.surface; }
+    [[nodiscard]] const Surface& surface() const { return plan.cut.surface(); }
     [[nodiscard]] Vec3 at(Index site) const { return position(surface().mesh.view(), sites[site]); }
 
     // Whether a point lies at a vertex of the rim: there may be a site of a curve.
@@ -300,7 +300,7 @@ private:
     std::vector<SurfacePoint> sample(const CurveSites& curves, Index num_inner, double spacing) {
         std::vector<SurfacePoint> sites = curves.sites;
         const auto inner =
-            sample_inner_sites(plan_.cut.surface, curves.sites, num_inner, spacing, sampling_);
+            sample_inner_sites(plan_.cut.surface(), curves.sites, num_inner, spacing, sampling_);
         sites.insert(sites.end(), inner.begin(), inner.end());
         return sites;
     }
@@ -337,9 +337,9 @@ private:
         const std::vector<Index> intervals = coarse_intervals(plan_);
         const CurveSites coarse =
             curve_sites_at(plan_.network, plan_.cut,
-                           even_positions(plan_.cut.surface, plan_.network, plan_.spacing,
+                           even_positions(plan_.cut.surface(), plan_.network, plan_.spacing,
                                           intervals, length_function(options_.sizes)));
-        const double euler = euler_of(plan_.cut.surface);
+        const double euler = euler_of(plan_.cut.surface());
         const double wanted =
             (num_inner_ - static_cast<double>(coarse.sites.size()) + 3 * euler) / 4 + 1;
         if (wanted < least_coarse_inner_sites) return nullptr;
@@ -387,7 +387,7 @@ private:
                           [](const detail::Middle& m) { return std::pair(m.low, m.high); });
         const auto count = static_cast<Index>(fine_.sites.size()) + num_inner_;
         std::optional<detail::TriangulatedSites> divided = detail::subdivide(
-            plan_.cut.surface, sites, weights, dual, count, lengths_at(options_.sizes, sites));
+            plan_.cut.surface(), sites, weights, dual, count, lengths_at(options_.sizes, sites));
         if (!divided) return nullptr;
         return make_relaxation(*std::move(divided), fine_);
     }

@@ -18,7 +18,7 @@ struct NetworkSites {
 
 //! Samples and relaxes sites, coarse to fine; sites of curves slide along these. The result has
 //! sampling.num_samples vertices: a site of a curve counts as often as it becomes a vertex.
-//! \param surface   of plan.cut.surface.
+//! \param surface   of plan.cut.surface().
 //! \param plan      its network needs at most sampling.num_samples vertices.
 //! \param options   boundary and corners are ignored.
 //! \throw as sample_sites and relax_sites.

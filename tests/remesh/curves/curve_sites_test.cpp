@@ -33,12 +33,12 @@ struct Placed {
         cut = remesh::cut_surface(surface, flags);
         intervals = remesh::curve_intervals(surface, network, spacing);
         sites = remesh::curve_sites_at(
-            network, cut, remesh::even_positions(cut.surface, network, spacing, intervals));
+            network, cut, remesh::even_positions(cut.surface(), network, spacing, intervals));
         chain = remesh::chain_edges(network, cut, sites);
     }
 
     [[nodiscard]] Vec3 at(Index site) const {
-        return position(cut.surface.mesh.view(), sites.sites[site]);
+        return position(cut.surface().mesh.view(), sites.sites[site]);
     }
 
     Surface surface;
@@ -194,7 +194,7 @@ TEST(CurveSites, ChainsRunAlongTheBoundaryOfEachPatch) {
             num_edges += placed.intervals[c] * static_cast<Index>(curve.sides.size());
         }
         EXPECT_EQ(placed.chain.size(), num_edges);
-        const remesh::Topology patches = remesh::analyze_topology(placed.cut.surface.mesh.view());
+        const remesh::Topology patches = remesh::analyze_topology(placed.cut.surface().mesh.view());
         const auto patch = [&](Index site) {
             return patches.face_component[placed.sites.sites[site].face.value()];
         };

@@ -175,15 +175,15 @@ TEST(JunctionCurves, SitesHaveACopyOnEachSideAndAVertexOnEachSheet) {
         const remesh::CutSurface cut = remesh::cut_surface(mesh.surface, is_cut);
         const auto intervals = remesh::curve_intervals(mesh.surface, mesh.network, .3);
         const auto sites = remesh::curve_sites_at(
-            mesh.network, cut, remesh::even_positions(cut.surface, mesh.network, .3, intervals));
+            mesh.network, cut, remesh::even_positions(cut.surface(), mesh.network, .3, intervals));
         EXPECT_EQ(num_result_vertices(mesh.network, sites),
                   num_curve_vertices(mesh.network, intervals));
         Index num_there = 0, num_groups = 0;
         for (Index g = 0; g < sites.num_groups(); ++g) {
             const Index first = sites.first_copy[g], last = sites.first_copy[g + 1];
-            const Vec3 at = position(cut.surface.mesh.view(), sites.sites[first]);
+            const Vec3 at = position(cut.surface().mesh.view(), sites.sites[first]);
             for (Index i = first; i < last; ++i) {
-                const Vec3 other = position(cut.surface.mesh.view(), sites.sites[i]);
+                const Vec3 other = position(cut.surface().mesh.view(), sites.sites[i]);
                 EXPECT_LT((other - at).norm(), 1e-12);
             }
             if (at.x() != 0 || at.z() != 0) continue;

@@ -71,7 +71,7 @@ void expect_topology(const agvd::TriangleMesh& mesh, Index num_sites, const Coun
     const agvd::Surface surface = agvd::build_surface(mesh.view());
     const remesh::NetworkPlan plan =
         remesh::plan_network(surface, std::vector<std::uint8_t>(surface.num_edges(), 0), num_sites);
-    const remesh::PreparedSurface prepared(plan.cut.surface,
+    const remesh::PreparedSurface prepared(plan.cut.surface(),
                                            remesh::mean_spacing(surface, num_sites));
     for (const int steps : {0, 60}) {
         SCOPED_TRACE(std::to_string(num_sites) + " sites, steps: " + std::to_string(steps));

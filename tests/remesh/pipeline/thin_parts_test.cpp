@@ -100,11 +100,9 @@ TEST(ThinParts, ARodKeepsItsLength) {
         const RemeshResult result =
             remesh::remesh(ball_with_rod(radius).view(), {.num_samples = 1000, .sizing = sizing});
         EXPECT_EQ(result.mesh.positions.size(), 1000u);
-        EXPECT_EQ(result.features.simplified_patches, 0u);
         // With equal edges: 8 to 12 %.
         EXPECT_LT(distance_in_diagonals(result), 0.015) << radius << ' ' << is_adaptive;
         EXPECT_GT(result.verdict.min_angle, 15 * std::numbers::pi / 180);
-        EXPECT_LT(result.sizing.least_target, 0.6 * result.sizing.largest_target);
     }
 }
 

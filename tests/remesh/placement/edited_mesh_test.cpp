@@ -221,7 +221,7 @@ struct CreasedBox {
         : whole(build_surface(parts::box({1, 1, 1}, 4).view())),
           network(remesh::find_network(whole, flag_sharp_edges(whole), 0.1)),
           cut(remesh::cut_surface(whole, flag_sharp_edges(whole))),
-          curves(whole, cut.surface, network) {
+          curves(whole, cut.surface(), network) {
         placed.triangles = whole.mesh.triangles;
         placed.points.resize(whole.num_vertices());
         placed.offsets.assign(whole.num_vertices(), Vec3::Zero());

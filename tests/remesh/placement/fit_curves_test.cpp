@@ -26,7 +26,7 @@ struct Fitted {
         const remesh::CutSurface cut = remesh::cut_surface(surface, flags);
         intervals = remesh::curve_intervals(surface, network, spacing);
         sites = remesh::curve_sites_at(
-            network, cut, remesh::even_positions(cut.surface, network, spacing, intervals));
+            network, cut, remesh::even_positions(cut.surface(), network, spacing, intervals));
         offsets = remesh::fit_curves(surface, network, sites);
     }
 

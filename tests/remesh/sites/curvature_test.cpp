@@ -100,7 +100,7 @@ TEST(Curvature, IsZeroBetweenCreasesThatAreCut) {
     for (const Index n : {1u, 6u}) {
         const agvd::Surface whole = agvd::build_surface(parts::box({1, 2, 3}, n).view());
         const remesh::CutSurface cut = remesh::cut_surface(whole, flag_sharp_edges(whole));
-        for (const double k : curvature_of(cut.surface, 400, 0.2).curvature) {
+        for (const double k : curvature_of(cut.surface(), 400, 0.2).curvature) {
             EXPECT_LT(k, 1e-6);
         }
         const Curved uncut = curvature_of(whole, 400, 0.2);

@@ -26,7 +26,7 @@ struct Cube {
         cut = remesh::cut_surface(surface, flags);
         const std::vector<Index> intervals(12, 5);
         sites = remesh::curve_sites_at(
-            network, cut, remesh::even_positions(cut.surface, network, spacing, intervals));
+            network, cut, remesh::even_positions(cut.surface(), network, spacing, intervals));
         cells.assign(sites.sites.size(), {Vec3::Zero(), Vec3::Zero(), 1, 1});
     }
 
@@ -69,9 +69,9 @@ TEST(CurveMotion, SitesGoDownTheSlopeOfAllTheirCopies) {
     }
     const auto& moved = motion.sites();
     const Vec3 expected =
-        position(cube.cut.surface.mesh.view(), cube.sites.sites[first]) + .005 * tangent;
+        position(cube.cut.surface().mesh.view(), cube.sites.sites[first]) + .005 * tangent;
     for (Index copy = first; copy < first + 2; ++copy) {
-        EXPECT_LT((position(cube.cut.surface.mesh.view(), moved.sites[copy]) - expected).norm(),
+        EXPECT_LT((position(cube.cut.surface().mesh.view(), moved.sites[copy]) - expected).norm(),
                   1e-12);
         EXPECT_EQ(motion.copies_with(copy), std::pair(first, first + 2));
     }
@@ -126,7 +126,7 @@ TEST(CurveMotion, ClosedCurvesGoRound) {
     const auto network = remesh::find_network(surface, flags, .2);
     const auto cut = remesh::cut_surface(surface, flags);
     const auto sites = remesh::curve_sites_at(
-        network, cut, remesh::even_positions(cut.surface, network, .2, std::vector<Index>(2, 16)));
+        network, cut, remesh::even_positions(cut.surface(), network, .2, std::vector<Index>(2, 16)));
     CurveMotion motion(surface, network, sites);
     for (int i = 0; i < 60; ++i) {
         std::vector<CvtEnergy::Cell> cells(sites.sites.size(), {Vec3::Zero(), Vec3::Zero(), 1, 1});

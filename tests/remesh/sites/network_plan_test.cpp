@@ -25,7 +25,7 @@ NetworkPlan plan_of(const Surface& surface, Index num_sites) {
 }
 
 Vec3 at(const NetworkPlan& plan, const SurfacePoint& site) {
-    return position(plan.cut.surface.mesh.view(), site);
+    return position(plan.cut.surface().mesh.view(), site);
 }
 
 }  // namespace
@@ -38,7 +38,7 @@ TEST(NetworkPlan, CurvesAndPatchesHaveTheSameSpacing) {
         EXPECT_EQ(plan.sites_for_all, 8u);
         EXPECT_NEAR(plan.length, 12, 1e-12);
         EXPECT_EQ(plan.dropped_length, 0);
-        EXPECT_EQ(plan.cut.surface.num_faces(), surface.num_faces());
+        EXPECT_EQ(plan.cut.surface().num_faces(), surface.num_faces());
         // A mesh of equilateral triangles: N - 2 = F / 2.
         const double ideal = std::sqrt(6 * 2 / std::sqrt(3.) / (n - 2));
         EXPECT_NEAR(plan.spacing / ideal, 1, 0.1);
@@ -92,16 +92,16 @@ TEST(SampleInnerSites, PatchesGetTheirShareOffTheirRim) {
     const NetworkPlan plan = plan_of(surface, 300);
     const remesh::CurveSites curves = remesh::curve_sites_at(plan.network, plan.cut, plan.along);
     const Index count = 300 - curves.num_groups();
-    const remesh::Topology patches = remesh::analyze_topology(plan.cut.surface.mesh.view());
+    const remesh::Topology patches = remesh::analyze_topology(plan.cut.surface().mesh.view());
     for (const auto init : {remesh::Init::BlueNoise, remesh::Init::Farthest}) {
-        const auto sites = remesh::sample_inner_sites(plan.cut.surface, curves.sites, count,
+        const auto sites = remesh::sample_inner_sites(plan.cut.surface(), curves.sites, count,
                                                       plan.spacing, {.init = init, .seed = 3});
         ASSERT_EQ(sites.size(), count);
         std::vector<Index> in_patch(6, 0);
         double nearest = 1;
         for (const SurfacePoint& s : sites) {
             ++in_patch[patches.face_component[s.face.value()]];
-            EXPECT_FALSE(agvd::is_on_boundary(plan.cut.surface, s));
+            EXPECT_FALSE(agvd::is_on_boundary(plan.cut.surface(), s));
             for (const SurfacePoint& rim : curves.sites) {
                 nearest = std::min(nearest, (at(plan, s) - at(plan, rim)).norm());
             }
@@ -115,21 +115,21 @@ TEST(SampleInnerSites, PatchesThatLackNoneGetNoneButWhereAllAreSo) {
     // Two plates and four strips narrower than the spacing.
     const Surface surface = agvd::build_surface(parts::box({1, 1, .02}, 4).view());
     const NetworkPlan plan = plan_of(surface, 300);
-    const remesh::Topology patches = remesh::analyze_topology(plan.cut.surface.mesh.view());
-    const auto sites = remesh::sample_inner_sites(plan.cut.surface, {}, 100, plan.spacing, {});
+    const remesh::Topology patches = remesh::analyze_topology(plan.cut.surface().mesh.view());
+    const auto sites = remesh::sample_inner_sites(plan.cut.surface(), {}, 100, plan.spacing, {});
     ASSERT_EQ(sites.size(), 100u);
     for (const SurfacePoint& s : sites) {
-        EXPECT_EQ(plan.cut.surface.mesh.triangles.size(), surface.mesh.triangles.size());
+        EXPECT_EQ(plan.cut.surface().mesh.triangles.size(), surface.mesh.triangles.size());
         const double z = at(plan, s).z();
         EXPECT_TRUE(std::abs(z) < 1e-12 || std::abs(z - .02) < 1e-12);
     }
-    EXPECT_EQ(remesh::sample_inner_sites(plan.cut.surface, {}, 7, 50, {}).size(), 7u);
+    EXPECT_EQ(remesh::sample_inner_sites(plan.cut.surface(), {}, 7, 50, {}).size(), 7u);
 }
 
 TEST(RelaxNetwork, SitesOfCurvesStayOnThemAndTogether) {
     const Surface surface = agvd::build_surface(parts::capped_cylinder(64, 6).view());
     const NetworkPlan plan = plan_of(surface, 400);
-    const remesh::PreparedSurface prepared(plan.cut.surface, plan.spacing);
+    const remesh::PreparedSurface prepared(plan.cut.surface(), plan.spacing);
     for (const int steps : {0, 10}) {
         const remesh::NetworkSites made =
             remesh::sample_network_sites(prepared, plan, {.num_samples = 400}, {.steps = steps});
@@ -154,7 +154,7 @@ TEST(RelaxNetwork, SitesOfCurvesStayOnThemAndTogether) {
             }
         }
         for (std::size_t i = curves.sites.size(); i < made.sites.size(); ++i) {
-            EXPECT_FALSE(agvd::is_on_boundary(plan.cut.surface, made.sites[i]));
+            EXPECT_FALSE(agvd::is_on_boundary(plan.cut.surface(), made.sites[i]));
         }
     }
 }
@@ -162,7 +162,7 @@ TEST(RelaxNetwork, SitesOfCurvesStayOnThemAndTogether) {
 TEST(RelaxNetwork, ThreadsChangeNothing) {
     const Surface surface = agvd::build_surface(parts::extruded_l(4).view());
     const NetworkPlan plan = plan_of(surface, 300);
-    const remesh::PreparedSurface prepared(plan.cut.surface, plan.spacing);
+    const remesh::PreparedSurface prepared(plan.cut.surface(), plan.spacing);
     const auto with = [&](int threads) {
         return remesh::sample_network_sites(prepared, plan,
                                             {.num_samples = 300, .num_threads = threads},

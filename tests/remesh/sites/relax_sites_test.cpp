@@ -64,7 +64,7 @@ RelaxResult sample_relaxed(const Surface& surface, const remesh::SamplingOptions
                            const remesh::RelaxOptions& options = {}) {
     const remesh::NetworkPlan plan = remesh::plan_network(
         surface, std::vector<std::uint8_t>(surface.num_edges(), 0), sampling.num_samples);
-    const PreparedSurface prepared(plan.cut.surface, unrefined);
+    const PreparedSurface prepared(plan.cut.surface(), unrefined);
     remesh::NetworkSites result = remesh::sample_network_sites(prepared, plan, sampling, options);
     return {std::move(result.sites), std::move(result.levels)};
 }
