@@ -97,11 +97,10 @@ void measure(const std::filesystem::path& path, const Arguments& arguments, Json
     for (const int steps : arguments.steps) {
         // No early end: each start takes all of its steps.
         const remesh::RelaxOptions options{.steps = steps, .tolerance = 0};
-        const double usual = remesh::sample_network_sites(on_plan, plan,
-                                                          {.num_samples = arguments.samples},
-                                                          options)
-                                 .levels.back()
-                                 .energy.back();
+        const double usual =
+            remesh::sample_network_sites(on_plan, plan, {.num_samples = arguments.samples}, options)
+                .levels.back()
+                .energy.back();
         for (std::size_t i = 0; i < all.size(); ++i) {
             cli::stop_if_interrupted();
             rows[i][path.stem().string() + ' ' + std::to_string(steps)] =

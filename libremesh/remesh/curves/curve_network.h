@@ -144,10 +144,10 @@ struct CurveNetwork {
 
 //! A surface cut along a network of curves.
 struct CutSurface {
-    const Surface* whole = nullptr;      //!< The surface before the cut, which outlives this.
-    std::optional<Surface> own = {};     //!< After it; unset: nothing inside the surface is cut.
-    std::vector<Index> original;  //!< #V: the vertex that each is a copy of.
-    Index num_original = 0;       //!< Vertices before the cut, their own originals.
+    const Surface* whole = nullptr;   //!< The surface before the cut, which outlives this.
+    std::optional<Surface> own = {};  //!< After it; unset: nothing inside the surface is cut.
+    std::vector<Index> original;      //!< #V: the vertex that each is a copy of.
+    Index num_original = 0;           //!< Vertices before the cut, their own originals.
 
     //! Faces and half-edges keep their numbers, so surface points stay valid. A vertex on curves
     //! has a copy for each wedge between them; the first copy keeps the old number.

@@ -182,7 +182,8 @@ CutSurface cut_surface(const Surface& surface, std::span<const std::uint8_t> is_
             }
         }
     }
-    return {&surface, build_surface(std::move(mesh), std::move(connectivity), num_threads, progress),
+    return {&surface,
+            build_surface(std::move(mesh), std::move(connectivity), num_threads, progress),
             std::move(original), surface.num_vertices()};
 }
 

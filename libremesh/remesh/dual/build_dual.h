@@ -1,7 +1,7 @@
 //! \file
-//! The dual of the diagram: a vertex per cell, a triangle per Voronoi vertex. The Delaunay condition
-//! on its edges. Held by BuildDual.HasTheTopologyOfManySites and MakeDelaunay.HoldsOnRandomMeshesWhateverTheDual in
-//! tests/remesh/dual.
+//! The dual of the diagram: a vertex per cell, a triangle per Voronoi vertex. The Delaunay
+//! condition on its edges. Held by BuildDual.HasTheTopologyOfManySites and
+//! MakeDelaunay.HoldsOnRandomMeshesWhateverTheDual in tests/remesh/dual.
 #pragma once
 
 #include <cstdint>

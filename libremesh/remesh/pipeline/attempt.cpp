@@ -70,17 +70,17 @@ AttemptEnd run_attempt(const CleanedInput& cleaned, const FoundCurves& found,
         result.features.dropped_length > 0) {
         return {};
     }
-    if (plan->network.sites_for_boundary > 0) return {.num_needed = plan->network.sites_for_boundary};
+    if (plan->network.sites_for_boundary > 0)
+        return {.num_needed = plan->network.sites_for_boundary};
     Domain domain = prepare_domain(cleaned, std::move(plan), spacing, sizes, context);
     PlacedSites sites = place_sites(domain, context);
     BuiltMesh built = build_mesh(domain, sites, context);
-    if (built.mesh.triangles.empty() ||
-        !check_mesh(cleaned, domain, sites.chain, built, context)) {
+    if (built.mesh.triangles.empty() || !check_mesh(cleaned, domain, sites.chain, built, context)) {
         return {.num_needed = built.num_vertices};
     }
     result.sizing = measure_edges(built.mesh.view(), built.sites, options.num_samples, sizes);
-    result.sites = to_original(built.sites, cleaned.given,
-                               {domain.whole->mesh.view(), cleaned.face_origin});
+    result.sites =
+        to_original(built.sites, cleaned.given, {domain.whole->mesh.view(), cleaned.face_origin});
     result.mesh = std::move(built.mesh);
     if (const auto& crossings = built.self_intersections) {
         result.self_intersections = crossings->all;

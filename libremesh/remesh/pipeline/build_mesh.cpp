@@ -159,7 +159,8 @@ private:
 
     // Gives the vertices their positions, joins the patches, and improves the triangles.
     void place() {
-        PlacedDual placed = place_dual(domain_, placed_.curves, dual_, points_of_vertices(), context_);
+        PlacedDual placed =
+            place_dual(domain_, placed_.curves, dual_, points_of_vertices(), context_);
         CrossingFinder finder(domain_, context_);
         const std::optional<CrossingFaces> crossings =
             unfit_crossings(finder, placed_.curves, placed, context_.result);
@@ -206,7 +207,7 @@ private:
             before.push_back(v);
         }
         built_.mesh = {take(built_.mesh.positions, before),
-                      rename_vertices(built_.mesh.triangles, after)};
+                       rename_vertices(built_.mesh.triangles, after)};
         built_.sites = take(built_.sites, before);
     }
 

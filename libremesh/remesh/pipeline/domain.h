@@ -25,8 +25,8 @@ struct Domain {
 //! \param cleaned  outlives the domain.
 //! \throw InvalidInput  a part of the surface is too thin for double precision.
 //! Cost: that of PreparedSurface.
-[[nodiscard]] Domain prepare_domain(const CleanedInput& cleaned, std::unique_ptr<const CurvePlan> plan,
-                                    double spacing, const SizeField* sizes,
-                                    const StageContext& context);
+[[nodiscard]] Domain prepare_domain(const CleanedInput& cleaned,
+                                    std::unique_ptr<const CurvePlan> plan, double spacing,
+                                    const SizeField* sizes, const StageContext& context);
 
 }  // namespace remesh::detail

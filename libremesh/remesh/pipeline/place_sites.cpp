@@ -25,9 +25,9 @@ PlacedSites place_sites(const Domain& domain, const StageContext& context) {
                                    .num_threads = options.num_threads,
                                    .progress = progress_of(Stage::Sample, options),
                                    .sizes = domain.sizes};
-    NetworkSites made = given ? relax_network_sites(domain.prepared, network, given->curves,
-                                                    given->inner, relax)
-                              : sample_network_sites(domain.prepared, network, sampling, relax);
+    NetworkSites made =
+        given ? relax_network_sites(domain.prepared, network, given->curves, given->inner, relax)
+              : sample_network_sites(domain.prepared, network, sampling, relax);
     PlacedSites placed{.sites = std::move(made.sites),
                        .curves = std::move(made.curves),
                        .narrow_points = std::move(made.narrow_points)};

@@ -89,8 +89,7 @@ void place_vertices(Domain& domain, const CurveSites& curves, const ValidDual& d
     if (is_fitted) {
         fit_on_curves(domain, curves, options.boundary, placed);
         fit_vertices(domain.prepared.base, nearest, std::move(samples), placed.mesh,
-                     options.num_threads, start, rounding * domain.spacing,
-                     stays);
+                     options.num_threads, start, rounding * domain.spacing, stays);
     }
     poll(progress_of(Stage::Place, options), 1);
 }

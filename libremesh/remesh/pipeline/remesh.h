@@ -118,8 +118,8 @@ struct FeatureCounts {
     //! ones are kept.
     double close_length = 0;
     double dropped_length = 0;  //!< Of the dropped creases: the sites are too few or lie elsewhere.
-    Index uncarried_curves = 0;    //!< Creases that given sites do not lie on.
-    Index samples_for_all = 0;     //!< Fewest samples that keep all creases.
+    Index uncarried_curves = 0;  //!< Creases that given sites do not lie on.
+    Index samples_for_all = 0;   //!< Fewest samples that keep all creases.
     //! Patches between curves whose cells do not give their topology, as they are too narrow: they
     //! were simplified to their sites instead.
     Index simplified_patches = 0;
@@ -188,10 +188,10 @@ struct RemeshResult {
     Index sites_dropped = 0;          //!< Given sites that own nothing (e.g. duplicates).
     Index unfitted_vertices = 0;      //!< Moved back onto the surface: triangles intersected.
     std::vector<RelaxLevel> relaxation = {};  //!< Empty: the sites were not relaxed.
-    FeatureCounts features = {};    //!< What became of creases.
-    JunctionCounts junctions = {};  //!< What became of junctions.
-    SizingResult sizing = {};       //!< How long the edges are.
-    DelaunayCounts delaunay = {};   //!< Edges that failed, were flipped, still fail.
+    FeatureCounts features = {};              //!< What became of creases.
+    JunctionCounts junctions = {};            //!< What became of junctions.
+    SizingResult sizing = {};                 //!< How long the edges are.
+    DelaunayCounts delaunay = {};             //!< Edges that failed, were flipped, still fail.
     //! Intersecting pairs of faces of the result and, if that is not 0, of the cleaned input.
     //! Sheets that touch at a junction with equal points do not count. Unset: without CGAL.
     std::optional<Index> self_intersections = {};

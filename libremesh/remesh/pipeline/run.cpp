@@ -68,8 +68,8 @@ class Attempts {
 
 public:
     // \param most_lengths  see find_sizes.
-    Attempts(const CleanedInput& cleaned, const RemeshResult& after_cleaning, const RemeshOptions& given,
-             std::span<const double> most_lengths)
+    Attempts(const CleanedInput& cleaned, const RemeshResult& after_cleaning,
+             const RemeshOptions& given, std::span<const double> most_lengths)
         : cleaned_(cleaned), options_(given), first_(after_cleaning) {
         find_lengths(most_lengths);
         if (sizes_.num_samples != options_.num_samples) {

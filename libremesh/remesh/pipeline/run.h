@@ -17,7 +17,7 @@ struct KeptCurves;
 //! What an attempt tells besides its result.
 struct AttemptEnd {
     bool has_mesh = false;
-    Index num_needed = 0;                     //!< Without a mesh: so many vertices may suffice.
+    Index num_needed = 0;  //!< Without a mesh: so many vertices may suffice.
     std::vector<SurfacePoint> crossing_corners = {};  //!< See BuiltMesh.
     //! On the cleaned surface, where parts are narrower than the spacing: see PlacedSites.
     std::vector<SurfacePoint> narrow_points = {};

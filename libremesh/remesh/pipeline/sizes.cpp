@@ -8,8 +8,8 @@
 #include <numbers>
 #include <utility>
 
-#include "agvd/mesh/any_mesh.h"
 #include "agvd/core/portable_math.h"
+#include "agvd/mesh/any_mesh.h"
 #include "agvd/mesh/scale.h"
 #include "agvd/mesh/surface_points.h"
 #include "remesh/pipeline/cleaned_input.h"
@@ -64,8 +64,9 @@ FieldBase make_base(const CleanedInput& cleaned, const FoundCurves& found, doubl
         made.joined.emplace_back(cut.original[v], v);
     }
     made.original = std::move(cut.original);
+    Surface surface = cut.own ? *std::move(cut.own) : *cut.whole;
     made.base = std::make_shared<const IntrinsicTriangulation>(
-        cut.own ? *std::move(cut.own) : *cut.whole,
+        std::move(surface),
         IntrinsicOptions{
             .max_length = longest_edge * spacing,
             .min_length = drops_vertices ? shortest_edge * spacing : 0,

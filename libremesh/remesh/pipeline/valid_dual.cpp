@@ -16,8 +16,8 @@ namespace {
 
 class ValidDualBuilder {
 public:
-    ValidDualBuilder(Domain& domain, const PlacedSites& placed,
-                     std::span<const SurfacePoint> sites, const StageContext& context)
+    ValidDualBuilder(Domain& domain, const PlacedSites& placed, std::span<const SurfacePoint> sites,
+                     const StageContext& context)
         : domain_(domain),
           placed_(placed),
           surface_(domain.base()),
@@ -44,8 +44,7 @@ private:
             PropagationOptions options = options_.propagation;
             options.num_threads = options_.num_threads;
             options.progress = progress_of(Stage::Propagate, options_);
-            propagation =
-                propagate(surface_, std::move(domain_.prepared.layout), sites_, options);
+            propagation = propagate(surface_, std::move(domain_.prepared.layout), sites_, options);
             result_.certified_error = propagation.certified_error;
             result_.propagation_bytes = propagation.peak_bytes;
         }

@@ -115,7 +115,8 @@ private:
             due += count * own / area;
             if (!(std::floor(due) > before)) continue;
             const auto parts = static_cast<int>(std::ceil(std::sqrt(std::floor(due) - before)));
-            add_in_face(surface, f, parts, area / count * (std::floor(due) - before) / (parts * parts));
+            add_in_face(surface, f, parts,
+                        area / count * (std::floor(due) - before) / (parts * parts));
         }
         const auto stride = static_cast<Index>(1 + surface.num_vertices() / count);
         for (Index v = 0; v < surface.num_vertices(); v += stride) {
@@ -145,8 +146,7 @@ private:
         const Vec3& at = samples_[sample].at;
         Found nearest{sample, no_index, std::numeric_limits<double>::infinity()};
         for (const FaceBox& box : boxes_) {
-            const double least =
-                (at - at.cwiseMax(box.low).cwiseMin(box.high)).squaredNorm();
+            const double least = (at - at.cwiseMax(box.low).cwiseMin(box.high)).squaredNorm();
             if (least >= nearest.distance_sq) continue;
             const double distance_sq =
                 closest_point_on_triangle(box.corners, FaceId(box.face), at).distance_sq;

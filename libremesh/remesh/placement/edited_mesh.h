@@ -191,9 +191,9 @@ public:
                 }
                 const Index other = tail(h) == gone ? Surface::next(h) : Surface::previous(h);
                 if (apex(h) == into && is_hard(h) && !is_hard(other)) {
-                    hard.push_back({{tail(h) == gone ? into : tail(h),
-                                     head(h) == gone ? into : head(h)},
-                                    curve_of(h)});
+                    hard.push_back(
+                        {{tail(h) == gone ? into : tail(h), head(h) == gone ? into : head(h)},
+                         curve_of(h)});
                 }
             }
             drop_face(f);
@@ -241,7 +241,8 @@ public:
         bool is_better = true;
         for (std::size_t i = 0; i < normals.size() && is_better; ++i) {
             const Triangle& t = faces_[fans_[v][i]].corner;
-            is_better = quality_of(t) > worst + gain && is_gentle(fans_[v][i], normals[i], normal_of(t));
+            is_better =
+                quality_of(t) > worst + gain && is_gentle(fans_[v][i], normals[i], normal_of(t));
         }
         if (is_better && vertex.mobility == Mobility::Boundary) {
             vertices_[v] = before;
@@ -504,8 +505,8 @@ private:
             return is_gentle(f, normal_of(faces_[f].corner), normal_of(moved));
         });
     }
-    // For a vertex on a curve: whether it goes along it, no triangle of the rim alone would be left,
-    // and the curve stays as near as it was.
+    // For a vertex on a curve: whether it goes along it, no triangle of the rim alone would be
+    // left, and the curve stays as near as it was.
     [[nodiscard]] bool may_leave_boundary(Index gone, Index into,
                                           const std::array<Index, 2>& apexes) const {
         const auto [before, after] = hard_neighbours(gone);

@@ -74,7 +74,8 @@ public:
             if (mesh_.worst_at(gone) >= wanted_ && mesh_.collapse(gone, into)) {
                 (void)steps_.move_to_mean(into);
                 steps_.relax(before);
-                if (steps_.worst_since(before) >= wanted_ && guard_.accept(before, gain_elsewhere)) {
+                if (steps_.worst_since(before) >= wanted_ &&
+                    guard_.accept(before, gain_elsewhere)) {
                     ++count_;
                     return true;
                 }

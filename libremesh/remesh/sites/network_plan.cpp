@@ -67,9 +67,10 @@ void divide(const Surface& surface, const std::vector<std::uint8_t>& is_crease, 
             const SizeField* sizes, int num_threads, const Progress& progress, NetworkPlan& plan) {
     plan.cut = cut_surface(surface, edges_to_cut(plan.junctions, is_crease), num_threads, progress);
     SpacingSearch search{surface, plan.network, length_function(sizes)};
-    for (const Component& component : detail::sized_components(plan.cut.surface(), sizes, progress)) {
-        search.patches.push_back(
-            {component.area(), detail::sized_boundary_length(plan.cut.surface(), component, sizes)});
+    for (const Component& component :
+         detail::sized_components(plan.cut.surface(), sizes, progress)) {
+        search.patches.push_back({component.area(), detail::sized_boundary_length(
+                                                        plan.cut.surface(), component, sizes)});
     }
     plan.spacing = search.run(num_vertices);
     plan.along = search.positions_at(plan.spacing);
@@ -134,7 +135,8 @@ NetworkPlan plan_network(const Surface& surface, std::vector<std::uint8_t> is_cr
                          Index num_vertices, JunctionSet junctions, int num_threads,
                          const Progress& progress, const SizeField* sizes, LockedElements locked) {
     double spacing = detail::spacing_of(num_vertices, surface_area(surface), 0);
-    const double whole = (box_of(surface.mesh.view()).high - box_of(surface.mesh.view()).low).norm();
+    const double whole =
+        (box_of(surface.mesh.view()).high - box_of(surface.mesh.view()).low).norm();
     NetworkPlan plan;
     plan.junctions = std::move(junctions);
     plan.locked = std::move(locked);

@@ -169,8 +169,7 @@ struct MiddleFinder {
 };
 
 // The sites from `first` on around which the triangles are not one closed fan.
-std::vector<Index> find_wrapped(std::span<const Triangle> triangles, Index first,
-                                Index num_sites) {
+std::vector<Index> find_wrapped(std::span<const Triangle> triangles, Index first, Index num_sites) {
     std::vector<std::vector<DirectedEdge>> around(num_sites - first);  // Opposite edges.
     for (const Triangle& t : triangles) {
         for (std::size_t k = 0; k < 3; ++k) {

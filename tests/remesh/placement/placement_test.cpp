@@ -176,4 +176,3 @@ TEST(FitVertices, NoTriangleTurnsOver) {
         }
     }
 }
-

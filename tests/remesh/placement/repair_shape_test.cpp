@@ -100,8 +100,8 @@ TEST(RepairShape, ANeedleWhereAllIsBadEndsSoon) {
 }
 
 // Beside a ball of good triangles: each triangle of the needle has a part of the budget of a few.
-// With all of it the repair polled 2741 times with two goals; now 2106, and 2512 times when each spare
-// vertex tried all edges again.
+// With all of it the repair polled 2741 times with two goals; now 2106, and 2512 times when each
+// spare vertex tried all edges again.
 TEST(RepairShape, ManyBadTrianglesHaveSmallerBudgets) {
     const Index polls = polls_beside_a_ball(shapes::sphere(2));
     EXPECT_GT(polls, 0u);

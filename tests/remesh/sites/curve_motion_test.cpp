@@ -126,7 +126,8 @@ TEST(CurveMotion, ClosedCurvesGoRound) {
     const auto network = remesh::find_network(surface, flags, .2);
     const auto cut = remesh::cut_surface(surface, flags);
     const auto sites = remesh::curve_sites_at(
-        network, cut, remesh::even_positions(cut.surface(), network, .2, std::vector<Index>(2, 16)));
+        network, cut,
+        remesh::even_positions(cut.surface(), network, .2, std::vector<Index>(2, 16)));
     CurveMotion motion(surface, network, sites);
     for (int i = 0; i < 60; ++i) {
         std::vector<CvtEnergy::Cell> cells(sites.sites.size(), {Vec3::Zero(), Vec3::Zero(), 1, 1});
