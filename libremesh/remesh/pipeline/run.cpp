@@ -190,7 +190,9 @@ private:
             const bool is_lost = round == 0 && !narrow_points_.empty();
             if ((is_fine(*best_) || crossings.empty()) && !is_lost) return;
             length /= 2;
-            if (is_hopeless(best_->self_intersections.value_or(0), {options_, *best_})) {
+            // Those of the input would come with any length.
+            if (best_->input_self_intersections > 0 ||
+                is_hopeless(best_->self_intersections.value_or(0), {options_, *best_})) {
                 crossings.clear();
             }
             for (const SurfacePoint& point : crossings) points.push_back({point, length});

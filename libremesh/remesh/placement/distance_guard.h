@@ -5,31 +5,52 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "agvd/mesh/closest_point.h"
 #include "agvd/mesh/surface.h"
+#include "agvd/mesh/topology.h"
 #include "remesh/placement/edited_mesh.h"
 
 namespace remesh::detail {
 
-//! Knows for samples of the surface the nearest faces of a mesh.
+//! Knows for samples of the surface the nearest faces of a mesh, among those of the same part:
+//! parts may touch or overlap.
 class DistanceGuard {
 public:
-    //! \param mesh  outlives this. Cost: O(#surface + #faces log #faces).
+    //! \param mesh  outlives this.
+    //! \param surface  whole, with the faces that the vertices of the mesh lie in.
+    //! Cost: O(#surface + #faces log #faces).
     DistanceGuard(const EditedMesh& mesh, const Surface& surface)
         : mesh_(mesh), samples_at_(mesh.num_faces()) {
-        add_samples(surface);
-        TriangleMesh copy;
-        for (Index v = 0; v < mesh.num_vertices(); ++v) copy.positions.push_back(mesh.at(v));
-        for (Index f = 0; f < mesh.num_faces(); ++f) copy.triangles.push_back(mesh.face(f).corner);
-        const ClosestPointTree tree(copy.view());
+        const FaceLabels parts = label_components(surface.twin);
+        add_samples(surface, parts.of_face);
+        std::vector<TriangleMesh> of_part(parts.count);
+        std::vector<std::vector<Index>> faces(parts.count);
+        for (Index f = 0; f < mesh.num_faces(); ++f) {
+            const Triangle& t = mesh.face(f).corner;
+            const Index part = parts.of_face[mesh.face_of_surface(t[0]).value()];
+            auto& [positions, triangles] = of_part[part];
+            const auto first = static_cast<Index>(positions.size());
+            for (const Vec3& at : mesh.corners_of(f)) positions.push_back(at);
+            triangles.push_back({first, first + 1, first + 2});
+            faces[part].push_back(f);
+        }
+        std::erase_if(samples_, [&](const Sample& s) { return faces[s.part].empty(); });
+        std::stable_sort(samples_.begin(), samples_.end(),
+                         [](const Sample& s, const Sample& t) { return s.part < t.part; });
+        std::optional<ClosestPointTree> tree;
         for (Index i = 0; i < samples_.size(); ++i) {
-            const ClosestPoint nearest = tree.query(samples_[i].at);
-            samples_[i].face = nearest.point.face.value();
-            samples_[i].distance_sq = nearest.distance_sq;
-            samples_at_[samples_[i].face].push_back(i);
+            Sample& sample = samples_[i];
+            if (i == 0 || samples_[i - 1].part != sample.part) {
+                tree.emplace(of_part[sample.part].view());
+            }
+            const ClosestPoint nearest = tree->query(sample.at);
+            sample.face = faces[sample.part][nearest.point.face.value()];
+            sample.distance_sq = nearest.distance_sq;
+            samples_at_[sample.face].push_back(i);
         }
     }
 
@@ -82,6 +103,7 @@ private:
     struct Sample {
         Vec3 at;
         double weight;
+        Index part;  // Of the surface.
         Index face = no_index;
         double distance_sq = 0;
     };
@@ -102,36 +124,41 @@ private:
     static double squared(double x) { return x * x; }
 
     // Points that divide faces evenly, and vertices: tips are among these.
-    void add_samples(const Surface& surface) {
+    void add_samples(const Surface& surface, std::span<const Index> parts) {
         double area = 0;
         std::vector<double> around(surface.num_vertices(), 0);
+        std::vector<Index> part_of(surface.num_vertices(), 0);
         for (Index f = 0; f < surface.num_faces(); ++f) area += area_of(surface, f);
         const double count = samples_for_each * mesh_.num_vertices();
         double due = 0;  // Samples that the faces so far should have.
         for (Index f = 0; f < surface.num_faces(); ++f) {
             const double own = area_of(surface, f);
-            for (const Index v : surface.mesh.triangles[f]) around[v] += own / 3;
+            for (const Index v : surface.mesh.triangles[f]) {
+                around[v] += own / 3;
+                part_of[v] = parts[f];
+            }
             const double before = std::floor(due);
             due += count * own / area;
             if (!(std::floor(due) > before)) continue;
-            const auto parts = static_cast<int>(std::ceil(std::sqrt(std::floor(due) - before)));
-            add_in_face(surface, f, parts,
-                        area / count * (std::floor(due) - before) / (parts * parts));
+            const auto rows = static_cast<int>(std::ceil(std::sqrt(std::floor(due) - before)));
+            const double weight = area / count * (std::floor(due) - before) / (rows * rows);
+            add_in_face(surface, f, parts[f], rows, weight);
         }
         const auto stride = static_cast<Index>(1 + surface.num_vertices() / count);
         for (Index v = 0; v < surface.num_vertices(); v += stride) {
-            samples_.push_back({surface.mesh.positions[v], stride * around[v]});
+            samples_.push_back({surface.mesh.positions[v], stride * around[v], part_of[v]});
         }
     }
-    // The middles of parts^2 equal triangles.
-    void add_in_face(const Surface& surface, Index f, int parts, double weight) {
+    // The middles of rows^2 equal triangles.
+    void add_in_face(const Surface& surface, Index f, Index part, int rows, double weight) {
         const auto& p = surface.mesh.positions;
         const auto& [a, b, c] = surface.mesh.triangles[f];
-        for (int i = 0; i < parts; ++i) {
-            for (int j = 0; i + j < parts; ++j) {
-                for (int up = 0; up < (i + j + 1 < parts ? 2 : 1); ++up) {
-                    const double u = (i + (1 + up) / 3.0) / parts, v = (j + (1 + up) / 3.0) / parts;
-                    samples_.push_back({p[a] + u * (p[b] - p[a]) + v * (p[c] - p[a]), weight});
+        for (int i = 0; i < rows; ++i) {
+            for (int j = 0; i + j < rows; ++j) {
+                for (int up = 0; up < (i + j + 1 < rows ? 2 : 1); ++up) {
+                    const double u = (i + (1 + up) / 3.0) / rows, v = (j + (1 + up) / 3.0) / rows;
+                    const Vec3 at = p[a] + u * (p[b] - p[a]) + v * (p[c] - p[a]);
+                    samples_.push_back({at, weight, part});
                 }
             }
         }

@@ -96,6 +96,7 @@ public:
     //! In no order; empty: the vertex was removed.
     [[nodiscard]] std::span<const Index> faces_at(Index v) const { return fans_[v]; }
     [[nodiscard]] const Vec3& at(Index v) const { return vertices_[v].at; }
+    [[nodiscard]] FaceId face_of_surface(Index v) const { return vertices_[v].point.face; }
     [[nodiscard]] std::array<Vec3, 3> corners_of(Index f) const {
         const auto& [a, b, c] = faces_[f].corner;
         return {at(a), at(b), at(c)};
@@ -218,9 +219,13 @@ public:
     bool move(Index v, const Vec3& step, double gain) {
         Vertex vertex = vertices_[v];
         if (vertex.mobility >= Mobility::Node) return false;
-        const double worst = worst_at(v);
-        // Most steps do not even help in the plane, without a walk.
-        if (!all_better(v, vertex.at + step, worst + gain)) return false;
+        const Index worst_face = worst_face_at(v);
+        const double worst = faces_[worst_face].quality;
+        // Most steps do not even help in the plane, without a walk, and not the worst face.
+        if (!is_better(worst_face, v, vertex.at + step, worst + gain) ||
+            !all_better(v, vertex.at + step, worst + gain)) {
+            return false;
+        }
         if (vertex.mobility == Mobility::Boundary) {
             if (vertex.place.curve == no_index) return false;
             const std::optional<CurvePlace> place = curves_.moved(vertex.place, step);
@@ -238,23 +243,23 @@ public:
         std::vector<Vec3> normals;
         for (const Index f : fans_[v]) normals.push_back(normal_of(faces_[f].corner));
         vertices_[v] = vertex;
-        bool is_better = true;
-        for (std::size_t i = 0; i < normals.size() && is_better; ++i) {
+        bool helps = true;
+        for (std::size_t i = 0; i < normals.size() && helps; ++i) {
             const Triangle& t = faces_[fans_[v][i]].corner;
-            is_better =
+            helps =
                 quality_of(t) > worst + gain && is_gentle(fans_[v][i], normals[i], normal_of(t));
         }
-        if (is_better && vertex.mobility == Mobility::Boundary) {
+        if (helps && vertex.mobility == Mobility::Boundary) {
             vertices_[v] = before;
             const double bend_before = largest_bend_at(v);
             vertices_[v] = vertex;
             const auto [previous, next] = hard_neighbours(v);
             const Index curve = vertex.place.curve;
-            is_better = (previous == no_index || keeps_bend(curve, previous, v, bend_before)) &&
-                        (next == no_index || keeps_bend(curve, v, next, bend_before));
+            helps = (previous == no_index || keeps_bend(curve, previous, v, bend_before)) &&
+                    (next == no_index || keeps_bend(curve, v, next, bend_before));
         }
         vertices_[v] = before;
-        if (!is_better) return false;
+        if (!helps) return false;
         put_vertex(v, vertex);
         measure_around(v);
         return true;
@@ -377,13 +382,20 @@ private:
         const bool is_turned = normal_of(t).dot(facing) < 0;
         return shape_quality(at(a), at(b), at(c)) - (is_turned ? 1 : 0);
     }
-    // Whether all faces around a vertex have a better shape with it at a position.
-    [[nodiscard]] bool all_better(Index v, const Vec3& position, double than) const {
-        return std::all_of(fans_[v].begin(), fans_[v].end(), [&](Index f) {
-            const auto& [a, b, c] = faces_[f].corner;
-            return shape_quality(a == v ? position : at(a), b == v ? position : at(b),
-                                 c == v ? position : at(c)) > than;
+    [[nodiscard]] Index worst_face_at(Index v) const {
+        return *std::min_element(fans_[v].begin(), fans_[v].end(), [&](Index f, Index g) {
+            return faces_[f].quality < faces_[g].quality;
         });
+    }
+    // Whether a face has a better shape with a corner at a position.
+    [[nodiscard]] bool is_better(Index f, Index v, const Vec3& position, double than) const {
+        const auto& [a, b, c] = faces_[f].corner;
+        return shape_quality(a == v ? position : at(a), b == v ? position : at(b),
+                             c == v ? position : at(c)) > than;
+    }
+    [[nodiscard]] bool all_better(Index v, const Vec3& position, double than) const {
+        return std::all_of(fans_[v].begin(), fans_[v].end(),
+                           [&](Index f) { return is_better(f, v, position, than); });
     }
     [[nodiscard]] Vec3 normal_of(const Triangle& t) const {
         return (at(t[1]) - at(t[0])).cross(at(t[2]) - at(t[0]));

@@ -44,6 +44,7 @@ public:
     }
 
     [[nodiscard]] const Surface& surface() const { return cut_; }
+    [[nodiscard]] const Surface& whole() const { return whole_; }
     //! Whether the surface may have several normals there.
     [[nodiscard]] bool is_sharp(const CurvePlace& place) const {
         return place.node != no_index ||

@@ -1,10 +1,12 @@
-// Repairs bad triangles, the worst first: by a flip or slides, otherwise by the best collapse or
-// split. Elsewhere vertices are removed before and added at the end, so that their count stays.
+// Repairs bad triangles, the worst first: by a flip or slides, otherwise by a collapse, a split, or
+// a vertex put onto a curve. Elsewhere vertices are removed before and added at the end, so that
+// their count stays.
 #include "remesh/placement/placement.h"
 
 #include <algorithm>
 #include <compare>
 #include <functional>
+#include <limits>
 #include <queue>
 
 #include "agvd/core/progress.h"
@@ -172,7 +174,7 @@ private:
             const Index a = t[k], b = t[(k + 1) % 3];
             if (a > b || -(mesh_.at(a) - mesh_.at(b)).squaredNorm() != minus_square) continue;
             const EditedMesh::Mark before = mesh_.mark();
-            const bool is_done = steps_.edit({face, k, true, false});
+            const bool is_done = steps_.edit({face, k, ShapeEdit::Kind::Split});
             steps_.relax(before);
             if (is_done && steps_.worst_since(before) >= least &&
                 guard_.accept(before, gain_elsewhere)) {
@@ -204,17 +206,21 @@ private:
 // all the vertices that can be spared. Angles of 21.3, 29.1 and 32.5
 // degrees count as .425, .57 and .63.
 constexpr std::array goals{0.425, 0.57, 0.63};
+// A later goal is given up where more triangles than this share are bad: it would cost much, for
+// little.
+constexpr double most_bad = 0.15;
 // Least gain of an edit.
-constexpr double least_trial_gain = 0.02;
-// Budgets for each initially bad triangle: where all are bad, work would not end. Lips use half of
-// them.
+constexpr double least_edit_gain = 0.02;
+// Budgets for each initially bad triangle: where all are bad, work would not end.
 constexpr std::size_t edits_for_each = 3, slides_for_each = 200;
 // This many bad triangles get the whole budget; each further one gets fewer slides. Organic meshes
 // have at most some 20 bad triangles, thin walls over a thousand.
 constexpr std::size_t paid_in_full = 64, slides_for_others = 25;
-constexpr int most_rounds_of_repair = 6;
-// Collapses and splits tried in full for one triangle: all nine are hardly better.
+// Edits tried for one triangle: all twelve are hardly better.
 constexpr std::size_t most_trials = 3;
+// Of the slides, to add what vertices are left over.
+constexpr std::size_t share_of_balance = 8;
+constexpr int most_rounds_of_repair = 6;
 
 class ShapeRepair {
 public:
@@ -225,6 +231,9 @@ public:
           steps_(mesh, num_faces, goal, ticker),
           spare_(mesh, steps_, guard, goal, ticker) {}
 
+    [[nodiscard]] double share_of_bad() const {
+        return static_cast<double>(steps_.bad_faces().size()) / mesh_.num_faces();
+    }
     // A vertex is removed elsewhere before a split adds one; what is left over is added at the end.
     // \return false if the count is not kept.
     bool run() {
@@ -239,52 +248,47 @@ public:
         edits_left_ = edits_for_each * num_paid;
         steps_.allow_slides(num_slides);
         work();
-        steps_.allow_slides(num_slides);
+        steps_.allow_slides(num_slides / share_of_balance);
         return spare_.balance();
     }
 
 private:
+    // After the first round only where triangles have changed.
     void work() {
-        for (int round = 0; round < most_rounds_of_repair; ++round) {
-            bool is_better = false;
-            for (const auto& [quality, f] : steps_.bad_faces()) {
-                if (!steps_.is_bad(f)) continue;
-                is_better = repair(f) || is_better;
+        std::vector<std::pair<double, Index>> bad = steps_.bad_faces();
+        for (int round = 0; round < most_rounds_of_repair && !bad.empty(); ++round) {
+            const EditedMesh::Mark start = mesh_.mark();
+            for (const auto& [quality, f] : bad) {
+                if (steps_.is_bad(f)) repair(f);
             }
-            if (!is_better) return;
+            bad = steps_.bad_around(mesh_.changed_since(start));
         }
     }
 
-    bool repair(Index f) {
+    void repair(Index f) {
         const EditedMesh::Mark before = mesh_.mark();
-        bool is_better = steps_.improve(f);
-        if (is_better) {
+        if (steps_.improve(f)) {
             steps_.relax(before);
-            is_better = guard_.accept(before, steps_.gain_since(before).sum);
-            if (!is_better) mesh_.take_back(before);
-            if (is_better && !steps_.is_bad(f)) return true;
+            if (!guard_.accept(before, steps_.gain_since(before).sum)) mesh_.take_back(before);
         }
-        return try_edits(f) || is_better;
+        if (steps_.is_bad(f)) try_edits(f);
     }
 
-    // The score of a trial; 0: no gain. Collapses that repair all triangles come first, since they
-    // leave a spare vertex; then splits. Splits count by their sum, since in a chain of equal
-    // triangles no worst one improves alone. Other collapses count by the worst triangle: they
-    // remove faces, which distorts the sum.
-    [[nodiscard]] static double score_of(const ShapeGain& gain, bool is_split) {
-        if (gain.worst < 0 || gain.sum < least_trial_gain) return 0;
-        if (is_split) return 1 + gain.sum;
-        if (gain.is_all) return 100 + gain.sum;
-        return gain.worst < least_trial_gain ? 0 : gain.worst;
+    // Splits count by the sum of their gains, since in a chain of equal triangles no worst one
+    // improves alone; so do collapses that repair all triangles. Other collapses count by the worst
+    // triangle: they remove faces, which distorts the sum.
+    [[nodiscard]] static bool is_worth_it(const ShapeGain& gain, bool is_split) {
+        return gain.worst >= 0 && gain.sum >= least_edit_gain &&
+               (is_split || gain.is_all || gain.worst >= least_edit_gain);
     }
 
-    // The collapses and splits that gain most before the triangles around are relaxed.
-    [[nodiscard]] std::vector<ShapeEdit> trials_at(Index f) {
+    // The edits that gain most before the triangles around are relaxed, the best one first.
+    [[nodiscard]] std::vector<ShapeEdit> edits_at(Index f) {
         std::vector<std::pair<double, ShapeEdit>> all;
         for (Index k = 0; k < 3; ++k) {
-            for (const auto& [is_split, is_reversed] :
-                 {std::pair(false, false), {false, true}, {true, false}}) {
-                const ShapeEdit edit{f, k, is_split, is_reversed};
+            for (const auto kind : {ShapeEdit::Kind::ToSecond, ShapeEdit::Kind::ToFirst,
+                                    ShapeEdit::Kind::Split, ShapeEdit::Kind::Press}) {
+                const ShapeEdit edit{f, k, kind};
                 const EditedMesh::Mark before = mesh_.mark();
                 if (steps_.edit(edit)) all.emplace_back(steps_.gain_since(before).sum, edit);
                 mesh_.take_back(before);
@@ -292,44 +296,43 @@ private:
         }
         std::stable_sort(all.begin(), all.end(),
                          [](const auto& a, const auto& b) { return a.first > b.first; });
-        std::vector<ShapeEdit> trials;
+        std::vector<ShapeEdit> edits;
         for (const auto& [gain, edit] : std::span(all).first(std::min(all.size(), most_trials))) {
-            trials.push_back(edit);
+            edits.push_back(edit);
         }
-        return trials;
+        return edits;
     }
 
-    // Applies the first collapse or split that repairs all it touches, otherwise the best one.
-    bool try_edits(Index f) {
-        if (edits_left_ == 0) return false;
+    // Applies the first edit that helps.
+    void try_edits(Index f) {
+        if (edits_left_ == 0) return;
         --edits_left_;
-        ShapeEdit best;
-        double most = 0;
-        for (const ShapeEdit& trial : trials_at(f)) {
-            const EditedMesh::Mark before = mesh_.mark();
-            (void)steps_.edit(trial);
-            steps_.relax(before);
-            const ShapeGain gain = steps_.gain_since(before);
-            const double score = score_of(gain, trial.is_split);
-            const bool is_best = score > most && guard_.accepts(before, gain.sum);
-            mesh_.take_back(before);
-            if (!is_best) continue;
-            most = score;
-            best = trial;
-            if (gain.is_all) break;
+        for (const ShapeEdit& edit : edits_at(f)) {
+            if (try_edit(edit)) return;
         }
-        if (best.face == no_index) return false;
-        if (best.is_split && spare_.count() == 0 && !spare_.collapse_one()) return false;
+    }
+    bool try_edit(const ShapeEdit& edit) {
         const EditedMesh::Mark before = mesh_.mark();
-        if (steps_.is_bad(f) && steps_.edit(best)) {
-            steps_.relax(before);
-            if (guard_.accept(before, steps_.gain_since(before).sum)) {
-                spare_.add(best.is_split ? -1 : 1);
-                return true;
-            }
+        const bool is_free = edit.change() >= 0 || spare_.count() > 0;
+        bool is_done = apply(edit, is_free);
+        if (!is_done || !is_free) mesh_.take_back(before);
+        if (is_done && !is_free) {  // A vertex goes elsewhere first.
+            if (!spare_.collapse_one()) return false;
+            const EditedMesh::Mark after = mesh_.mark();
+            is_done = steps_.is_bad(edit.face) && apply(edit, true);
+            if (!is_done) mesh_.take_back(after);
         }
-        mesh_.take_back(before);
-        return false;
+        if (is_done) spare_.add(edit.change());
+        return is_done;
+    }
+    // \param stays  the edit will not be taken back.
+    [[nodiscard]] bool apply(const ShapeEdit& edit, bool stays) {
+        const EditedMesh::Mark before = mesh_.mark();
+        if (!steps_.edit(edit)) return false;
+        steps_.relax(before);
+        const ShapeGain gain = steps_.gain_since(before);
+        if (!is_worth_it(gain, edit.kind == ShapeEdit::Kind::Split)) return false;
+        return stays ? guard_.accept(before, gain.sum) : guard_.accepts(before, gain.sum);
     }
 
     EditedMesh& mesh_;
@@ -354,12 +357,12 @@ std::vector<Index> repair_shape(const detail::MeshCurves& curves,
         is_good = is_good && edited.face(f).quality >= goals.back();
     }
     if (is_good) return numbers;
-    EditGuard guard(edited, curves.surface());
+    EditGuard guard(edited, curves.whole());
     const EditedMesh::Mark start = edited.mark();
     for (const double goal : goals) {
-        if (!ShapeRepair(edited, guard, curves.surface().num_faces(), goal, ticker).run()) {
-            return numbers;
-        }
+        ShapeRepair repair(edited, guard, curves.surface().num_faces(), goal, ticker);
+        if (goal > goals.front() && repair.share_of_bad() > most_bad) break;
+        if (!repair.run()) return numbers;
     }
     if (edited.mark().faces > start.faces) mesh = edited.result(numbers);
     return numbers;

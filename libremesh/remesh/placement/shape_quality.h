@@ -22,8 +22,9 @@ inline constexpr double sine_weight = low_quality / 0.597;
 //! 6 / sqrt(3) * S / (p h) ([frey1999]): S area, p half the perimeter, h the longest edge; lower if
 //! an angle is small. 0 to 1.
 [[nodiscard]] inline double shape_quality(const Vec3& a, const Vec3& b, const Vec3& c) {
-    const double ab = (b - a).norm(), bc = (c - b).norm(), ca = (a - c).norm();
-    const double doubled_area = (b - a).cross(c - a).norm();
+    const Vec3 u = b - a, v = c - a, w = c - b;
+    const double ab = u.norm(), bc = w.norm(), ca = v.norm();
+    const double doubled_area = u.cross(v).norm();
     if (!(doubled_area > 0)) return 0;
     const double longest = std::max({ab, bc, ca});
     // The smallest angle is the one between the longest sides.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -16,11 +17,18 @@
 
 namespace remesh::detail {
 
-//! A split or a collapse of the edge from corner k of a face to the next.
+//! An edit of the edge from corner k of a face to the next: it is collapsed to its second end, or
+//! to its first one, or split; or it lies on a curve and the third corner goes there, between both.
 struct ShapeEdit {
+    enum class Kind : std::uint8_t { ToSecond, ToFirst, Split, Press };
+
     Index face = no_index, k = 0;
-    bool is_split = false;
-    bool is_reversed = false;  //!< A collapse removes the second end, not the first.
+    Kind kind = Kind::ToSecond;
+
+    //! Of the number of vertices that it leaves to spare.
+    [[nodiscard]] int change() const {
+        return kind == Kind::Split ? -1 : kind == Kind::Press ? 0 : 1;
+    }
 };
 
 //! The gain of the triangles touched since a mark, each counted up to the wanted quality.
@@ -61,6 +69,19 @@ public:
         std::vector<Index> all(mesh_.num_faces());
         std::iota(all.begin(), all.end(), Index{0});
         return bad_among(all);
+    }
+    //! The same of those that have a corner in common with one of some faces.
+    [[nodiscard]] std::vector<std::pair<double, Index>> bad_around(
+        std::span<const Index> faces) const {
+        std::vector<Index> around;
+        for (const Index f : faces) {
+            for (const Index v : mesh_.face(f).corner) {
+                around.insert(around.end(), mesh_.faces_at(v).begin(), mesh_.faces_at(v).end());
+            }
+        }
+        std::sort(around.begin(), around.end());
+        around.erase(std::unique(around.begin(), around.end()), around.end());
+        return bad_among(around);
     }
     [[nodiscard]] ShapeGain gain_since(const EditedMesh::Mark& mark) {
         mesh_.changed_since(mark, changed_, before_);
@@ -113,8 +134,18 @@ public:
     bool edit(const ShapeEdit& edit) {
         const Triangle& t = mesh_.face(edit.face).corner;
         const Index a = t[edit.k], b = t[(edit.k + 1) % 3];
-        if (edit.is_split) return mesh_.split(edit.face, edit.k) != no_index;
-        return mesh_.collapse(edit.is_reversed ? b : a, edit.is_reversed ? a : b);
+        if (edit.kind == ShapeEdit::Kind::ToSecond) return mesh_.collapse(a, b);
+        if (edit.kind == ShapeEdit::Kind::ToFirst) return mesh_.collapse(b, a);
+        if (edit.kind == ShapeEdit::Kind::Split) return mesh_.split(edit.face, edit.k) != no_index;
+        const Index apex = t[(edit.k + 2) % 3];
+        if (!mesh_.face(edit.face).is_hard(edit.k) || mesh_.mobility(apex) != Mobility::Free) {
+            return false;
+        }
+        const EditedMesh::Mark before = mesh_.mark();
+        const Index added = mesh_.split(edit.face, edit.k);
+        if (added != no_index && mesh_.collapse(apex, added)) return true;
+        mesh_.take_back(before);
+        return false;
     }
     //! Moves a vertex towards the mean of its neighbours if no triangle around it gets worse.
     bool move_to_mean(Index v) { return mesh_.move(v, ways_of(v).to_mean, 0); }

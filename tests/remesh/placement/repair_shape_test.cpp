@@ -8,6 +8,8 @@
 
 #include "agvd/mesh/topology.h"
 #include "remesh/placement/crossing_guard.h"
+#include "remesh/placement/distance_guard.h"
+#include "remesh/placement/shape_steps.h"
 #include "remesh/quality/evaluate.h"
 #include "support/movable_mesh.h"
 #include "support/shapes.h"
@@ -123,6 +125,53 @@ TEST(CrossingGuard, ASegmentPassesThroughOrOnlyTouches) {
     EXPECT_FALSE(passes_through({0.8, 0.8, -1}, {0.8, 0.8, 1}, t));
     EXPECT_FALSE(passes_through({0.2, 0.2, 0}, {0.2, 0.2, 1}, t));
     EXPECT_FALSE(passes_through({-1, 0.2, 0}, {1, 0.2, 1e-13}, t));
+}
+
+// Whether the collapse of an edge of the first part is worth a gain.
+bool accepts_collapse(const MovableMesh& placed, double gain) {
+    remesh::detail::MeshCurves curves = placed.curves();
+    remesh::detail::EditedMesh mesh(curves, placed.placed, placed.mobility, placed.hard);
+    remesh::detail::DistanceGuard guard(mesh, placed.surface);
+    const auto before = mesh.mark();
+    const Triangle t = mesh.face(0).corner;
+    EXPECT_TRUE(mesh.collapse(t[0], t[1]) || mesh.collapse(t[1], t[2]) ||
+                mesh.collapse(t[2], t[0]));
+    return guard.accepts(mesh.changed_since(before), gain);
+}
+
+// The mesh of the second part lies far off: the samples of that part would be nearest to the first.
+TEST(DistanceGuard, SamplesBelongToFacesOfTheirOwnPart) {
+    const TriangleMesh ball = shapes::sphere(3);
+    MovableMesh alone(ball), both(shapes::join(ball, ball));
+    for (Index v = static_cast<Index>(ball.positions.size()); v < both.placed.offsets.size(); ++v) {
+        both.placed.offsets[v] = Vec3(0.2, 0, 0);
+    }
+    double gain = 1e-6;
+    while (!accepts_collapse(alone, gain) && gain < 1e6) gain *= 1.1;
+    EXPECT_FALSE(accepts_collapse(alone, gain / 1.2));
+    EXPECT_TRUE(accepts_collapse(both, 1.3 * gain));
+}
+
+TEST(ShapeSteps, AVertexIsPutOntoACurve) {
+    const MovableMesh placed(uneven_tube());
+    remesh::detail::MeshCurves curves = placed.curves();
+    remesh::detail::EditedMesh mesh(curves, placed.placed, placed.mobility, placed.hard);
+    Ticker ticker;
+    remesh::detail::ShapeSteps steps(mesh, mesh.num_faces(), 0.5, ticker);
+    using Kind = remesh::detail::ShapeEdit::Kind;
+    bool is_done = false;
+    for (Index f = 0; f < placed.placed.triangles.size() && !is_done; ++f) {
+        for (Index k = 0; k < 3 && !is_done; ++k) {
+            const Index apex = mesh.face(f).corner[(k + 2) % 3], last = mesh.num_vertices();
+            is_done = steps.edit({f, k, Kind::Press});
+            if (!is_done) continue;
+            EXPECT_TRUE(mesh.faces_at(apex).empty());
+            EXPECT_EQ(mesh.num_vertices(), last + 1);
+            EXPECT_EQ(mesh.mobility(last), Mobility::Boundary);
+            EXPECT_FALSE(mesh.face(f).is_there);
+        }
+    }
+    EXPECT_TRUE(is_done);
 }
 
 TEST(RepairShape, FixedVerticesStay) {
