@@ -187,14 +187,14 @@ private:
         std::vector<SizedPoint> points;
         std::vector<SurfacePoint> crossings = std::move(crossings_);
         for (int round = 0; round < most_shortenings; ++round) {
-            const bool is_lost = round == 0 && !narrow_points_.empty();
-            if ((is_fine(*best_) || crossings.empty()) && !is_lost) return;
-            length /= 2;
             // Those of the input would come with any length.
-            if (best_->input_self_intersections > 0 ||
+            if (is_fine(*best_) || best_->input_self_intersections > 0 ||
                 is_hopeless(best_->self_intersections.value_or(0), {options_, *best_})) {
                 crossings.clear();
             }
+            const bool is_lost = round == 0 && !narrow_points_.empty();
+            if (crossings.empty() && !is_lost) return;
+            length /= 2;
             for (const SurfacePoint& point : crossings) points.push_back({point, length});
             crossings = run_shorter(points);
         }
