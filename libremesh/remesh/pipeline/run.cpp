@@ -43,13 +43,12 @@ bool is_better(const RemeshResult& result, const RemeshResult& best) {
            (is_fine(result) || result.new_self_intersections < best.new_self_intersections);
 }
 
-// Whether lengths in places are ours to choose, for a number of samples or a mean that is given.
+// Whether lengths are ours to choose, for a number of samples that is given.
 bool may_shorten(const RemeshOptions& options) {
     const Sizing& sizing = options.sizing;
     return !options.sites && (sizing.is_adaptive() || sizing.is_even()) &&
            (std::holds_alternative<NumSamples>(sizing.count) ||
-            std::holds_alternative<NumFaces>(sizing.count) ||
-            std::holds_alternative<MeanEdge>(sizing.count));
+            std::holds_alternative<NumFaces>(sizing.count));
 }
 
 // Whether an attempt with fewer creases, or without seams, would differ from this one.
@@ -206,9 +205,7 @@ private:
         const StageContext context{options_, again};
         const RunSizes sizes = find_sizes(cleaned_, found_, spacing_for(cleaned_, options_), {},
                                           narrow_points_, points, context);
-        const Index asked = std::exchange(options_.num_samples, sizes.num_samples);
         AttemptEnd end = run_attempt(cleaned_, found_, kept_, sizes.field.get(), context);
-        options_.num_samples = asked;
         first_.seconds = again.seconds;
         const Index crossings = num_more_crossings(again), before = num_more_crossings(*best_);
         const bool is_nearer = again.verdict.largest_distance < best_->verdict.largest_distance;

@@ -39,9 +39,13 @@ public:
     // Also takes over the changes; they must not be taken back later.
     [[nodiscard]] bool accept(const EditedMesh::Mark& mark, double gain) {
         if (!accepts(mark, gain)) return false;
+        take_over();
+        return true;
+    }
+    // After accepts(), of the same changes.
+    void take_over() {
         distances_.take_over();
         crossings_.take_over();
-        return true;
     }
 
 private:
@@ -217,7 +221,7 @@ constexpr std::size_t edits_for_each = 3, slides_for_each = 200;
 // have at most some 20 bad triangles, thin walls over a thousand.
 constexpr std::size_t paid_in_full = 64, slides_for_others = 25;
 // Edits tried for one triangle: all twelve are hardly better.
-constexpr std::size_t most_trials = 3;
+constexpr std::size_t most_trials = 4;
 // Of the slides, to add what vertices are left over.
 constexpr std::size_t share_of_balance = 8;
 constexpr int most_rounds_of_repair = 6;
@@ -274,12 +278,15 @@ private:
         if (steps_.is_bad(f)) try_edits(f);
     }
 
-    // Splits count by the sum of their gains, since in a chain of equal triangles no worst one
-    // improves alone; so do collapses that repair all triangles. Other collapses count by the worst
-    // triangle: they remove faces, which distorts the sum.
-    [[nodiscard]] static bool is_worth_it(const ShapeGain& gain, bool is_split) {
-        return gain.worst >= 0 && gain.sum >= least_edit_gain &&
-               (is_split || gain.is_all || gain.worst >= least_edit_gain);
+    // What an edit is worth; 0: nothing. Edits that repair all triangles come first, then splits.
+    // These count by the sum of their gains, since in a chain of equal triangles no worst one
+    // improves alone. Others count by the worst triangle: they remove faces, which distorts the
+    // sum.
+    [[nodiscard]] static double score_of(const ShapeGain& gain, bool is_split) {
+        if (gain.worst < 0 || gain.sum < least_edit_gain) return 0;
+        if (is_split) return 1 + gain.sum;
+        if (gain.is_all) return 100 + gain.sum;
+        return gain.worst < least_edit_gain ? 0 : gain.worst;
     }
 
     // The edits that gain most before the triangles around are relaxed, the best one first.
@@ -303,36 +310,39 @@ private:
         return edits;
     }
 
-    // Applies the first edit that helps.
+    // Applies the best edit. A vertex goes elsewhere before one is added.
     void try_edits(Index f) {
         if (edits_left_ == 0) return;
         --edits_left_;
+        ShapeEdit best;
+        double most = 0;
         for (const ShapeEdit& edit : edits_at(f)) {
-            if (try_edit(edit)) return;
+            const EditedMesh::Mark before = mesh_.mark();
+            const double score = apply(edit);
+            mesh_.take_back(before);
+            if (!(score > most)) continue;
+            most = score;
+            best = edit;
+        }
+        if (!(most > 0) || (best.change() < 0 && spare_.count() == 0 && !spare_.collapse_one())) {
+            return;
+        }
+        const EditedMesh::Mark before = mesh_.mark();
+        if (steps_.is_bad(f) && apply(best) > 0) {
+            guard_.take_over();
+            spare_.add(best.change());
+        } else {
+            mesh_.take_back(before);
         }
     }
-    bool try_edit(const ShapeEdit& edit) {
+    // \return the score of the edit if the guards accept it, otherwise 0.
+    [[nodiscard]] double apply(const ShapeEdit& edit) {
         const EditedMesh::Mark before = mesh_.mark();
-        const bool is_free = edit.change() >= 0 || spare_.count() > 0;
-        bool is_done = apply(edit, is_free);
-        if (!is_done || !is_free) mesh_.take_back(before);
-        if (is_done && !is_free) {  // A vertex goes elsewhere first.
-            if (!spare_.collapse_one()) return false;
-            const EditedMesh::Mark after = mesh_.mark();
-            is_done = steps_.is_bad(edit.face) && apply(edit, true);
-            if (!is_done) mesh_.take_back(after);
-        }
-        if (is_done) spare_.add(edit.change());
-        return is_done;
-    }
-    // \param stays  the edit will not be taken back.
-    [[nodiscard]] bool apply(const ShapeEdit& edit, bool stays) {
-        const EditedMesh::Mark before = mesh_.mark();
-        if (!steps_.edit(edit)) return false;
+        if (!steps_.edit(edit)) return 0;
         steps_.relax(before);
         const ShapeGain gain = steps_.gain_since(before);
-        if (!is_worth_it(gain, edit.kind == ShapeEdit::Kind::Split)) return false;
-        return stays ? guard_.accept(before, gain.sum) : guard_.accepts(before, gain.sum);
+        const double score = score_of(gain, edit.kind == ShapeEdit::Kind::Split);
+        return score > 0 && guard_.accepts(before, gain.sum) ? score : 0;
     }
 
     EditedMesh& mesh_;
