@@ -20,6 +20,12 @@
 namespace remesh::detail {
 namespace {
 
+// Thrown if no attempt gives a mesh.
+struct TooFewSamples {
+    Index asked;
+    Index reached;  // Vertices that may suffice.
+};
+
 // Intersecting pairs of faces, less those that the input has.
 Index num_more_crossings(const RemeshResult& result) {
     const Index pairs = result.self_intersections.value_or(0);
@@ -43,12 +49,13 @@ bool is_better(const RemeshResult& result, const RemeshResult& best) {
            (is_fine(result) || result.new_self_intersections < best.new_self_intersections);
 }
 
-// Whether lengths are ours to choose, for a number of samples that is given.
+// Whether lengths in places are ours to choose.
 bool may_shorten(const RemeshOptions& options) {
     const Sizing& sizing = options.sizing;
     return !options.sites && (sizing.is_adaptive() || sizing.is_even()) &&
            (std::holds_alternative<NumSamples>(sizing.count) ||
-            std::holds_alternative<NumFaces>(sizing.count));
+            std::holds_alternative<NumFaces>(sizing.count) ||
+            std::holds_alternative<MeanEdge>(sizing.count));
 }
 
 // Whether an attempt with fewer creases, or without seams, would differ from this one.
@@ -202,7 +209,10 @@ private:
     // \return corners of faces that intersect.
     std::vector<SurfacePoint> run_shorter(std::span<const SizedPoint> points) {
         RemeshResult again = first_;
-        const StageContext context{options_, again};
+        // The number stays, whatever it follows from: a mean edge would make the others longer.
+        RemeshOptions options = options_;
+        options.sizing.count = NumSamples{};
+        const StageContext context{options, again};
         const RunSizes sizes = find_sizes(cleaned_, found_, spacing_for(cleaned_, options_), {},
                                           narrow_points_, points, context);
         AttemptEnd end = run_attempt(cleaned_, found_, kept_, sizes.field.get(), context);

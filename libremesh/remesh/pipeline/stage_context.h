@@ -17,13 +17,6 @@ struct StageContext {
 //! The fraction of Stage::Clean at which cleaning itself is done, and the surface is prepared.
 inline constexpr double cleaned_fraction = 0.1;
 
-//! Thrown if no further vertex can be removed without changing the topology, or there are more
-//! locked vertices.
-struct TooFewSamples {
-    Index asked;
-    Index reached;  //!< Vertices that are left.
-};
-
 //! Adds the time from construction to destruction to a stage of the result.
 class StageClock {
 public:
