@@ -23,6 +23,11 @@ struct MeshBox {
         low = low.cwiseMin(point);
         high = high.cwiseMax(point);
     }
+    //! Whether the boxes have a point in common.
+    [[nodiscard]] bool meets(const MeshBox& other) const {
+        return (low.array() <= other.high.array()).all() &&
+               (other.low.array() <= high.array()).all();
+    }
 };
 
 //! Of the faces' corners. Those that are not there or not finite are left out.

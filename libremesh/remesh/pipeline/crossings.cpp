@@ -177,10 +177,7 @@ std::optional<Index> count_crossings_at(const MeshView& mesh,
         ticker.tick();
         MeshBox box;
         for (const Vec3& corner : corners_of(mesh, f)) box.add(corner);
-        if ((box.low.array() > marked.high.array()).any() ||
-            (marked.low.array() > box.high.array()).any()) {
-            continue;
-        }
+        if (!box.meets(marked)) continue;
         faces.push_back(f);
         near.push_back(mesh.triangles[f]);
     }

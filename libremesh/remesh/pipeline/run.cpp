@@ -231,7 +231,9 @@ private:
     RemeshResult first_;  // Of cleaning and what was found here; its times include all attempts.
     FoundCurves found_;
     RunSizes sizes_;
-    bool refines_ = may_shorten(options_);  // Strips between close creases.
+    // Strips between close creases. With a mean edge given the others would be longer.
+    bool refines_ =
+        may_shorten(options_) && !std::holds_alternative<MeanEdge>(options_.sizing.count);
     std::optional<RemeshResult> best_;
     KeptCurves kept_;                          // Of the best.
     std::vector<SurfacePoint> narrow_points_;  // Of the best.

@@ -77,18 +77,12 @@ public:
 private:
     using Pairs = std::set<std::pair<Index, Index>>;
     using Corners = std::array<Vec3, 3>;
-    struct Box {
-        Vec3 low, high;
-    };
     // Faces over more cells are listed apart.
     static constexpr double most_cells = 64;
 
-    [[nodiscard]] static Box box_of(const Corners& t) {
-        return {t[0].cwiseMin(t[1]).cwiseMin(t[2]), t[0].cwiseMax(t[1]).cwiseMax(t[2])};
-    }
     // Calls each(key) for the cells of a box. False if there are too many.
     template <typename Each>
-    bool for_each_cell(const Box& box, const Each& each) const {
+    bool for_each_cell(const MeshBox& box, const Each& each) const {
         const Eigen::Array3d low = (box.low.array() / cell_).floor(),
                              high = (box.high.array() / cell_).floor();
         if (!((high - low + 1).prod() <= most_cells)) return false;
@@ -105,13 +99,13 @@ private:
     }
     // Faces stay where they once were listed: what they are now is tested.
     void insert(Index f) {
-        const Box box = box_of(mesh_.corners_of(f));
+        const MeshBox box = mesh_.box_of(f);
         const auto add = [&](std::vector<Index>& list) {
             if (std::find(list.begin(), list.end(), f) == list.end()) list.push_back(f);
         };
         if (!for_each_cell(box, [&](std::int64_t key) { add(faces_[key]); })) add(large_);
     }
-    [[nodiscard]] std::vector<Index> faces_near(const Box& box) const {
+    [[nodiscard]] std::vector<Index> faces_near(const MeshBox& box) const {
         std::vector<Index> near = large_;
         const bool is_small = for_each_cell(box, [&](std::int64_t key) {
             const auto found = faces_.find(key);
@@ -130,14 +124,11 @@ private:
     // Faces that intersect one, each once.
     [[nodiscard]] std::vector<Index> faces_through(Index f) const {
         const Corners corners = mesh_.corners_of(f);
-        const Box box = box_of(corners);
+        const MeshBox box = mesh_.box_of(f);
         std::vector<Index> found = faces_near(box);
         std::erase_if(found, [&](Index g) {
             if (g == f || !mesh_.face(g).is_there) return true;
-            const Corners others = mesh_.corners_of(g);
-            const Box other = box_of(others);
-            return (box.low.array() > other.high.array()).any() ||
-                   (other.low.array() > box.high.array()).any() || !do_cross(f, corners, g, others);
+            return !box.meets(mesh_.box_of(g)) || !do_cross(f, corners, g, mesh_.corners_of(g));
         });
         return found;
     }

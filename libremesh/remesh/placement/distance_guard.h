@@ -61,9 +61,9 @@ public:
     //! Cost: O(#samples #changed).
     [[nodiscard]] bool accepts(std::span<const Index> changed, double gain) {
         found_.clear();
-        boxes_.clear();
+        boxed_.clear();
         for (const Index f : changed) {
-            if (mesh_.face(f).is_there) boxes_.push_back({f, mesh_.corners_of(f)});
+            if (mesh_.face(f).is_there) boxed_.push_back({f, mesh_.corners_of(f), mesh_.box_of(f)});
         }
         double sum = 0, most_before = 0, most_now = 0;
         for (const Index f : changed) {
@@ -111,15 +111,10 @@ private:
         Index sample, face;
         double distance_sq;
     };
-    struct FaceBox {
-        FaceBox(Index of, const std::array<Vec3, 3>& at)
-            : face(of),
-              corners(at),
-              low(at[0].cwiseMin(at[1]).cwiseMin(at[2])),
-              high(at[0].cwiseMax(at[1]).cwiseMax(at[2])) {}
+    struct BoxedFace {
         Index face;
         std::array<Vec3, 3> corners;
-        Vec3 low, high;
+        MeshBox box;
     };
     static double squared(double x) { return x * x; }
 
@@ -168,16 +163,16 @@ private:
         const auto& [a, b, c] = surface.mesh.triangles[f];
         return (p[b] - p[a]).cross(p[c] - p[a]).norm() / 2;
     }
-    // The nearest of the faces in boxes_.
+    // The nearest of the faces in boxed_.
     [[nodiscard]] Found find_nearest(Index sample) const {
         const Vec3& at = samples_[sample].at;
         Found nearest{sample, no_index, std::numeric_limits<double>::infinity()};
-        for (const FaceBox& box : boxes_) {
+        for (const auto& [face, corners, box] : boxed_) {
             const double least = (at - at.cwiseMax(box.low).cwiseMin(box.high)).squaredNorm();
             if (least >= nearest.distance_sq) continue;
             const double distance_sq =
-                closest_point_on_triangle(box.corners, FaceId(box.face), at).distance_sq;
-            if (distance_sq < nearest.distance_sq) nearest = {sample, box.face, distance_sq};
+                closest_point_on_triangle(corners, FaceId(face), at).distance_sq;
+            if (distance_sq < nearest.distance_sq) nearest = {sample, face, distance_sq};
         }
         return nearest;
     }
@@ -186,7 +181,7 @@ private:
     std::vector<Sample> samples_;
     std::vector<std::vector<Index>> samples_at_;  // By face: the samples nearest to it.
     std::vector<Found> found_;
-    std::vector<FaceBox> boxes_;
+    std::vector<BoxedFace> boxed_;
 };
 
 }  // namespace remesh::detail

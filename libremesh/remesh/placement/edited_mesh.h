@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "agvd/mesh/scale.h"
 #include "agvd/mesh/surface.h"
 #include "remesh/curves/glue.h"
 #include "remesh/curves/walk.h"
@@ -100,6 +101,11 @@ public:
     [[nodiscard]] std::array<Vec3, 3> corners_of(Index f) const {
         const auto& [a, b, c] = faces_[f].corner;
         return {at(a), at(b), at(c)};
+    }
+    [[nodiscard]] MeshBox box_of(Index f) const {
+        MeshBox box;
+        for (const Vec3& at : corners_of(f)) box.add(at);
+        return box;
     }
     [[nodiscard]] Mobility mobility(Index v) const { return vertices_[v].mobility; }
     [[nodiscard]] double worst_at(Index v) const {

@@ -135,8 +135,7 @@ NetworkPlan plan_network(const Surface& surface, std::vector<std::uint8_t> is_cr
                          Index num_vertices, JunctionSet junctions, int num_threads,
                          const Progress& progress, const SizeField* sizes, LockedElements locked) {
     double spacing = detail::spacing_of(num_vertices, surface_area(surface), 0);
-    const double whole =
-        (box_of(surface.mesh.view()).high - box_of(surface.mesh.view()).low).norm();
+    const MeshBox box = box_of(surface.mesh.view());
     NetworkPlan plan;
     plan.junctions = std::move(junctions);
     plan.locked = std::move(locked);
@@ -166,7 +165,7 @@ NetworkPlan plan_network(const Surface& surface, std::vector<std::uint8_t> is_cr
         }
         if (std::ranges::any_of(plan.network.curves, is_free_crease)) {
             drop_shortest(surface, plan.network, drop_at_once, is_crease);
-        } else if (spacing < whole) {
+        } else if (spacing < (box.high - box.low).norm()) {
             spacing *= 2;  // Of the corners.
         } else {
             break;

@@ -178,20 +178,16 @@ std::vector<Index> find_wrapped(std::span<const Triangle> triangles, Index first
     }
     std::vector<Index> wrapped;
     for (Index i = 0; i < around.size(); ++i) {
-        std::map<Index, Index> next(around[i].begin(), around[i].end());
+        const std::map<Index, Index> next(around[i].begin(), around[i].end());
         std::size_t length = 0;
-        if (next.size() == around[i].size() && !next.empty()) {
-            const Index start = next.begin()->first;
-            Index at = start;
-            do {
-                const auto edge = next.find(at);
-                if (edge == next.end()) break;
-                at = edge->second;
-                ++length;
-            } while (at != start && length < next.size());
-            if (at != start) length = 0;
+        auto at = next.begin();
+        while (at != next.end() && length < next.size()) {
+            ++length;
+            if (at->second == next.begin()->first) break;
+            at = next.find(at->second);
         }
-        if (length < 3 || length != around[i].size()) wrapped.push_back(first + i);
+        const bool is_closed = at != next.end() && at->second == next.begin()->first;
+        if (!is_closed || length < 3 || length != around[i].size()) wrapped.push_back(first + i);
     }
     return wrapped;
 }
