@@ -3,9 +3,11 @@
 
 #include <utility>
 
+#include "remesh/meshfile/mesh_file.h"
 #include "remesh/pipeline/crossings.h"
 #include "remesh/pipeline/remesh.h"
 #include "remesh/quality/evaluate.h"
+#include "support/files.h"
 #include "support/parts.h"
 #include "support/shapes.h"
 
@@ -110,4 +112,15 @@ TEST(Crossings, ThatTheInputDoesNotHaveAreNew) {
     EXPECT_GT(both.input_self_intersections, 0u);
     EXPECT_GT(both.new_self_intersections, 0u);
     EXPECT_LT(both.new_self_intersections, *both.self_intersections);
+}
+
+// With equal edges two arms run through each other.
+TEST(Crossings, EdgesGetShorterWhereTheInputHasNone) {
+    if (!has_cgal()) GTEST_SKIP() << "without CGAL";
+    const agvd::TriangleMesh mesh = remesh::read_mesh(files::find_mesh("data/organic.ply")).mesh;
+    const auto result = remesh::remesh(mesh.view(), {.num_samples = 563});
+    EXPECT_EQ(result.self_intersections, 0u);
+    EXPECT_EQ(result.mesh.positions.size(), 563u);
+    EXPECT_GT(result.sizing.least_target, 0);
+    EXPECT_LT(result.sizing.least_target, 0.6 * result.sizing.largest_target);
 }
