@@ -7,6 +7,7 @@
 #include <atomic>
 #include <functional>
 #include <thread>
+#include <utility>
 
 #include "agvd/core/error.h"
 
@@ -21,11 +22,12 @@ inline void poll(const Progress& progress, double fraction) {
     if (progress && !progress(fraction)) throw Cancelled();
 }
 
-//! The callback for a part of the work, from one fraction to another. It keeps a reference to the
-//! given one.
-[[nodiscard]] inline Progress within(const Progress& progress, double begin, double end) {
+//! The callback for a part of the work, from one fraction to another.
+[[nodiscard]] inline Progress within(Progress progress, double begin, double end) {
     if (!progress) return {};
-    return [&progress, begin, end](double x) { return progress(begin + x * (end - begin)); };
+    return [progress = std::move(progress), begin, end](double x) {
+        return progress(begin + x * (end - begin));
+    };
 }
 
 //! Shared by the threads of one stage. Only the thread that made it calls the callback. The other
