@@ -7,9 +7,11 @@
 
 #include "agvd/core/parallel.h"
 #include "agvd/core/portable_math.h"
+#include "agvd/mesh/any_mesh.h"
 #include "agvd/paths/geodesic_path.h"
+#include "remesh/curves/glue.h"
 #include "remesh/dual/build_dual.h"
-#include "remesh/dual/flippable_mesh.h"
+#include "remesh/dual/fan_mesh.h"
 
 namespace remesh {
 namespace {
@@ -44,22 +46,25 @@ bool is_above_pi(const Vec2& a, const Vec2& b) {
            std::numbers::pi + delaunay_tolerance;
 }
 
-// The corners around an edge and the edges between them: a is the tail of its first side, c and d
-// lie opposite, as in triangles (a, b, c) and (b, a, d).
-struct Quad {
-    Index a, b, c, d;
-    Index bc, ca, ad, db;  // Half-edges.
+// Edges are numbered by their two ends, ascending; the number is the label and stays in a flip.
+struct NumberedMesh : detail::FanMesh {
+    std::vector<DirectedEdge> ends;  // By edge: of its first side.
 
-    Quad(const FlippableMesh& mesh, Index edge) {
-        const auto [h, g] = mesh.sides(edge);
-        bc = FlippableMesh::next(h);
-        ca = FlippableMesh::previous(h);
-        ad = FlippableMesh::next(g);
-        db = FlippableMesh::previous(g);
-        a = mesh.tail(h);
-        b = mesh.tail(g);
-        c = mesh.tail(ca);
-        d = mesh.tail(db);
+    NumberedMesh(std::span<const Triangle> triangles, Index num_vertices, Ticker ticker)
+        : FanMesh(triangles, num_vertices, ticker) {
+        for_each_edge(sorted_edge_sides(triangles, ticker), [&](std::span<const EdgeSide> sides) {
+            for (const EdgeSide& side : sides) {
+                put_label(side.half_edge, static_cast<Index>(ends.size()));
+            }
+            forget();
+            const Index h = sides.front().half_edge, other = twin(h);
+            const bool is_first = other == no_index || sides.front().forward;
+            ends.emplace_back(tail(is_first ? h : other), head(is_first ? h : other));
+        });
+    }
+    [[nodiscard]] Index num_edges() const { return static_cast<Index>(ends.size()); }
+    [[nodiscard]] Index first_side(Index edge) const {
+        return half_edge(ends[edge].first, ends[edge].second);
     }
 };
 
@@ -69,14 +74,13 @@ struct EdgeLength {
 };
 using Metric = std::function<EdgeLength(Index, Index)>;  // Between two vertices.
 
-std::vector<double> measure_edges(const FlippableMesh& mesh, const Metric& metric, int num_threads,
+std::vector<double> measure_edges(const NumberedMesh& mesh, const Metric& metric, int num_threads,
                                   Poller& poller, DelaunayCounts& counts) {
     std::vector<EdgeLength> found(mesh.num_edges());
     const auto measure = [&](Index, Index begin, Index end) {
         Ticker ticker(poller);
         for (Index e = begin; e < end; ++e) {
-            const Index h = mesh.sides(e)[0];
-            found[e] = metric(mesh.tail(h), mesh.tail(FlippableMesh::next(h)));
+            found[e] = metric(mesh.ends[e].first, mesh.ends[e].second);
             ticker.tick(ticks_per_path);
         }
     };
@@ -91,7 +95,7 @@ std::vector<double> measure_edges(const FlippableMesh& mesh, const Metric& metri
 
 class Flipper {
 public:
-    Flipper(FlippableMesh& mesh, std::vector<double> length, std::span<const Vec3> positions,
+    Flipper(NumberedMesh& mesh, std::vector<double> length, std::span<const Vec3> positions,
             const Metric& metric, Ticker ticker)
         : ticker_(ticker),
           mesh_(mesh),
@@ -112,7 +116,7 @@ public:
             if (!counts.is_finished) failing = find_failing();
         }
         counts.failing_after = static_cast<Index>(failing.size());
-        for (Index t = 0; t < mesh_.triangles().size(); ++t) {
+        for (Index t = 0; t < mesh_.num_faces(); ++t) {
             if (!is_triangle(length(3 * t), length(3 * t + 1), length(3 * t + 2))) {
                 ++counts.broken_triangles;
             }
@@ -120,60 +124,56 @@ public:
     }
 
 private:
-    [[nodiscard]] double length(Index half_edge) const { return length_[mesh_.edge(half_edge)]; }
+    [[nodiscard]] double length(Index half_edge) const { return length_[mesh_.label(half_edge)]; }
 
     [[nodiscard]] std::vector<Index> find_failing() {
         std::vector<Index> failing;
         for (Index e = 0; e < mesh_.num_edges(); ++e) {
             ticker_.tick(2);
-            if (mesh_.is_inner(e) && fails(e)) failing.push_back(e);
+            if (fails(e)) failing.push_back(e);
         }
         return failing;
     }
 
     [[nodiscard]] bool fails(Index edge) const {
-        const auto corner = [&](Index h) {
-            return corner_opposite(length_[edge], length(FlippableMesh::next(h)),
-                                   length(FlippableMesh::previous(h)));
+        const Index h = mesh_.first_side(edge), other = mesh_.twin(h);
+        if (other == no_index) return false;
+        const auto corner = [&](Index side) {
+            return corner_opposite(length_[edge], length(mesh_.next(side)),
+                                   length(mesh_.previous(side)));
         };
-        return is_above_pi(corner(mesh_.sides(edge)[0]), corner(mesh_.sides(edge)[1]));
+        return is_above_pi(corner(h), corner(other));
     }
 
     bool try_flip(Index edge) {
-        if (!mesh_.can_flip(edge)) return false;
-        const Quad quad(mesh_, edge);
-        if (folds(quad)) return false;
-        const double across = metric_(quad.c, quad.d).length;
+        const Index h = mesh_.first_side(edge);
+        if (!mesh_.can_flip(h) || folds(h)) return false;
+        const Index other = mesh_.twin(h), c = mesh_.apex(h), d = mesh_.apex(other);
+        const double across = metric_(c, d).length;
         ticker_.tick(ticks_per_path);
-        const double bc = length(quad.bc), ca = length(quad.ca);
-        const double ad = length(quad.ad), db = length(quad.db);
+        const double bc = length(mesh_.next(h)), ca = length(mesh_.previous(h));
+        const double ad = length(mesh_.next(other)), db = length(mesh_.previous(other));
         if (!is_triangle(across, ca, ad) || !is_triangle(across, db, bc)) return false;
         if (is_above_pi(corner_opposite(across, ca, ad), corner_opposite(across, db, bc))) {
             return false;
         }
-        mesh_.flip(edge);
+        mesh_.flip(h);
+        mesh_.ends[edge] = {c, d};
+        for (const Index side : {mesh_.half_edge(c, d), mesh_.half_edge(d, c)}) {
+            mesh_.put_label(side, edge);
+        }
+        mesh_.forget();
         length_[edge] = across;
         return true;
     }
 
-    [[nodiscard]] bool folds(const Quad& quad) const {
-        const auto unit = [&](const Triangle& t) -> Vec3 {
-            const Vec3& origin = positions_[t[0]];
-            return (positions_[t[1]] - origin).cross(positions_[t[2]] - origin).normalized();
-        };
-        const std::array rim{quad.bc, quad.ca, quad.ad, quad.db};
-        return flip_folds({quad.a, quad.b, quad.c, quad.d}, unit,
-                          [&](std::size_t i) -> std::optional<Vec3> {
-                              const Index edge = mesh_.edge(rim[i]);
-                              if (!mesh_.is_inner(edge)) return std::nullopt;
-                              const auto& sides = mesh_.sides(edge);
-                              const Index across = sides[0] == rim[i] ? sides[1] : sides[0];
-                              return unit(mesh_.triangles()[across / 3]);
-                          });
+    [[nodiscard]] bool folds(Index h) const {
+        return detail::flip_folds(
+            mesh_, h, [&](Index v) { return positions_[v]; }, [](Index, Index) { return true; });
     }
 
     Ticker ticker_;
-    FlippableMesh& mesh_;
+    NumberedMesh& mesh_;
     std::vector<double> length_;  // By edge.
     std::span<const Vec3> positions_;
     const Metric& metric_;
@@ -196,9 +196,11 @@ DelaunayResult make_delaunay(const Surface& surface, std::span<const SurfacePoin
         return {(positions[a] - positions[b]).norm(), true};
     };
     const Metric& metric = options.mode == Delaunay::Intrinsic ? on_surface : in_space;
-    FlippableMesh mesh(triangles, Ticker(poller));
+    NumberedMesh mesh(triangles, static_cast<Index>(positions.size()), Ticker(poller));
     DelaunayCounts& counts = result.counts;
-    for (Index e = 0; e < mesh.num_edges(); ++e) counts.inner_edges += mesh.is_inner(e) ? 1 : 0;
+    for (Index e = 0; e < mesh.num_edges(); ++e) {
+        counts.inner_edges += mesh.twin(mesh.first_side(e)) != no_index ? 1 : 0;
+    }
     std::vector<double> length = measure_edges(mesh, metric, options.num_threads, poller, counts);
     Flipper(mesh, std::move(length), positions, metric, Ticker(poller)).run(counts);
     result.triangles = mesh.triangles();

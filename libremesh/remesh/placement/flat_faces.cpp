@@ -4,19 +4,20 @@
 
 #include <algorithm>
 
-#include "remesh/dual/flippable_mesh.h"
+#include "remesh/dual/fan_mesh.h"
 
 namespace remesh {
 namespace {
+
+using detail::FanMesh;
 
 // Height over length: coordinates are rounded by a few times 1e-16 of the mesh, and edges are
 // rarely shorter than a hundred-thousandth of it.
 constexpr double most_flat = 1e-10;
 
-Index longest_side(const FlippableMesh& mesh, std::span<const Vec3> positions, Index face) {
+Index longest_side(const FanMesh& mesh, std::span<const Vec3> positions, Index face) {
     const auto length_sq = [&](Index h) {
-        return (positions[mesh.tail(h)] - positions[mesh.tail(FlippableMesh::next(h))])
-            .squaredNorm();
+        return (positions[mesh.tail(h)] - positions[mesh.head(h)]).squaredNorm();
     };
     Index longest = 3 * face;
     for (const Index h : {3 * face + 1, 3 * face + 2}) {
@@ -26,14 +27,11 @@ Index longest_side(const FlippableMesh& mesh, std::span<const Vec3> positions, I
 }
 
 // Flips the edge unless one of the two triangles that it leaves is flat.
-bool try_flip(FlippableMesh& mesh, std::span<const Vec3> positions, Index edge) {
-    if (!mesh.can_flip(edge)) return false;
-    const auto [h, g] = mesh.sides(edge);
-    const Index a = mesh.tail(h), b = mesh.tail(g);
-    const Index c = mesh.tail(FlippableMesh::previous(h)),
-                d = mesh.tail(FlippableMesh::previous(g));
+bool try_flip(FanMesh& mesh, std::span<const Vec3> positions, Index h) {
+    if (!mesh.can_flip(h)) return false;
+    const Index a = mesh.tail(h), b = mesh.head(h), c = mesh.apex(h), d = mesh.apex(mesh.twin(h));
     if (is_flat(positions, {c, a, d}) || is_flat(positions, {d, b, c})) return false;
-    mesh.flip(edge);
+    mesh.flip(h);
     return true;
 }
 
@@ -53,13 +51,12 @@ void flip_flat_faces(std::span<const Vec3> positions, std::vector<Triangle>& tri
         if (is_flat(positions, triangles[f])) flat.push_back(f);
     }
     if (flat.empty()) return;
-    FlippableMesh mesh(triangles);
+    FanMesh mesh(triangles, static_cast<Index>(positions.size()));
     // A flip frees the next of several flat triangles in a row.
     for (bool is_changed = true; is_changed;) {
         is_changed = false;
         std::erase_if(flat, [&](Index f) {
-            const bool is_done =
-                try_flip(mesh, positions, mesh.edge(longest_side(mesh, positions, f)));
+            const bool is_done = try_flip(mesh, positions, longest_side(mesh, positions, f));
             is_changed |= is_done;
             return is_done;
         });
