@@ -11,7 +11,7 @@
 #include "agvd/mesh/surface_points.h"
 #include "agvd/mesh/topology.h"
 #include "agvd/propagation/propagate.h"
-#include "remesh/dual/flippable_mesh.h"
+#include "remesh/dual/fan_mesh.h"
 #include "support/points.h"
 #include "support/random_meshes.h"
 #include "support/shapes.h"
@@ -180,11 +180,17 @@ TEST(MakeDelaunay, MendsFlipsMadeAtRandom) {
     const TriangleMesh mesh = shapes::jitter(shapes::torus(60, 30), 0.005, 1);
     Dual dual(mesh, uniform(mesh, 500, 4));
     const Index unmended = dual.made(Delaunay::Intrinsic).counts.failing_after;
-    remesh::FlippableMesh flipped(dual.triangles);
+    remesh::detail::FanMesh flipped(dual.triangles, static_cast<Index>(dual.sites.size()));
+    std::vector<std::pair<Index, Index>> edges;
+    for (const auto& [ends, count] : edges_of(dual.triangles)) edges.push_back(ends);
     Dice dice(1);
     for (int i = 0; i < 300; ++i) {
-        const Index edge = dice.count(0, flipped.num_edges() - 1);
-        if (flipped.can_flip(edge)) flipped.flip(edge);
+        auto& [a, b] = edges[dice.count(0, static_cast<Index>(edges.size()) - 1)];
+        const Index h = flipped.half_edge(a, b);
+        if (!flipped.can_flip(h)) continue;
+        a = flipped.apex(h);
+        b = flipped.apex(flipped.twin(h));
+        flipped.flip(h);
     }
     dual.triangles = flipped.triangles();
     const DelaunayResult result = dual.made(Delaunay::Intrinsic);
@@ -256,29 +262,4 @@ TEST(MakeDelaunay, LeavesEdgesAloneThatThreeTrianglesShare) {
     quad.positions.push_back({2, 0, 1});
     quad.triangles.push_back({0, 1, 4});
     EXPECT_EQ(quad.flipped().triangles, quad.triangles);
-}
-
-TEST(FlippableMesh, StaysConsistentUnderFlips) {
-    const TriangleMesh sphere = shapes::sphere(2);
-    remesh::FlippableMesh mesh(sphere.triangles);
-    Index flips = 0;
-    for (Index step = 0; step < 2000; ++step) {
-        const Index edge = step * 7919 % mesh.num_edges();
-        if (!mesh.can_flip(edge)) continue;
-        mesh.flip(edge);
-        ++flips;
-    }
-    EXPECT_GT(flips, 500u);
-    const remesh::FlippableMesh fresh(mesh.triangles());
-    EXPECT_EQ(fresh.num_edges(), mesh.num_edges());
-    for (Index e = 0; e < mesh.num_edges(); ++e) {
-        ASSERT_TRUE(fresh.is_inner(e));
-        const auto [h, g] = mesh.sides(e);
-        EXPECT_EQ(mesh.edge(h), e);
-        EXPECT_EQ(mesh.edge(g), e);
-        EXPECT_EQ(mesh.tail(h), mesh.tail(remesh::FlippableMesh::next(g)));
-        EXPECT_EQ(mesh.tail(g), mesh.tail(remesh::FlippableMesh::next(h)));
-    }
-    for (Index e = 0; e < mesh.num_edges(); ++e)
-        EXPECT_EQ(fresh.can_flip(fresh.edge(mesh.sides(e)[0])), mesh.can_flip(e));
 }
