@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <limits>
 #include <numbers>
+#include <vector>
 
 namespace agvd {
 
@@ -64,6 +65,14 @@ using SiteId = Id<struct SiteTag>;      //!< A site of a diagram.
 //! by the higher one.
 [[nodiscard]] constexpr std::uint64_t edge_key(Index a, Index b) {
     return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
+}
+
+//! The values in ascending order, each once. Cost: O(n log n).
+template <typename Value>
+[[nodiscard]] std::vector<Value> distinct(std::vector<Value> values) {
+    std::sort(values.begin(), values.end());
+    values.erase(std::unique(values.begin(), values.end()), values.end());
+    return values;
 }
 
 //! An index into the first or the second of two arrays, in one word: the highest bit tells which.

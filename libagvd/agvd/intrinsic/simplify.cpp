@@ -26,12 +26,6 @@ Index rank_of(std::span<const Index> ascending, Index value) {
                               ascending.begin());
 }
 
-std::vector<Index> distinct(std::vector<Index> values) {
-    std::sort(values.begin(), values.end());
-    values.erase(std::unique(values.begin(), values.end()), values.end());
-    return values;
-}
-
 Part part_of(const Surface& whole, std::span<const Index> faces) {
     std::vector<Index> vertices, edges;
     for (const Index f : faces) {
@@ -187,9 +181,7 @@ std::vector<Index> edges_to_cut(const Surface& surface) {
         faces.emplace_back(corners, surface.edge[3 * f]);
     }
     append_repeated(faces, found);
-    std::sort(found.begin(), found.end());
-    found.erase(std::unique(found.begin(), found.end()), found.end());
-    return found;
+    return distinct(std::move(found));
 }
 
 }  // namespace agvd::detail

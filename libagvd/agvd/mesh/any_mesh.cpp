@@ -54,4 +54,27 @@ std::vector<Index> first_at_position(std::span<const Vec3> positions, Ticker& ti
     return first;
 }
 
+std::vector<Triangle> rename_vertices(std::span<const Triangle> triangles,
+                                      std::span<const Index> first) {
+    std::vector<Triangle> result(triangles.begin(), triangles.end());
+    for (Triangle& t : result) {
+        for (Index& v : t) v = first[v];
+    }
+    return result;
+}
+
+std::vector<Index> drop_unused(Index num_vertices, std::vector<Triangle>& triangles) {
+    std::vector<Index> number(num_vertices, no_index), used;
+    for (const Triangle& t : triangles) {
+        for (const Index v : t) number[v] = 0;
+    }
+    for (Index v = 0; v < num_vertices; ++v) {
+        if (number[v] == no_index) continue;
+        number[v] = static_cast<Index>(used.size());
+        used.push_back(v);
+    }
+    triangles = rename_vertices(triangles, number);
+    return used;
+}
+
 }  // namespace agvd

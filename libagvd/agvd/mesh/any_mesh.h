@@ -65,4 +65,12 @@ void for_each_edge(std::span<const EdgeSide> sides, const Visit& visit) {
 [[nodiscard]] std::vector<Index> first_at_position(std::span<const Vec3> positions, Ticker& ticker,
                                                    const std::vector<bool>& is_wanted = {});
 
+//! The faces with first[v] in place of each vertex v.
+[[nodiscard]] std::vector<Triangle> rename_vertices(std::span<const Triangle> triangles,
+                                                    std::span<const Index> first);
+
+//! Numbers the vertices that triangles have anew, in their order.
+//! \return these, ascending. Cost: O(n).
+std::vector<Index> drop_unused(Index num_vertices, std::vector<Triangle>& triangles);
+
 }  // namespace agvd

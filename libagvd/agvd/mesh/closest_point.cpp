@@ -96,14 +96,9 @@ ClosestPointTree::ClosestPointTree(const MeshView& mesh, const Progress& progres
     if (num_faces == 0) {
         throw InvalidInput("the mesh has no face; check that the file holds a surface");
     }
-    const auto corners_of = [&](Index face) {
-        const Triangle& t = mesh.triangles[face];
-        return std::array<Vec3, 3>{mesh.positions[t[0]], mesh.positions[t[1]],
-                                   mesh.positions[t[2]]};
-    };
     std::vector<Vec3> centers(num_faces);
     for (Index f = 0; f < num_faces; ++f) {
-        const auto [a, b, c] = corners_of(f);
+        const auto [a, b, c] = corners_of(mesh, f);
         centers[f] = (a + b + c) / 3;
     }
     std::vector<Index> faces(num_faces);
@@ -114,7 +109,7 @@ ClosestPointTree::ClosestPointTree(const MeshView& mesh, const Progress& progres
     corners_.reserve(num_faces);
     face_.reserve(num_faces);
     for (const Index face : faces) {
-        corners_.push_back(corners_of(face));
+        corners_.push_back(corners_of(mesh, face));
         face_.emplace_back(face);
     }
     // Children follow their node, so in a backward loop they are done before it.

@@ -45,6 +45,17 @@ struct SurfacePoint {
            point.barycentric[2] * mesh.positions[t[2]];
 }
 
+//! The corners of a face in space.
+[[nodiscard]] inline std::array<Vec3, 3> corners_of(const MeshView& mesh, Index face) {
+    const auto& [a, b, c] = mesh.triangles[face];
+    return {mesh.positions[a], mesh.positions[b], mesh.positions[c]};
+}
+
+//! The normal of a triangle, twice its area long.
+[[nodiscard]] inline Vec3 doubled_normal(std::span<const Vec3> positions, const Triangle& t) {
+    return (positions[t[1]] - positions[t[0]]).cross(positions[t[2]] - positions[t[0]]);
+}
+
 //! #V unit vectors: the mean of the normals of the faces around each vertex, weighted by their
 //! angles there ([thurmer1998]). Zero where there is no face, or none with area.
 //! Cost: O(n).

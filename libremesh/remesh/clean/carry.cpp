@@ -23,11 +23,6 @@ namespace {
 // Positions are accurate to 1e-16 of the largest coordinate.
 constexpr double tolerance_share = 1e-9;
 
-std::array<Vec3, 3> corners_of(const MeshView& mesh, Index face) {
-    const Triangle& t = mesh.triangles[face];
-    return {mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]};
-}
-
 // Divides coordinates by their sum. If this is 1 up to rounding, they stay, bit for bit.
 SurfacePoint normalized(SurfacePoint point) {
     constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
@@ -119,11 +114,6 @@ struct EdgeMiddle {
     SurfacePoint middle;
 };
 
-double area_of(const MeshView& mesh, const Triangle& t) {
-    const auto& p = mesh.positions;
-    return (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]).norm();
-}
-
 }  // namespace
 
 std::vector<SurfacePoint> to_cleaned(const std::vector<SurfacePoint>& sites, const MeshView& mesh,
@@ -176,14 +166,12 @@ std::vector<std::uint8_t> carry_edges(std::span<const std::array<Index, 2>> edge
     // faces without area, and of duplicate faces all but the first.
     for (Index f = 0; f < mesh.triangles.size(); ++f) {
         const Triangle& t = mesh.triangles[f];
-        for (std::size_t k = 0; k < 3; ++k) {
+        for (Index k = 0; k < 3; ++k) {
             const auto found = middle_of.find(std::minmax(t[k], t[(k + 1) % 3]));
             if (found == middle_of.end()) continue;
-            const double area = area_of(mesh, t);
+            const double area = doubled_normal(mesh.positions, t).norm();
             if (!(area > found->second.area)) continue;
-            SurfacePoint middle{FaceId(f), {0, 0, 0}};
-            middle.barycentric[k] = middle.barycentric[(k + 1) % 3] = 0.5;
-            found->second = {area, middle};
+            found->second = {area, point_on(3 * f + k, 0.5)};
         }
     }
     std::vector<SurfacePoint> middles;

@@ -77,8 +77,7 @@ private:
             if (!(smallest_doubled_area(soup_.positions, t) > 0)) return false;
         }
         if (loop.size() == 3 && loop[0] / 3 == loop[1] / 3) return false;  // A triangle alone.
-        std::sort(chords.begin(), chords.end());
-        chords.erase(std::unique(chords.begin(), chords.end()), chords.end());
+        chords = distinct(std::move(chords));
         const auto has = [](const std::vector<std::uint64_t>& edges, std::uint64_t edge) {
             return std::binary_search(edges.begin(), edges.end(), edge);
         };

@@ -11,6 +11,7 @@
 #include "agvd/core/error.h"
 #include "agvd/core/parallel.h"
 #include "agvd/mesh/scale.h"
+#include "agvd/mesh/surface_points.h"
 #include "remesh/clean/soup.h"
 
 namespace remesh {
@@ -175,26 +176,13 @@ bool drop_repeated_corners(Soup& soup) {
 }
 
 void drop_isolated_vertices(Soup& soup) {
-    std::vector<Index> new_vertex(soup.positions.size(), no_index);
-    for_each_ticked(soup.triangles, soup.ticker, [&](const Triangle& t) {
-        for (const Index v : t) new_vertex[v] = 0;
-    });
-    Index count = 0;
-    for (Index v = 0; v < new_vertex.size(); ++v) {
-        if (new_vertex[v] == no_index) continue;
-        new_vertex[v] = count;
-        soup.positions[count] = soup.positions[v];
-        soup.vertex_origin[count] = soup.vertex_origin[v];
-        ++count;
-    }
-    if (count == soup.positions.size()) return;
+    const auto before = static_cast<Index>(soup.positions.size());
+    const std::vector<Index> left = drop_unused(before, soup.triangles);
+    if (left.size() == before) return;
     soup.counts.isolated_vertices +=
-        static_cast<Index>(soup.positions.size()) - count - soup.counts.welded_vertices;
-    soup.positions.resize(count);
-    soup.vertex_origin.resize(count);
-    for (Triangle& t : soup.triangles) {
-        for (Index& v : t) v = new_vertex[v];
-    }
+        before - static_cast<Index>(left.size()) - soup.counts.welded_vertices;
+    soup.positions = take(soup.positions, left);
+    soup.vertex_origin = take(soup.vertex_origin, left);
 }
 
 Index drop_components(CleanResult& clean, const Topology& topology, double least_share) {

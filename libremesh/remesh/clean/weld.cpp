@@ -1,9 +1,7 @@
 // Merges vertices at one position: along cracks, and at the ends of zero-length edges.
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
-#include "agvd/core/random.h"
 #include "agvd/core/types.h"
 #include "agvd/core/union_find.h"
 #include "agvd/mesh/point_grid.h"
@@ -23,26 +21,6 @@ constexpr double share_with_tolerance = 0.49;
 constexpr double least_reach = 1.0 / 8;
 // Of a grid's cell, in reaches: with 8 a vertex looks at two cells in the mean.
 constexpr double cell_size = 8;
-
-// For each wanted vertex, the first such vertex with the same position.
-std::vector<Index> first_at_position(std::span<const Vec3> positions,
-                                     const std::vector<bool>& is_wanted, Ticker& ticker) {
-    const auto wanted =
-        static_cast<std::size_t>(std::count(is_wanted.begin(), is_wanted.end(), true));
-    std::vector<Index> table(std::bit_ceil(2 * wanted + 1), no_index);  // Open addressing.
-    std::vector<Index> first(positions.size(), no_index);
-    for (Index v = 0; v < positions.size(); ++v) {
-        ticker.tick();
-        if (!is_wanted[v]) continue;
-        std::size_t slot = PositionHash{}(positions[v]) & (table.size() - 1);
-        while (table[slot] != no_index && positions[table[slot]] != positions[v]) {
-            slot = (slot + 1) & (table.size() - 1);
-        }
-        if (table[slot] == no_index) table[slot] = v;
-        first[v] = table[slot];
-    }
-    return first;
-}
 
 // By first vertex: a share of the shortest edge at its position, zero-length ones apart.
 std::vector<double> find_reaches(const MeshView& mesh, std::span<const Index> first, double share,
@@ -145,7 +123,7 @@ double longest_slit(Soup& soup, std::span<const EdgeSide> open, std::span<const 
 // The first of each set of equal positions goes into a grid, and is compared with those there.
 std::vector<Index> find_common_positions(const MeshView& mesh, const std::vector<bool>& is_wanted,
                                          Ticker& ticker, double tolerance) {
-    std::vector<Index> first = first_at_position(mesh.positions, is_wanted, ticker);
+    std::vector<Index> first = first_at_position(mesh.positions, ticker, is_wanted);
     const std::vector<double> reach =
         find_reaches(mesh, first, tolerance > 0 ? share_with_tolerance : share_of_edge, ticker);
     std::vector<double> finite;

@@ -7,6 +7,8 @@
 #include <numbers>
 #include <utility>
 
+#include "agvd/mesh/surface_points.h"
+
 namespace remesh {
 namespace {
 
@@ -115,11 +117,7 @@ Index Curve::vertex(const Surface& surface, std::size_t i, std::size_t side) con
 SurfacePoint point_on_curve(const Curve& curve, double along, std::size_t side) {
     auto [i, share] = find_position(curve, along);
     if (!curve.sides[side].runs_along) share = 1 - share;
-    const Index h = curve.sides[side].half_edges[i];
-    SurfacePoint point{FaceId(Surface::face(h)), {0, 0, 0}};
-    point.barycentric[h % 3] = 1 - share;
-    point.barycentric[Surface::next(h) % 3] = share;
-    return point;
+    return point_on(curve.sides[side].half_edges[i], share);
 }
 
 Vec3 tangent_of_curve(const Surface& surface, const Curve& curve, double along) {

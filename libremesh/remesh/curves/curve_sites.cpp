@@ -105,9 +105,7 @@ public:
         sites_.sites.push_back(point);
     }
     void end_group(double along) {
-        std::vector<Index> order = sheets_;
-        std::sort(order.begin(), order.end());
-        order.erase(std::unique(order.begin(), order.end()), order.end());
+        const std::vector<Index> order = distinct(sheets_);
         for (const Index sheet : sheets_) {
             const auto at = std::lower_bound(order.begin(), order.end(), sheet);
             sites_.vertex.push_back(sites_.num_vertices + static_cast<Index>(at - order.begin()));
@@ -199,8 +197,7 @@ Index num_junction_vertices(const CurveNetwork& network, const CurveSites& sites
             vertices.push_back(network.is_welded() ? g : sites.vertex[i]);
         }
     }
-    std::sort(vertices.begin(), vertices.end());
-    return static_cast<Index>(std::unique(vertices.begin(), vertices.end()) - vertices.begin());
+    return static_cast<Index>(distinct(std::move(vertices)).size());
 }
 
 std::vector<std::vector<double>> even_positions(const Surface& surface, const CurveNetwork& network,

@@ -41,8 +41,7 @@ Patches single_faces(const Surface& surface, int num_threads, Poller& poller) {
         count, edges_per_task, num_threads,
         [&](Index, Index begin, Index end) {
             for (Index f = begin; f < end; ++f) {
-                const auto& [a, b, c] = surface.mesh.triangles[f];
-                patches.area[f] = (p[b] - p[a]).cross(p[c] - p[a]);
+                patches.area[f] = doubled_normal(p, surface.mesh.triangles[f]);
                 patches.longest[f] =
                     std::max({surface.length_of(3 * f), surface.length_of(3 * f + 1),
                               surface.length_of(3 * f + 2)});

@@ -64,19 +64,12 @@ std::vector<Index> way_on(const std::vector<DirectedEdge>& edges, Index from, co
 // Whether an edge joins a vertex with itself.
 bool is_loop(const EdgeSide& side) { return side.low() == side.high(); }
 
-// The corners of all triangles, ascending.
-std::vector<Index> corners_of(std::span<const Triangle> triangles) {
-    std::vector<Index> corners;
-    for (const Triangle& t : triangles) corners.insert(corners.end(), t.begin(), t.end());
-    std::sort(corners.begin(), corners.end());
-    return corners;
-}
-
-}  // namespace
-
-bool flip_repeated(std::vector<Triangle>& triangles, std::span<const Index> vertex,
-                   const std::function<bool(std::span<const EdgeSide>)>& is_repeated,
-                   const std::function<bool(std::uint64_t)>& is_taken) {
+// A round: one flip for each repeated edge.
+// \param[out] has_repeated  whether there were any before.
+// \return whether there was a flip.
+bool flip_round(std::vector<Triangle>& triangles, std::span<const Index> vertex,
+                const std::function<bool(std::span<const EdgeSide>)>& is_repeated,
+                const std::function<bool(std::uint64_t)>& is_taken, bool& has_repeated) {
     const std::vector<EdgeSide> all = sorted_edge_sides(rename_vertices(triangles, vertex));
     std::set<std::uint64_t> added;
     std::vector<bool> is_changed(triangles.size(), false);
@@ -98,9 +91,10 @@ bool flip_repeated(std::vector<Triangle>& triangles, std::span<const Index> vert
         added.insert(ends);
         return true;
     };
-    bool has_flipped = false;
+    bool has_flipped = has_repeated = false;
     for_each_edge(all, [&](std::span<const EdgeSide> edge) {
         if (!is_repeated(edge)) return;
+        has_repeated = true;
         for (std::size_t i = 0; i < edge.size(); ++i) {
             for (std::size_t j = i + 1; j < edge.size(); ++j) {
                 if (!try_flip(edge[i].half_edge, edge[j].half_edge)) continue;
@@ -112,6 +106,18 @@ bool flip_repeated(std::vector<Triangle>& triangles, std::span<const Index> vert
     return has_flipped;
 }
 
+}  // namespace
+
+bool flip_repeated(std::vector<Triangle>& triangles, std::span<const Index> vertex,
+                   const std::function<bool(std::span<const EdgeSide>)>& is_repeated,
+                   const std::function<bool(std::uint64_t)>& is_taken) {
+    bool has_repeated = true;
+    for (int round = 0; round < most_flip_rounds && has_repeated; ++round) {
+        if (!flip_round(triangles, vertex, is_repeated, is_taken, has_repeated)) break;
+    }
+    return !has_repeated;
+}
+
 GluedMesh glue(std::span<const Triangle> triangles, std::span<const Index> group,
                std::span<const Index> vertex) {
     GluedMesh result;
@@ -121,9 +127,7 @@ GluedMesh glue(std::span<const Triangle> triangles, std::span<const Index> group
         return sides.size() > 2 || is_loop(sides.front());
     };
     const auto is_taken = [](std::uint64_t) { return false; };
-    for (int round = 0; round < most_flip_rounds; ++round) {
-        if (!flip_repeated(result.triangles, groups.number, is_repeated, is_taken)) break;
-    }
+    flip_repeated(result.triangles, groups.number, is_repeated, is_taken);
     Numbering vertices = vertex.empty() ? groups : number_sets(vertex);
     result.vertex = std::move(vertices.number);
     result.representative = std::move(vertices.first);
@@ -176,7 +180,9 @@ void close_rim(std::span<const DirectedEdge> chain, std::vector<Triangle>& trian
     const std::vector<DirectedEdge> rim = rim_of(triangles);
     std::vector<DirectedEdge> wanted(chain.begin(), chain.end());
     std::sort(wanted.begin(), wanted.end());
-    const std::vector<Index> used = corners_of(triangles);
+    std::vector<Index> used;
+    for (const Triangle& t : triangles) used.insert(used.end(), t.begin(), t.end());
+    std::sort(used.begin(), used.end());
     for (const DirectedEdge& edge : wanted) {
         if (has(rim, edge)) continue;
         const Index from = edge.first, to = edge.second;
@@ -192,15 +198,6 @@ void close_rim(std::span<const DirectedEdge> chain, std::vector<Triangle>& trian
             triangles.push_back({from, past[i - 1], past[i]});
         }
     }
-}
-
-std::vector<Triangle> rename_vertices(std::span<const Triangle> triangles,
-                                      std::span<const Index> first) {
-    std::vector<Triangle> result(triangles.begin(), triangles.end());
-    for (Triangle& t : result) {
-        for (Index& v : t) v = first[v];
-    }
-    return result;
 }
 
 std::vector<Index> weld_sheets(std::span<const Index> group, TriangleMesh& mesh) {

@@ -40,13 +40,13 @@ struct InnerEdge {
 //! place, or all if rims of patches meet there.
 [[nodiscard]] std::vector<InnerEdge> repeated_edges(const GluedMesh& mesh);
 
-//! A round of flips of inner edges of patches, so that fewer edges of the glued mesh are repeated:
-//! one flip for each repeated edge.
+//! Flips inner edges of patches, so that fewer edges of the glued mesh are repeated: in rounds of
+//! one flip for each repeated edge, as a flip can cause another repetition.
 //! \param triangles    edited in place.
 //! \param vertex       #V: the vertex of the glued mesh.
 //! \param is_repeated  tells of the sides of an edge of the glued mesh whether there are too many.
 //! \param is_taken     tells whether further faces have an edge, by its edge_key.
-//! \return whether there was a flip. Cost: O(n log n).
+//! \return whether none is repeated any more. Cost: O(n log n).
 bool flip_repeated(std::vector<Triangle>& triangles, std::span<const Index> vertex,
                    const std::function<bool(std::span<const EdgeSide>)>& is_repeated,
                    const std::function<bool(std::uint64_t)>& is_taken);
@@ -63,10 +63,6 @@ using DirectedEdge = std::pair<Index, Index>;  //!< From, to.
 //! \param chain  edges that the rim is to have.
 //! Cost: O(n log n).
 void close_rim(std::span<const DirectedEdge> chain, std::vector<Triangle>& triangles);
-
-//! The faces with first[v] in place of each vertex v.
-[[nodiscard]] std::vector<Triangle> rename_vertices(std::span<const Triangle> triangles,
-                                                    std::span<const Index> first);
 
 //! Merges the vertices of each group into the first one.
 //! \param group  #V.

@@ -218,13 +218,11 @@ void drop_narrow_charts(const Surface& surface, double width, std::vector<std::u
             charts.unite(Surface::face(h), Surface::face(twin));
         }
     }
-    const auto& p = surface.mesh.positions;
     std::vector<double> area(surface.num_faces(), 0), length(surface.num_faces(), 0);  // At roots.
     for (Index f = 0; f < surface.num_faces(); ++f) {
         ticker.tick();
         const Index chart = charts.root(f);
-        const auto& [a, b, c] = surface.mesh.triangles[f];
-        area[chart] += (p[b] - p[a]).cross(p[c] - p[a]).norm() / 2;
+        area[chart] += doubled_normal(surface.mesh.positions, surface.mesh.triangles[f]).norm() / 2;
         for (Index h = 3 * f; h < 3 * f + 3; ++h) {
             if (is_seam[surface.edge[h]] != 0) length[chart] += surface.length[surface.edge[h]];
         }

@@ -12,6 +12,7 @@
 
 #include "agvd/mesh/point_grid.h"
 #include "agvd/mesh/scale.h"
+#include "agvd/mesh/surface_points.h"
 #include "remesh/curves/crease_chains.h"
 #include "remesh/curves/walk.h"
 
@@ -126,8 +127,8 @@ public:
                 const double width = nearest(p, h, t, reach * spacing_);
                 const double length = lengths_per_width * std::max(width, least_depth * spacing_);
                 if (width >= reach * spacing_ || length >= spacing_) return;
-                strips.push_back({point_of(h, t), length});
-                strips.push_back({point_of(surface_.twin[h], 1 - t), length});
+                strips.push_back({point_on(h, t), length});
+                strips.push_back({point_on(surface_.twin[h], 1 - t), length});
                 num_vertices_ += num_added(width / spacing_, length / spacing_) *
                                  surface_.length_of(h) / (num_parts(h) * spacing_);
             };
@@ -230,13 +231,6 @@ private:
         return along <= apart_along * spacing_;
     }
 
-    [[nodiscard]] static SurfacePoint point_of(Index h, double share) {
-        SurfacePoint point{FaceId(Surface::face(h)), {0, 0, 0}};
-        point.barycentric[h % 3] = 1 - share;
-        point.barycentric[(h % 3 + 1) % 3] = share;
-        return point;
-    }
-
     // Whether the straightest way along the surface from a point of a half-edge leads to another
     // point: the two may also lie on both sides of a thin wall.
     [[nodiscard]] bool leads_to(Index h, double share, const Vec3& from, const Vec3& to) const {
@@ -249,7 +243,7 @@ private:
             const Vec3 inward = (apex - axis.dot(apex) * axis).normalized();
             const Vec3 in_plane = axis.dot(way) * axis + inward.dot(way) * inward;
             if (!(inward.dot(way) > 0) || !(in_plane.norm() > 0)) continue;
-            const SurfacePoint start = point_of(side, side == h ? share : 1 - share);
+            const SurfacePoint start = point_on(side, side == h ? share : 1 - share);
             const SurfacePoint end =
                 detail::walk_straight(surface_, start, in_plane * (way.norm() / in_plane.norm()))
                     .end;

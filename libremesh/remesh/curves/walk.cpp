@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "agvd/mesh/surface_points.h"
+
 namespace remesh::detail {
 namespace {
 
@@ -152,10 +154,7 @@ SurfacePoint walk_boundary(const Surface& surface, const SurfacePoint& from, Ind
     }
     const double share =
         std::clamp(along / surface.length_of(h), interior_margin, 1 - interior_margin);
-    SurfacePoint end{FaceId(Surface::face(h)), {0, 0, 0}};
-    end.barycentric[h % 3] = 1 - share;
-    end.barycentric[Surface::next(h) % 3] = share;
-    return end;
+    return point_on(h, share);
 }
 
 }  // namespace remesh::detail

@@ -25,9 +25,8 @@ inline void keep_inside(std::array<double, 3>& barycentric) {
 
 //! The unit normal of the surface at a point.
 [[nodiscard]] inline Vec3 facing_at(const Surface& surface, const SurfacePoint& point) {
-    const auto& p = surface.mesh.positions;
-    const auto& [a, b, c] = surface.mesh.triangles[point.face.value()];
-    return (p[b] - p[a]).cross(p[c] - p[a]).normalized();
+    const Triangle& t = surface.mesh.triangles[point.face.value()];
+    return doubled_normal(surface.mesh.positions, t).normalized();
 }
 
 struct Walk {

@@ -223,9 +223,7 @@ public:
         for (std::size_t i = mark.faces; i < old_faces_.size(); ++i) {
             changed.push_back(old_faces_[i].first);
         }
-        std::sort(changed.begin(), changed.end());
-        changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
-        return changed;
+        return distinct(std::move(changed));
     }
     //! \param[out] now     the changed faces that exist now.
     //! \param[out] before  the old qualities of those that existed at the mark.

@@ -117,19 +117,14 @@ private:
             if (mesh_.has_corner(f, into)) continue;
             Triangle moved = mesh_.face(f).corner;
             std::replace(moved.begin(), moved.end(), gone, into);
-            const Vec3 before = normal(mesh_.face(f).corner);
-            const Vec3 after = normal(moved);
+            const Vec3 before = doubled_normal(positions_, mesh_.face(f).corner);
+            const Vec3 after = doubled_normal(positions_, moved);
             if (!(after.dot(before) > demands_.least_turn * after.norm() * before.norm())) {
                 return false;
             }
             if (quality(moved, after.norm()) < demands_.least_quality) return false;
         }
         return true;
-    }
-
-    // Its length is twice the triangle's area.
-    [[nodiscard]] Vec3 normal(const Triangle& t) const {
-        return (positions_[t[1]] - positions_[t[0]]).cross(positions_[t[2]] - positions_[t[0]]);
     }
 
     [[nodiscard]] double quality(const Triangle& t, double twice_area) const {
@@ -221,9 +216,7 @@ void free_rim(const Surface& surface, std::span<const SurfacePoint> points, Simp
         if (!is_gone[i]) left.push_back(patch.extra[i]);
     }
     patch.extra = std::move(left);
-    for (Triangle& t : patch.triangles) {
-        for (Index& v : t) v = number[v];
-    }
+    patch.triangles = rename_vertices(patch.triangles, number);
 }
 
 SimplifiedMesh simplify_patch(const Surface& surface, std::span<const Index> faces,

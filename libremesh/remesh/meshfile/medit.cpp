@@ -60,9 +60,7 @@ std::vector<Edge> edges_of(const TriangleMesh& mesh) {
     for (const auto& [a, b, c] : mesh.triangles) {
         edges.insert(edges.end(), {in_order(a, b), in_order(b, c), in_order(c, a)});
     }
-    std::sort(edges.begin(), edges.end());
-    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-    return edges;
+    return distinct(std::move(edges));
 }
 
 class MeditReader {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "agvd/mesh/closest_point.h"
+#include "agvd/mesh/surface_points.h"
 #include "remesh/meshfile/text_scanner.h"
 
 namespace remesh {
@@ -158,9 +159,7 @@ private:
             file_.fail_unusable(start_, "vertex ", vertex,
                                 " is in no face; use a vertex of a face");
         }
-        SurfacePoint site{FaceId(corner / 3), {0, 0, 0}};
-        site.barycentric[corner % 3] = 1;
-        return site;
+        return point_on(corner, 0);
     }
 
     SurfacePoint face_site(TextScanner& scan) {

@@ -29,21 +29,6 @@ void drop_points(Diagram& diagram) {
     diagram.edge_points = {};
 }
 
-// Removes these vertices and renumbers the others in their order.
-void compact(std::span<const Index> gone, ValidDual& dual) {
-    std::vector<Index> number(dual.points.size(), 0), left;
-    for (const Index v : gone) number[v] = no_index;
-    for (Index v = 0; v < number.size(); ++v) {
-        if (number[v] == no_index) continue;
-        number[v] = static_cast<Index>(left.size());
-        left.push_back(v);
-    }
-    dual.points = take(dual.points, left);
-    dual.site = take(dual.site, left);
-    if (!dual.stays.empty()) dual.stays = take(dual.stays, left);
-    dual.triangles = rename_vertices(dual.triangles, number);
-}
-
 class MeshBuilder {
 public:
     MeshBuilder(Domain& domain, const PlacedSites& placed, const StageContext& context)
@@ -139,9 +124,13 @@ private:
         }
         const std::vector<Vec3> positions = positions_of_vertices();
         const StageClock clock(Stage::Dual, context_.result);
-        compact(reduce_vertices(positions, dual_.triangles, built_.num_wanted + num_other_copies_,
-                                is_last, progress_of(Stage::Dual, context_.options)),
-                dual_);
+        (void)reduce_vertices(positions, dual_.triangles, built_.num_wanted + num_other_copies_,
+                              is_last, progress_of(Stage::Dual, context_.options));
+        const std::vector<Index> left =
+            drop_unused(static_cast<Index>(dual_.points.size()), dual_.triangles);
+        dual_.points = take(dual_.points, left);
+        dual_.site = take(dual_.site, left);
+        if (!dual_.stays.empty()) dual_.stays = take(dual_.stays, left);
     }
 
     void flip_edges() {

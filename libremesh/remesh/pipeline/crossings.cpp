@@ -18,11 +18,6 @@ constexpr std::size_t samples_per_pair = 4;
 
 using Corners = std::array<Vec3, 3>;
 
-Corners corners_of(const MeshView& mesh, Index face) {
-    const auto& [a, b, c] = mesh.triangles[face];
-    return {mesh.positions[a], mesh.positions[b], mesh.positions[c]};
-}
-
 Vec3 normal_of(const Corners& t) { return (t[1] - t[0]).cross(t[2] - t[0]); }
 
 double longest_edge_of(const Corners& t) {

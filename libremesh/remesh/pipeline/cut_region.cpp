@@ -190,19 +190,12 @@ private:
 
 MeshPart take_faces(const MeshView& mesh, std::vector<Index> faces, Ticker& ticker) {
     MeshPart part;
+    for_each_ticked(faces, ticker,
+                    [&](Index f) { part.mesh.triangles.push_back(mesh.triangles[f]); });
+    part.vertices = drop_unused(static_cast<Index>(mesh.positions.size()), part.mesh.triangles);
+    part.mesh.positions = take(mesh.positions, part.vertices);
     part.number.assign(mesh.positions.size(), no_index);
-    for (const Index f : faces) {
-        ticker.tick();
-        part.mesh.triangles.push_back(mesh.triangles[f]);
-        for (const Index v : mesh.triangles[f]) part.number[v] = 0;
-    }
-    for (Index v = 0; v < part.number.size(); ++v) {
-        if (part.number[v] == no_index) continue;
-        part.number[v] = static_cast<Index>(part.vertices.size());
-        part.vertices.push_back(v);
-        part.mesh.positions.push_back(mesh.positions[v]);
-    }
-    part.mesh.triangles = rename_vertices(part.mesh.triangles, part.number);
+    for (Index v = 0; v < part.vertices.size(); ++v) part.number[part.vertices[v]] = v;
     part.faces = std::move(faces);
     return part;
 }

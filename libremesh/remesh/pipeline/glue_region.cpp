@@ -13,9 +13,6 @@ namespace {
 
 using SharedVertices = std::unordered_map<Vec3, Index, PositionHash>;
 
-// Most rounds of flips: one can repeat another kept edge.
-constexpr int most_flip_rounds = 10;
-
 // Flips edges of the region that gluing would give other faces than those beside them.
 // \param kept    edges of the kept faces.
 // \param alone   edges that are left as they are, ascending.
@@ -23,7 +20,6 @@ constexpr int most_flip_rounds = 10;
 // \return whether no such edge is left.
 bool part_edges(const std::vector<EdgeSide>& kept, const std::vector<std::uint64_t>& alone,
                 std::span<const Index> vertex, std::vector<Triangle>& triangles) {
-    bool has_repeated = false;
     const auto ends_of = [&](const EdgeSide& side) {
         const Triangle& t = triangles[side.face()];
         return edge_key(t[side.half_edge % 3], t[(side.half_edge + 1) % 3]);
@@ -33,18 +29,10 @@ bool part_edges(const std::vector<EdgeSide>& kept, const std::vector<std::uint64
         if (std::ranges::binary_search(alone, sides[0].ends)) return false;
         const bool is_one = std::ranges::all_of(
             sides, [&](const EdgeSide& side) { return ends_of(side) == ends_of(sides[0]); });
-        if (is_one && !has_edge(kept, sides[0].ends)) return false;
-        has_repeated = true;
-        return true;
+        return !is_one || has_edge(kept, sides[0].ends);
     };
     const auto is_kept = [&](std::uint64_t ends) { return has_edge(kept, ends); };
-    for (int round = 0; round < most_flip_rounds; ++round) {
-        has_repeated = false;
-        const bool has_flipped = flip_repeated(triangles, vertex, is_repeated, is_kept);
-        if (!has_repeated) return true;
-        if (!has_flipped) return false;
-    }
-    return false;
+    return flip_repeated(triangles, vertex, is_repeated, is_kept);
 }
 
 // Edges of the glued mesh that may have more than two faces, ascending: the rim and what was so

@@ -36,13 +36,8 @@ constexpr double global_factor = 0.8;
 
 using Corners = std::array<Vec3, 3>;
 
-Corners corners_at(const MeshView& mesh, Index face) {
-    const auto& [a, b, c] = mesh.triangles[face];
-    return {mesh.positions[a], mesh.positions[b], mesh.positions[c]};
-}
-
 double mean_side(const MeshView& mesh, Index face) {
-    const Corners t = corners_at(mesh, face);
+    const Corners t = corners_of(mesh, face);
     double sum = 0;
     for (std::size_t k = 0; k < 3; ++k) sum += (t[(k + 1) % 3] - t[k]).norm();
     return sum / 3;
@@ -73,7 +68,7 @@ using FarPoint = std::pair<Vec3, ClosestPoint>;  // And the nearest of the other
 std::optional<FarPoint> find_far(const Corners& triangle, const Side& other, double limit,
                                  Ticker& ticker) {
     const auto is_near = [&](const Corners& part, FaceId face) {
-        const Corners corners = corners_at(other.mesh, face.value());
+        const Corners corners = corners_of(other.mesh, face.value());
         return std::all_of(part.begin(), part.end(), [&](const Vec3& p) {
             return closest_point_on_triangle(corners, face, p).distance_sq <= limit * limit;
         });
@@ -136,7 +131,7 @@ public:
         const MeshView& mesh = (is_input ? input_ : result_).mesh;
         const Side& other = is_input ? result_ : input_;
         run(static_cast<Index>(mesh.triangles.size()), [&](Index f, Found& found, Ticker& ticker) {
-            const auto far = find_far(corners_at(mesh, f), other, limit_, ticker);
+            const auto far = find_far(corners_of(mesh, f), other, limit_, ticker);
             if (far) take(is_input, far->first, f, far->second, found);
         });
     }

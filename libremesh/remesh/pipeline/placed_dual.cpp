@@ -103,43 +103,29 @@ std::vector<Vec3> positions_of(const Surface& whole, const PlacedMesh& mesh) {
     return positions;
 }
 
-// Divides edges of a dual that is not placed yet.
-class EdgeSplitter {
-public:
-    EdgeSplitter(const Domain& domain, std::vector<SurfacePoint> points, ValidDual& dual)
-        : surface_(domain.prepared.input()),
-          base_(domain.prepared.base),
-          points_(std::move(points)),
-          dual_(dual) {
-        dual_.stays.resize(dual_.points.size(), 0);
-    }
-
-    [[nodiscard]] Vec3 at(Index v) const { return position(surface_.mesh.view(), points_[v]); }
-
-    // \param h, g  the two sides of an inner edge.
-    void split(Index h, Index g) {
-        const Index t = h / 3, u = g / 3;
-        std::vector<Triangle>& triangles = dual_.triangles;
-        const Index a = triangles[t][h % 3], b = triangles[t][(h + 1) % 3];
-        const Index c = triangles[t][(h + 2) % 3], d = triangles[u][(g + 2) % 3];
-        const SurfacePoint middle = walk_straight(surface_, points_[a], (at(b) - at(a)) / 2).end;
-        const auto added = static_cast<Index>(points_.size());
-        points_.push_back(middle);
-        dual_.points.push_back(base_.to_intrinsic(middle));
-        dual_.site.push_back(no_index);
-        dual_.stays.push_back(1);
-        triangles[t] = {a, added, c};
-        triangles[u] = {b, added, d};
-        triangles.push_back({added, b, c});
-        triangles.push_back({added, a, d});
-    }
-
-private:
-    const Surface& surface_;
-    const IntrinsicTriangulation& base_;
-    std::vector<SurfacePoint> points_;  // #V, on the cleaned surface.
-    ValidDual& dual_;
-};
+// Divides an inner edge of a dual that is not placed yet.
+// \param h, g    its two sides.
+// \param points  #V, on the cleaned surface.
+void split_edge(const Domain& domain, Index h, Index g, std::vector<SurfacePoint>& points,
+                ValidDual& dual) {
+    const Surface& surface = domain.prepared.input();
+    const Index t = h / 3, u = g / 3;
+    std::vector<Triangle>& triangles = dual.triangles;
+    const Index a = triangles[t][h % 3], b = triangles[t][(h + 1) % 3];
+    const Index c = triangles[t][(h + 2) % 3], d = triangles[u][(g + 2) % 3];
+    const auto at = [&](Index v) { return position(surface.mesh.view(), points[v]); };
+    const SurfacePoint middle = walk_straight(surface, points[a], (at(b) - at(a)) / 2).end;
+    const auto added = static_cast<Index>(points.size());
+    dual.stays.resize(added, 0);
+    dual.stays.push_back(1);
+    points.push_back(middle);
+    dual.points.push_back(domain.prepared.base.to_intrinsic(middle));
+    dual.site.push_back(no_index);
+    triangles[t] = {a, added, c};
+    triangles[u] = {b, added, d};
+    triangles.push_back({added, b, c});
+    triangles.push_back({added, a, d});
+}
 
 }  // namespace
 
@@ -170,13 +156,12 @@ Index split_repeated(const Domain& domain, const CurveSites& curves,
     const std::vector<InnerEdge> repeated = repeated_edges(glued);
     if (repeated.empty()) return 0;
     dual.triangles = glued.in_patches;
-    EdgeSplitter splitter(domain, std::move(points), dual);
     std::vector<bool> is_changed(dual.triangles.size(), false);
     Index count = 0;
     for (const auto& [h, g] : repeated) {
         if (is_changed[h / 3] || is_changed[g / 3]) continue;
         is_changed[h / 3] = is_changed[g / 3] = true;
-        splitter.split(h, g);
+        split_edge(domain, h, g, points, dual);
         ++count;
     }
     return count;
@@ -184,14 +169,14 @@ Index split_repeated(const Domain& domain, const CurveSites& curves,
 
 void add_vertices(const Domain& domain, std::vector<SurfacePoint> points, Index count,
                   ValidDual& dual) {
-    EdgeSplitter splitter(domain, std::move(points), dual);
+    const MeshView surface = domain.prepared.input().mesh.view();
     while (count > 0) {
         std::vector<std::pair<double, std::pair<Index, Index>>> edges;
         for_each_edge(sorted_edge_sides(dual.triangles), [&](std::span<const EdgeSide> sides) {
             if (sides.size() != 2) return;
-            const double length =
-                (splitter.at(sides[0].low()) - splitter.at(sides[0].high())).norm();
-            edges.push_back({-length, {sides[0].half_edge, sides[1].half_edge}});
+            const Vec3 a = position(surface, points[sides[0].low()]),
+                       b = position(surface, points[sides[0].high()]);
+            edges.push_back({-(a - b).norm(), {sides[0].half_edge, sides[1].half_edge}});
         });
         if (edges.empty()) return;
         std::sort(edges.begin(), edges.end());
@@ -202,7 +187,7 @@ void add_vertices(const Domain& domain, std::vector<SurfacePoint> points, Index 
             if (count == 0 || length > least) break;
             if (is_changed[h / 3] || is_changed[g / 3]) continue;
             is_changed[h / 3] = is_changed[g / 3] = true;
-            splitter.split(h, g);
+            split_edge(domain, h, g, points, dual);
             --count;
         }
     }

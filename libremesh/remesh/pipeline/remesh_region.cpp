@@ -98,10 +98,8 @@ std::vector<SurfacePoint> sites_of(const Region& region, const GluedRegion& glue
         site.face = FaceId(region.faces[site.face.value()]);
     }
     for (Index i = 0; i < region.kept.size(); ++i) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            SurfacePoint corner{FaceId(region.kept[i]), {0, 0, 0}};
-            corner.barycentric[k] = 1;
-            sites[glued.mesh.triangles[i][k]] = corner;
+        for (Index k = 0; k < 3; ++k) {
+            sites[glued.mesh.triangles[i][k]] = point_on(3 * region.kept[i] + k, 0);
         }
     }
     return sites;

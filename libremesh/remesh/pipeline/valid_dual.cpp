@@ -114,8 +114,7 @@ private:
                                           const ComponentTopology& wanted) const {
         std::vector<Index> used;
         for (const Triangle& t : triangles) used.insert(used.end(), t.begin(), t.end());
-        std::sort(used.begin(), used.end());
-        used.erase(std::unique(used.begin(), used.end()), used.end());
+        used = distinct(std::move(used));
         TriangleMesh mesh{{}, {triangles.begin(), triangles.end()}};
         for (const Index site : used) {
             mesh.positions.push_back(position(surface_.mesh.view(), sites_[site]));

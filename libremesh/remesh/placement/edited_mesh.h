@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "agvd/mesh/any_mesh.h"
 #include "agvd/mesh/scale.h"
 #include "agvd/mesh/surface.h"
 #include "remesh/curves/glue.h"
@@ -218,17 +219,12 @@ public:
     //! The mesh without removed faces and vertices.
     //! \param[out] numbers  by vertex of the result: its number here.
     [[nodiscard]] PlacedMesh result(std::vector<Index>& numbers) const {
-        PlacedMesh mesh;
-        numbers.clear();
-        std::vector<Index> number(vertices_.size(), no_index);
-        for (Index v = 0; v < vertices_.size(); ++v) {
-            if (faces_at(v).empty()) continue;
-            number[v] = static_cast<Index>(mesh.points.size());
-            numbers.push_back(v);
+        PlacedMesh mesh{{}, {}, triangles()};
+        numbers = drop_unused(num_vertices(), mesh.triangles);
+        for (const Index v : numbers) {
             mesh.points.push_back(vertices_[v].point);
             mesh.offsets.push_back(vertices_[v].offset);
         }
-        mesh.triangles = rename_vertices(triangles(), number);
         return mesh;
     }
 

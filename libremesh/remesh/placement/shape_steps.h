@@ -79,9 +79,7 @@ public:
                 around.insert(around.end(), mesh_.faces_at(v).begin(), mesh_.faces_at(v).end());
             }
         }
-        std::sort(around.begin(), around.end());
-        around.erase(std::unique(around.begin(), around.end()), around.end());
-        return bad_among(around);
+        return bad_among(distinct(std::move(around)));
     }
     [[nodiscard]] ShapeGain gain_since(const EditedMesh::Mark& mark) {
         mesh_.changed_since(mark, changed_, before_);

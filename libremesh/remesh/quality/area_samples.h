@@ -18,9 +18,8 @@ public:
     explicit AreaSamples(const MeshView& mesh) {
         area_up_to_.reserve(mesh.triangles.size());
         double area = 0;
-        for (const auto& [a, b, c] : mesh.triangles) {
-            const Vec3& p = mesh.positions[a];
-            area += (mesh.positions[b] - p).cross(mesh.positions[c] - p).norm() / 2;
+        for (const Triangle& t : mesh.triangles) {
+            area += doubled_normal(mesh.positions, t).norm() / 2;
             area_up_to_.push_back(area);
         }
     }

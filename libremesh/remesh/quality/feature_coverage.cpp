@@ -59,9 +59,7 @@ public:
         });
         for (Index f = 0; f < mesh.triangles.size(); ++f) {
             ticker.tick();
-            const auto& [a, b, c] = mesh.triangles[f];
-            const auto& p = mesh.positions;
-            const Vec3 area = (p[b] - p[a]).cross(p[c] - p[a]);
+            const Vec3 area = doubled_normal(mesh.positions, mesh.triangles[f]);
             const double twice = area.norm();
             const double longest =
                 std::max({length_[3 * f], length_[3 * f + 1], length_[3 * f + 2]});

@@ -45,10 +45,9 @@ std::vector<double> measure_faces(const MeshView& mesh, Ticker& ticker, Triangle
     result.min_quality = 1;
     result.min_angle = std::numbers::pi;
     Index small = 0;
-    for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    for (Index f = 0; f < mesh.triangles.size(); ++f) {
         ticker.tick(4);
-        const auto& [a, b, c] = mesh.triangles[f];
-        const Shape shape = shape_of({mesh.positions[a], mesh.positions[b], mesh.positions[c]});
+        const Shape shape = shape_of(corners_of(mesh, f));
         const auto [lowest, highest] = std::minmax_element(shape.angle.begin(), shape.angle.end());
         result.mean_quality += shape.quality;
         result.min_quality = std::min(result.min_quality, shape.quality);

@@ -34,12 +34,6 @@ Index rounded_up(double count) {
     return static_cast<Index>(std::min(std::ceil(count / unit) * unit, most));
 }
 
-// Twice the area long.
-Vec3 area_vector(const MeshView& mesh, const Triangle& t) {
-    const Vec3& a = mesh.positions[t[0]];
-    return (mesh.positions[t[1]] - a).cross(mesh.positions[t[2]] - a);
-}
-
 struct VertexShape {
     Vec3 normal = Vec3::Zero();  // Unit, weighted by area.
     double edge_length = 0;      // Mean of its edges.
@@ -49,7 +43,7 @@ std::vector<VertexShape> vertex_shapes(const MeshView& mesh) {
     std::vector<VertexShape> shapes(mesh.positions.size());
     std::vector<Index> num_edges(mesh.positions.size(), 0);
     for (const Triangle& triangle : mesh.triangles) {
-        const Vec3 area = area_vector(mesh, triangle);
+        const Vec3 area = doubled_normal(mesh.positions, triangle);
         for (std::size_t k = 0; k < 3; ++k) {
             const Index v = triangle[k];
             const Vec3& next = mesh.positions[triangle[(k + 1) % 3]];
@@ -91,7 +85,8 @@ Wall wall_at_depth(const MeshView& mesh, const ClosestPointTree& tree, Index ver
     const Index face = nearest.point.face.value();
     const Triangle& triangle = mesh.triangles[face];
     if (std::find(triangle.begin(), triangle.end(), vertex) != triangle.end()) return {};
-    if (area_vector(mesh, triangle).normalized().dot(outward) > most_wall_cosine) return {};
+    if (doubled_normal(mesh.positions, triangle).normalized().dot(outward) > most_wall_cosine)
+        return {};
     return {(position - nearest.position).norm(), face};
 }
 

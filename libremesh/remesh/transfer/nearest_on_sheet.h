@@ -24,7 +24,7 @@ public:
     //! \param mesh  outlives this; finite, indices in range. Cost: O(n).
     NearestOnSheet(const MeshView& mesh, Ticker ticker)
         : mesh_(mesh),
-          points_(welded(mesh, ticker)),
+          points_(rename_vertices(mesh.triangles, first_at_position(mesh.positions, ticker))),
           faces_(triangles_by_vertex(points_, mesh.positions.size())) {
         double largest = 0;
         for (const Vec3& p : mesh.positions) largest = std::max(largest, p.cwiseAbs().maxCoeff());
@@ -76,20 +76,8 @@ private:
     // it.
     static constexpr double margin = 1e-9;
 
-    // Vertices at equal positions become the first of them.
-    static std::vector<Triangle> welded(const MeshView& mesh, Ticker ticker) {
-        const std::vector<Index> first = first_at_position(mesh.positions, ticker);
-        std::vector<Triangle> triangles(mesh.triangles.begin(), mesh.triangles.end());
-        for_each_ticked(triangles, ticker, [&](Triangle& t) {
-            for (Index& v : t) v = first[v];
-        });
-        return triangles;
-    }
-
     [[nodiscard]] ClosestPoint closest(Index face, const Vec3& point) const {
-        const auto& [a, b, c] = mesh_.triangles[face];
-        return closest_point_on_triangle(
-            {mesh_.positions[a], mesh_.positions[b], mesh_.positions[c]}, FaceId(face), point);
+        return closest_point_on_triangle(corners_of(mesh_, face), FaceId(face), point);
     }
     // The corner of a face at a point; 3: it has none there.
     [[nodiscard]] std::size_t corner_at(Index face, Index point) const {

@@ -413,14 +413,12 @@ const Attribute& require_attribute(const std::vector<Attribute>& attributes, std
 }
 
 std::vector<Index> face_labels_of(const Attribute& attribute) {
-    std::vector<double> distinct = attribute.values;
-    std::sort(distinct.begin(), distinct.end());
-    distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
+    const std::vector<double> values = distinct(attribute.values);
     std::vector<Index> labels;
     labels.reserve(attribute.values.size());
     for (const double value : attribute.values) {
-        const auto found = std::lower_bound(distinct.begin(), distinct.end(), value);
-        labels.push_back(static_cast<Index>(found - distinct.begin()));
+        const auto found = std::lower_bound(values.begin(), values.end(), value);
+        labels.push_back(static_cast<Index>(found - values.begin()));
     }
     return labels;
 }
