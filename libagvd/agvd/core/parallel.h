@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include "agvd/core/progress.h"
 #include "agvd/core/types.h"
@@ -26,6 +27,15 @@ void parallel_chunks(Index count, Index grain, int num_threads,
 void parallel_chunks(Index count, Index grain, int num_threads,
                      const std::function<void(Index chunk, Index begin, Index end)>& body);
 
+//! The same with a poller, but calls each(index).
+template <typename Each>
+void parallel_each(Index count, Index grain, int num_threads, const Each& each, Poller& poller) {
+    const auto body = [&](Index, Index begin, Index end) {
+        for (Index i = begin; i < end; ++i) each(i);
+    };
+    parallel_chunks(count, grain, num_threads, body, poller);
+}
+
 //! \throw InvalidOption  num_threads < 0.
 void check_num_threads(int num_threads);
 
@@ -35,6 +45,24 @@ inline constexpr Index pass_grain = 1 << 14;
 //! The number of chunks of parallel_chunks for `count` indices.
 [[nodiscard]] constexpr Index num_chunks(Index count, Index grain) {
     return count / grain + (count % grain != 0 ? 1 : 0);
+}
+
+//! Calls collect(index, found) for each index, and joins what is appended to `found`, in the order
+//! of the indices.
+template <typename Item, typename Collect>
+[[nodiscard]] std::vector<Item> parallel_collect(Index count, Index grain, int num_threads,
+                                                 const Collect& collect, Poller& poller) {
+    std::vector<std::vector<Item>> chunks(num_chunks(count, grain));
+    const auto body = [&](Index chunk, Index begin, Index end) {
+        for (Index i = begin; i < end; ++i) collect(i, chunks[chunk]);
+    };
+    parallel_chunks(count, grain, num_threads, body, poller);
+    std::vector<Item> all;
+    for (const std::vector<Item>& chunk : chunks) {
+        poller.poll();
+        all.insert(all.end(), chunk.begin(), chunk.end());
+    }
+    return all;
 }
 
 }  // namespace agvd

@@ -292,7 +292,9 @@ std::vector<Index> relabel_islands(const StageInput& input, const CellSet& in_do
     for (const Index face : stale_faces) {
         if (labels.mixed_index[face] != no_index) positions.push_back(labels.mixed_index[face]);
     }
-    return distinct(std::move(positions));
+    std::sort(positions.begin(), positions.end());
+    positions.erase(std::unique(positions.begin(), positions.end()), positions.end());
+    return positions;
 }
 
 }  // namespace

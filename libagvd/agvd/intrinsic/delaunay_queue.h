@@ -35,18 +35,13 @@ public:
     //! The same for all edges. On a good mesh most of the work is this test, and few edges fail it.
     //! \param num_threads  0: all cores. The result is the same for any number.
     void push_all(int num_threads, Poller& poller) {
-        const Index num_edges = surface_.num_edges();
-        std::vector<std::vector<Waiting>> found(num_chunks(num_edges, pass_grain));
-        const auto body = [&](Index chunk, Index begin, Index end) {
-            for (Index e = begin; e < end; ++e) {
-                if (surface_.edge_half[e] == no_index) continue;  // The edge was removed.
-                if (const auto waiting = test(e)) found[chunk].push_back(*waiting);
-            }
+        const auto find = [&](Index e, std::vector<Waiting>& found) {
+            if (surface_.edge_half[e] == no_index) return;  // The edge was removed.
+            if (const auto waiting = test(e)) found.push_back(*waiting);
         };
-        parallel_chunks(num_edges, pass_grain, num_threads, body, poller);
-        for (const std::vector<Waiting>& chunk : found) {
-            heap_.insert(heap_.end(), chunk.begin(), chunk.end());
-        }
+        const std::vector<Waiting> found =
+            parallel_collect<Waiting>(surface_.num_edges(), pass_grain, num_threads, find, poller);
+        heap_.insert(heap_.end(), found.begin(), found.end());
         std::make_heap(heap_.begin(), heap_.end());
     }
     //! Until the queue is empty, or `most_flips` were made in all; false if edges are left.

@@ -28,9 +28,7 @@ std::array<double, 3> spread_point(Index i) {
 }
 
 Vec3 area_vector(const Surface& surface, Index face) {
-    const auto& [a, b, c] = surface.mesh.triangles[face];
-    const auto& p = surface.mesh.positions;
-    return (p[b] - p[a]).cross(p[c] - p[a]) / 2;
+    return doubled_normal(surface.mesh.positions, surface.mesh.triangles[face]) / 2;
 }
 
 // Whether the sides of a face are straight in space. Then they lie on the surface, and the face is

@@ -127,24 +127,15 @@ bool is_flat(const Surface& surface, Index vertex) {
 // The inner vertices without curvature that have a short edge, ascending.
 std::vector<Index> find_flat(const Shared& shared, int num_threads, Poller& poller) {
     const Surface& surface = shared.surface;
-    std::vector<std::vector<Index>> found(num_chunks(surface.num_vertices(), pass_grain));
-    const auto find = [&](Index chunk, Index begin, Index end) {
-        for (Index v = begin; v < end; ++v) {
-            if (surface.outgoing[v] == no_index || surface.is_boundary_vertex(v)) continue;
-            bool is_short = false;
-            for_each_outgoing(surface, v, [&](Index h) {
-                is_short = is_short || surface.length_of(h) < shared.min_length;
-            });
-            if (is_short && is_flat(surface, v)) found[chunk].push_back(v);
-        }
+    const auto find = [&](Index v, std::vector<Index>& flat) {
+        if (surface.outgoing[v] == no_index || surface.is_boundary_vertex(v)) return;
+        bool is_short = false;
+        for_each_outgoing(surface, v, [&](Index h) {
+            is_short = is_short || surface.length_of(h) < shared.min_length;
+        });
+        if (is_short && is_flat(surface, v)) flat.push_back(v);
     };
-    parallel_chunks(surface.num_vertices(), pass_grain, num_threads, find, poller);
-    std::vector<Index> flat;
-    for (const std::vector<Index>& chunk : found) {
-        poller.poll();
-        flat.insert(flat.end(), chunk.begin(), chunk.end());
-    }
-    return flat;
+    return parallel_collect<Index>(surface.num_vertices(), pass_grain, num_threads, find, poller);
 }
 
 // The parts are cells of a grid around the mesh. The number of cells along the longest side is

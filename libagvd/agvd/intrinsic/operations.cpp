@@ -150,17 +150,15 @@ Index add_vertex(Surface& surface) {
 }
 
 void raise_degenerate_faces(Surface& surface, int num_threads, Poller& poller) {
-    const auto raise = [&](Index, Index begin, Index end) {
-        for (Index f = begin; f < end; ++f) {
-            const double longest = longest_side(surface, f);
-            const double least = least_doubled_area * longest * longest;
-            if (surface.length_of(3 * f) * surface.apex[3 * f].y() >= least) continue;
-            for (Index h = 3 * f; h < 3 * f + 3; ++h) {
-                surface.apex[h].y() = height_over(surface.length_of(h), least, longest);
-            }
+    const auto raise = [&](Index f) {
+        const double longest = longest_side(surface, f);
+        const double least = least_doubled_area * longest * longest;
+        if (surface.length_of(3 * f) * surface.apex[3 * f].y() >= least) return;
+        for (Index h = 3 * f; h < 3 * f + 3; ++h) {
+            surface.apex[h].y() = height_over(surface.length_of(h), least, longest);
         }
     };
-    parallel_chunks(surface.num_faces(), pass_grain, num_threads, raise, poller);
+    parallel_each(surface.num_faces(), pass_grain, num_threads, raise, poller);
 }
 
 Quad quad_at(const Surface& surface, Index half_edge) {

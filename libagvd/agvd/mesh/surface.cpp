@@ -114,12 +114,10 @@ void number_edges(Surface& surface, Ticker& ticker) {
 
 void measure(Surface& surface, int num_threads, Poller& poller) {
     surface.length.resize(surface.num_edges());
-    const auto measure_edges = [&](Index, Index begin, Index end) {
-        for (Index e = begin; e < end; ++e) {
-            surface.length[e] = surface.length_in_space(surface.edge_half[e]);
-        }
+    const auto measure_edge = [&](Index e) {
+        surface.length[e] = surface.length_in_space(surface.edge_half[e]);
     };
-    parallel_chunks(surface.num_edges(), pass_grain, num_threads, measure_edges, poller);
+    parallel_each(surface.num_edges(), pass_grain, num_threads, measure_edge, poller);
     surface.apex.resize(surface.twin.size());
     poller.poll();
     const auto num_half_edges = static_cast<Index>(surface.twin.size());
@@ -165,16 +163,14 @@ struct ConeAngle {
 
 void find_pseudo_sources(Surface& surface, int num_threads, Poller& poller) {
     surface.can_be_pseudo_source.resize(surface.num_vertices());
-    const auto find = [&](Index, Index begin, Index end) {
-        for (Index v = begin; v < end; ++v) {
-            ConeAngle cone;
-            for_each_outgoing(surface, v, [&](Index h) { cone.add(surface.apex[h].normalized()); });
-            const bool can_be_pseudo_source =
-                surface.is_boundary_vertex(v) ? cone.exceeds_pi() : cone.exceeds_two_pi();
-            surface.can_be_pseudo_source[v] = can_be_pseudo_source ? 1 : 0;
-        }
+    const auto find = [&](Index v) {
+        ConeAngle cone;
+        for_each_outgoing(surface, v, [&](Index h) { cone.add(surface.apex[h].normalized()); });
+        const bool can_be_pseudo_source =
+            surface.is_boundary_vertex(v) ? cone.exceeds_pi() : cone.exceeds_two_pi();
+        surface.can_be_pseudo_source[v] = can_be_pseudo_source ? 1 : 0;
     };
-    parallel_chunks(surface.num_vertices(), pass_grain, num_threads, find, poller);
+    parallel_each(surface.num_vertices(), pass_grain, num_threads, find, poller);
 }
 
 }  // namespace

@@ -106,10 +106,8 @@ Topology measure(const MeshView& mesh, FaceLabels labels, Ticker& ticker) {
     for (Index f = 0; f < mesh.triangles.size(); ++f) {
         ticker.tick();
         ComponentTopology& c = result.components[result.face_component[f]];
-        const auto& [i, j, k] = mesh.triangles[f];
-        const Vec3& origin = mesh.positions[i];
         ++c.faces;
-        c.area += 0.5 * (mesh.positions[j] - origin).cross(mesh.positions[k] - origin).norm();
+        c.area += 0.5 * doubled_normal(mesh.positions, mesh.triangles[f]).norm();
     }
     return result;
 }

@@ -1,7 +1,6 @@
 // Faces that are no part of a surface: copies of others, and faces without area.
 #include <algorithm>
 #include <deque>
-#include <limits>
 #include <tuple>
 
 #include "agvd/core/union_find.h"
@@ -212,7 +211,7 @@ bool drop_duplicates(Soup& soup, std::span<const EdgeSide> sides) {
 }
 
 double smallest_doubled_area(std::span<const Vec3> positions, const Triangle& t) {
-    double smallest = std::numeric_limits<double>::infinity();
+    double smallest = infinity;
     for (std::size_t k = 0; k < 3; ++k) {
         const Vec3& origin = positions[t[k]];
         const Vec3 along = positions[t[(k + 1) % 3]] - origin;

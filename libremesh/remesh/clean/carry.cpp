@@ -66,7 +66,7 @@ public:
         const std::array<Vec3, 3> corners = corners_of(from_, point.face.value());
         const Vec3 query = position(from_, point);
         ClosestPoint nearest;
-        nearest.distance_sq = std::numeric_limits<double>::infinity();
+        nearest.distance_sq = infinity;
         for (const Index face : faces) {
             const std::array<Vec3, 3> there = corners_of(to_, face);
             if (const auto same = carry_exactly(point, corners, there, face)) {

@@ -62,16 +62,14 @@ std::optional<CleanResult> take_clean(const MeshView& mesh, const CleanOptions& 
     const auto apex = [&](Index h) { return mesh.triangles[h / 3][previous_half_edge(h) % 3]; };
     std::atomic<bool> is_clean = true;
     const auto num_faces = static_cast<Index>(mesh.triangles.size());
-    const auto check_faces = [&](Index, Index begin, Index end) {
-        for (Index f = begin; f < end; ++f) {
-            bool is_good = has_area(mesh.positions, mesh.triangles[f]);
-            for (Index h = 3 * f; h < 3 * f + 3; ++h) {
-                is_good = is_good && (twin[h] == no_index || apex(h) != apex(twin[h]));
-            }
-            if (!is_good) is_clean.store(false, std::memory_order_relaxed);
+    const auto check_face = [&](Index f) {
+        bool is_good = has_area(mesh.positions, mesh.triangles[f]);
+        for (Index h = 3 * f; h < 3 * f + 3; ++h) {
+            is_good = is_good && (twin[h] == no_index || apex(h) != apex(twin[h]));
         }
+        if (!is_good) is_clean.store(false, std::memory_order_relaxed);
     };
-    parallel_chunks(num_faces, pass_grain, num_threads, check_faces, poller);
+    parallel_each(num_faces, pass_grain, num_threads, check_face, poller);
     if (!is_clean) return std::nullopt;
     std::vector<bool> is_boundary(outgoing.size());
     for (Index v = 0; v < outgoing.size(); ++v) {

@@ -36,36 +36,22 @@ struct Patches {
 Patches single_faces(const Surface& surface, int num_threads, Poller& poller) {
     const Index count = surface.num_faces();
     Patches patches{UnionFind(count), std::vector<Vec3>(count), std::vector<double>(count)};
-    const auto& p = surface.mesh.positions;
-    parallel_chunks(
-        count, edges_per_task, num_threads,
-        [&](Index, Index begin, Index end) {
-            for (Index f = begin; f < end; ++f) {
-                patches.area[f] = doubled_normal(p, surface.mesh.triangles[f]);
-                patches.longest[f] =
-                    std::max({surface.length_of(3 * f), surface.length_of(3 * f + 1),
-                              surface.length_of(3 * f + 2)});
-            }
-        },
-        poller);
+    const auto measure = [&](Index f) {
+        patches.area[f] = doubled_normal(surface.mesh.positions, surface.mesh.triangles[f]);
+        patches.longest[f] = std::max(
+            {surface.length_of(3 * f), surface.length_of(3 * f + 1), surface.length_of(3 * f + 2)});
+    };
+    parallel_each(count, edges_per_task, num_threads, measure, poller);
     return patches;
 }
 
 // Ascending.
 std::vector<Index> find_narrow_faces(const Surface& surface, const Patches& patches, double narrow,
                                      int num_threads, Poller& poller) {
-    std::vector<std::vector<Index>> found(num_chunks(surface.num_faces(), edges_per_task));
-    const auto find = [&](Index chunk, Index begin, Index end) {
-        for (Index f = begin; f < end; ++f) {
-            if (patches.is_narrow(f, narrow)) found[chunk].push_back(f);
-        }
+    const auto find = [&](Index f, std::vector<Index>& found) {
+        if (patches.is_narrow(f, narrow)) found.push_back(f);
     };
-    parallel_chunks(surface.num_faces(), edges_per_task, num_threads, find, poller);
-    std::vector<Index> faces;
-    for (const std::vector<Index>& some : found) {
-        faces.insert(faces.end(), some.begin(), some.end());
-    }
-    return faces;
+    return parallel_collect<Index>(surface.num_faces(), edges_per_task, num_threads, find, poller);
 }
 
 // A side of a narrow face, and the merit of joining the face across it: its length, less if the
@@ -196,18 +182,14 @@ std::vector<double> edge_angles(const Surface& surface, double narrow, int num_t
     Patches patches = single_faces(surface, num_threads, poller);
     join_narrow_faces(surface, narrow, num_threads, patches, poller);
     std::vector<double> angles(surface.num_edges());
-    parallel_chunks(
-        surface.num_edges(), edges_per_task, num_threads,
-        [&](Index, Index begin, Index end) {
-            for (Index e = begin; e < end; ++e) {
-                const Index h = surface.edge_half[e];
-                if (surface.twin[h] == no_index) continue;
-                const Index a = std::as_const(patches.joined).root(Surface::face(h));
-                const Index b = std::as_const(patches.joined).root(Surface::face(surface.twin[h]));
-                if (a != b) angles[e] = angle_between(patches.area[a], patches.area[b]);
-            }
-        },
-        poller);
+    const auto measure = [&](Index e) {
+        const Index h = surface.edge_half[e];
+        if (surface.twin[h] == no_index) return;
+        const Index a = std::as_const(patches.joined).root(Surface::face(h));
+        const Index b = std::as_const(patches.joined).root(Surface::face(surface.twin[h]));
+        if (a != b) angles[e] = angle_between(patches.area[a], patches.area[b]);
+    };
+    parallel_each(surface.num_edges(), edges_per_task, num_threads, measure, poller);
     return angles;
 }
 

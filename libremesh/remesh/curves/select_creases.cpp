@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <queue>
 
@@ -89,8 +88,7 @@ public:
         std::priority_queue<std::pair<double, Index>> queue;
         for (Index c = 0; c < chains_.size(); ++c) {
             for (const Index e : chains_[c].edges) {
-                weight[c] += is_fixed(e) ? std::numeric_limits<double>::infinity()
-                                         : surface_.length[e] * angles_[e];
+                weight[c] += is_fixed(e) ? infinity : surface_.length[e] * angles_[e];
             }
             for (const Index v : chains_[c].ends) at[v].push_back(c);
             queue.emplace(weight[c], c);
@@ -376,7 +374,7 @@ std::vector<SizedPoint> select_creases(const Surface& surface, double spacing, d
     const double smooth = smooth_distance_of(surface, spacing, all, angles);
     detail::CreaseSet best(surface);
     std::vector<SizedPoint> strips;
-    double least = std::numeric_limits<double>::infinity();
+    double least = infinity;
     for (double depth = reach; depth > least_depth; depth /= depth_ratio) {
         detail::CreaseSet set = all;
         Selection selection(surface, spacing, depth, is_fixed, angles, poller, set);

@@ -26,7 +26,7 @@ public:
         //! sides. It stays with its edge. Edges that are added inside have none: no_index.
         std::array<Index, 3> label{no_index, no_index, no_index};
         bool is_there = false;
-        double quality = 0;  //!< For the caller; goes back with the face.
+        double quality = 0;  //!< For the caller; 0 after a flip or split, taken back with the face.
 
         [[nodiscard]] bool is_hard(std::size_t k) const { return label[k] != no_index; }
     };
@@ -118,7 +118,8 @@ public:
         put_face(f, {{c, a, d}, {ca, ad, no_index}, true});
         put_face(g, {{d, b, c}, {db, bc, no_index}, true});
     }
-    //! Divides an edge and its faces. \return the new vertex; the halves keep the edge's label.
+    //! Divides an edge of one or two faces, and these. The halves keep the edge's label.
+    //! \return the new vertex.
     Index split(Index h) {
         const Index other = twin(h), added = num_vertices();
         fans_.emplace_back();

@@ -78,15 +78,15 @@ private:
         }
     }
 
-    void collect_ring(Index v) {
-        ring_.clear();
+    // Ascending.
+    [[nodiscard]] std::vector<Index> ring_of(Index v) const {
+        std::vector<Index> ring;
         for (const Index f : mesh_.faces_at(v)) {
             for (const Index w : mesh_.face(f).corner) {
-                if (w != v) ring_.push_back(w);
+                if (w != v) ring.push_back(w);
             }
         }
-        std::sort(ring_.begin(), ring_.end());
-        ring_.erase(std::unique(ring_.begin(), ring_.end()), ring_.end());
+        return distinct(std::move(ring));
     }
 
     // Queues the shortest collapse of v that is allowed.
@@ -94,15 +94,15 @@ private:
         ++stamp_[v];
         if (mesh_.faces_at(v).empty()) return;
         if (!keep_.empty() && keep_[v] != 0 && !demands_.releases_kept) return;
-        collect_ring(v);
+        const std::vector<Index> ring = ring_of(v);
         // The test of an edge looks at all pairs of faces of its two ends.
-        ticker_.tick(4 + ring_.size() * ring_.size() / 4);
-        ends_.clear();
-        for (const Index w : ring_) {
-            ends_.emplace_back((positions_[v] - positions_[w]).squaredNorm(), w);
+        ticker_.tick(4 + ring.size() * ring.size() / 4);
+        std::vector<std::pair<double, Index>> ends;  // By squared distance.
+        for (const Index w : ring) {
+            ends.emplace_back((positions_[v] - positions_[w]).squaredNorm(), w);
         }
-        std::sort(ends_.begin(), ends_.end());
-        for (const auto& [square, w] : ends_) {
+        std::sort(ends.begin(), ends.end());
+        for (const auto& [square, w] : ends) {
             if (!mesh_.can_collapse(v, w) || !keeps_shape(v, w)) continue;
             queue_.push({square, v, w, stamp_[v]});
             return;
@@ -137,9 +137,7 @@ private:
     void apply(const Collapse& collapse) {
         mesh_.collapse(collapse.gone, collapse.into);
         mesh_.forget();
-        collect_ring(collapse.into);
-        const std::vector<Index> changed = ring_;
-        for (const Index w : changed) judge(w);
+        for (const Index w : ring_of(collapse.into)) judge(w);
         judge(collapse.into);
     }
 
@@ -152,8 +150,6 @@ private:
     Demands demands_ = passes[0];
     std::priority_queue<Collapse> queue_;
     std::vector<Index> gone_;
-    std::vector<Index> ring_;                     // Scratch: one-ring, ascending.
-    std::vector<std::pair<double, Index>> ends_;  // Scratch: neighbours by squared distance.
 };
 
 // Of the points and the extra vertices.
@@ -194,9 +190,8 @@ std::vector<Index> reduce_vertices(std::span<const Vec3> positions,
 void free_rim(const Surface& surface, std::span<const SurfacePoint> points, SimplifiedMesh& patch) {
     if (patch.extra.empty()) return;
     const std::vector<Vec3> positions = positions_of(surface, points, patch);
-    std::vector<bool> is_gone(patch.extra.size(), false);
     auto num_vertices = static_cast<Index>(positions.size());
-    for (Index i = 0; i < is_gone.size(); ++i) {
+    for (Index i = 0; i < patch.extra.size(); ++i) {
         const auto v = static_cast<Index>(points.size()) + i;
         std::array<Index, 2> neighbours{no_index, no_index};
         for (const auto& [from, to] : rim_of(patch.triangles)) {
@@ -204,19 +199,16 @@ void free_rim(const Surface& surface, std::span<const SurfacePoint> points, Simp
             if (from == v) neighbours[1] = to;
         }
         if (neighbours[0] == no_index) continue;
-        is_gone[i] = remove_vertex(v, {neighbours[0], neighbours[1]}, positions, num_vertices,
-                                   patch.triangles);
-        if (is_gone[i]) --num_vertices;
+        if (remove_vertex(v, {neighbours[0], neighbours[1]}, positions, num_vertices,
+                          patch.triangles)) {
+            --num_vertices;
+        }
     }
-    std::vector<Index> number(points.size());
-    for (Index v = 0; v < number.size(); ++v) number[v] = v;
     std::vector<SurfacePoint> left;
-    for (Index i = 0; i < is_gone.size(); ++i) {
-        number.push_back(static_cast<Index>(points.size() + left.size()));
-        if (!is_gone[i]) left.push_back(patch.extra[i]);
+    for (const Index v : drop_unused(static_cast<Index>(positions.size()), patch.triangles)) {
+        if (v >= points.size()) left.push_back(patch.extra[v - points.size()]);
     }
     patch.extra = std::move(left);
-    patch.triangles = rename_vertices(patch.triangles, number);
 }
 
 SimplifiedMesh simplify_patch(const Surface& surface, std::span<const Index> faces,

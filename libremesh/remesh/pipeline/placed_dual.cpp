@@ -75,21 +75,16 @@ void place_vertices(Domain& domain, const CurveSites& curves, const ValidDual& d
     for (const Index site : dual.site) {
         stays.push_back(site < curves.first_copy[curves.num_nodes()] ? 1 : 0);
     }
-    const bool is_fitted = options.fit.value_or(is_relaxed(options));
-    // The pieces are large: they are freed before the fit.
-    std::vector<CellSample> samples;
-    const Progress start = progress_at(Stage::Place, options, 0);
-    if (is_fitted) {
+    if (options.fit.value_or(is_relaxed(options))) {
+        const Progress start = progress_at(Stage::Place, options, 0);
         const auto num_vertices = static_cast<Index>(placed.mesh.points.size());
         PreparedSurface& prepared = domain.prepared;
         prepared.find_pieces(options.num_threads, start);
-        samples = sample_cells(prepared, nearest, num_vertices, start);
-        prepared.pieces.reset();
-    }
-    if (is_fitted) {
+        std::vector<CellSample> samples = sample_cells(prepared, nearest, num_vertices, start);
+        prepared.pieces.reset();  // They are large.
         fit_on_curves(domain, curves, options.boundary, placed);
-        fit_vertices(domain.prepared.base, nearest, std::move(samples), placed.mesh,
-                     options.num_threads, start, rounding * domain.spacing, stays);
+        fit_vertices(prepared.base, nearest, std::move(samples), placed.mesh, options.num_threads,
+                     start, rounding * domain.spacing, stays);
     }
     poll(progress_of(Stage::Place, options), 1);
 }

@@ -221,6 +221,24 @@ double mean_edge(const MeshView& mesh) {
     return num_edges == 0 ? 0 : sum / num_edges;
 }
 
+// Whether lengths below that of the others, with the growth from there, take more than a share of
+// the sites from where all edges are equally long.
+bool takes_too_much(const Surface& surface, std::span<const std::pair<Index, Index>> joined,
+                    std::span<const double> length, double edge, double slope, Ticker& ticker) {
+    std::vector<double> grown;
+    for (const double l : length) grown.push_back(std::min(l, edge));
+    limit_growth(surface, joined, slope, Paths::Edges, grown, ticker);
+    double more = 0, rest = 0;
+    for (Index f = 0; f < surface.num_faces(); ++f) {
+        for (const Index v : surface.mesh.triangles[f]) {
+            const double part = face_area(surface, f) / 3;
+            more += part / (grown[v] * grown[v]) - part / (edge * edge);
+            if (grown[v] == edge) rest += part / (edge * edge);
+        }
+    }
+    return more > most_of_sites * rest;
+}
+
 }  // namespace
 
 RunSizes find_sizes(const CleanedInput& cleaned, const FoundCurves& found, double spacing,
@@ -276,28 +294,6 @@ RunSizes find_sizes(const CleanedInput& cleaned, const FoundCurves& found, doubl
     }
     return sizes;
 }
-
-namespace {
-
-// Whether lengths below that of the others, with the growth from there, take more than a share of
-// the sites from where all edges are equally long.
-bool takes_too_much(const Surface& surface, std::span<const std::pair<Index, Index>> joined,
-                    std::span<const double> length, double edge, double slope, Ticker& ticker) {
-    std::vector<double> grown;
-    for (const double l : length) grown.push_back(std::min(l, edge));
-    limit_growth(surface, joined, slope, Paths::Edges, grown, ticker);
-    double more = 0, rest = 0;
-    for (Index f = 0; f < surface.num_faces(); ++f) {
-        for (const Index v : surface.mesh.triangles[f]) {
-            const double part = face_area(surface, f) / 3;
-            more += part / (grown[v] * grown[v]) - part / (edge * edge);
-            if (grown[v] == edge) rest += part / (edge * edge);
-        }
-    }
-    return more > most_of_sites * rest;
-}
-
-}  // namespace
 
 std::vector<double> narrow_lengths(const IntrinsicTriangulation& base,
                                    std::span<const SurfacePoint> points,

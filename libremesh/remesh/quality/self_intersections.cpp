@@ -98,17 +98,11 @@ std::vector<Pair> intersecting(const Soup& soup, std::vector<Pair> candidates, I
     candidates = sort_in_buckets(
         candidates, num_faces, [](const Pair& pair) { return pair.first; }, std::less<>(),
         Ticker(poller));
-    const auto count = static_cast<Index>(candidates.size());
-    std::vector<std::vector<Pair>> found(num_chunks(count, pairs_per_task));
-    const auto test = [&](Index chunk, Index begin, Index end) {
-        for (Index i = begin; i < end; ++i) {
-            if (soup.intersect(candidates[i])) found[chunk].push_back(candidates[i]);
-        }
+    const auto test = [&](Index i, std::vector<Pair>& found) {
+        if (soup.intersect(candidates[i])) found.push_back(candidates[i]);
     };
-    parallel_chunks(count, pairs_per_task, num_threads, test, poller);
-    std::vector<Pair> all;
-    for (const std::vector<Pair>& part : found) all.insert(all.end(), part.begin(), part.end());
-    return all;
+    return parallel_collect<Pair>(static_cast<Index>(candidates.size()), pairs_per_task,
+                                  num_threads, test, poller);
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "agvd/core/parallel.h"
 #include "agvd/core/union_find.h"
@@ -71,8 +70,8 @@ double mean_edge_length(const MeshView& mesh) {
 
 // The wall at a vertex.
 struct Wall {
-    double thickness = std::numeric_limits<double>::infinity();  // Infinity: there is no wall.
-    Index far_face = 0;                                          // On its other side.
+    double thickness = infinity;  // Infinity: there is no wall.
+    Index far_face = 0;           // On its other side.
     [[nodiscard]] bool exists() const { return std::isfinite(thickness); }
 };
 
@@ -95,18 +94,13 @@ std::vector<Wall> find_walls(const MeshView& mesh, const ClosestPointTree& tree,
                              const std::vector<VertexShape>& shapes, int num_threads,
                              Poller& poller) {
     std::vector<Wall> walls(shapes.size());
-    const auto count = static_cast<Index>(shapes.size());
-    parallel_chunks(
-        count, query_grain, num_threads,
-        [&](Index, Index begin, Index end) {
-            for (Index v = begin; v < end; ++v) {
-                double depth = shapes[v].edge_length / 2;
-                for (int i = 0; i < num_depths && !walls[v].exists(); ++i, depth /= 8) {
-                    walls[v] = wall_at_depth(mesh, tree, v, shapes[v].normal, depth);
-                }
-            }
-        },
-        poller);
+    const auto find = [&](Index v) {
+        double depth = shapes[v].edge_length / 2;
+        for (int i = 0; i < num_depths && !walls[v].exists(); ++i, depth /= 8) {
+            walls[v] = wall_at_depth(mesh, tree, v, shapes[v].normal, depth);
+        }
+    };
+    parallel_each(static_cast<Index>(shapes.size()), query_grain, num_threads, find, poller);
     return walls;
 }
 
@@ -125,7 +119,7 @@ void judge_walls(const MeshView& mesh, const std::vector<VertexShape>& shapes,
         for (const Index behind : mesh.triangles[walls[v].far_face]) join(v, behind);
     }
     double most_times = 1;  // As many vertices.
-    verdict.thinnest_wall = std::numeric_limits<double>::infinity();
+    verdict.thinnest_wall = infinity;
     for (Index v = 0; v < shapes.size(); ++v) {
         if (!walls[v].exists()) continue;
         if (joined.is_root(v)) ++verdict.thin_walls;

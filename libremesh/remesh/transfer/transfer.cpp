@@ -246,26 +246,19 @@ InputMap map_to_input(const MeshView& input, const MeshView& result,
     const NearestOnSheet nearest(input, Ticker(poller));
     InputMap map;
     map.vertices.resize(sites.size());
-    parallel_chunks(
-        static_cast<Index>(sites.size()), vertex_grain, options.num_threads,
-        [&](Index, Index begin, Index end) {
-            for (Index v = begin; v < end; ++v) {
-                map.vertices[v] = nearest.query(result.positions[v], sites[v]).point;
-            }
-        },
-        poller);
+    const auto map_vertex = [&](Index v) {
+        map.vertices[v] = nearest.query(result.positions[v], sites[v]).point;
+    };
+    parallel_each(static_cast<Index>(sites.size()), vertex_grain, options.num_threads, map_vertex,
+                  poller);
     if (!options.with_faces) return map;
     const Centers centers = part_centers();
     map.faces.resize(result.triangles.size());
-    parallel_chunks(
-        static_cast<Index>(map.faces.size()), face_grain, options.num_threads,
-        [&](Index, Index begin, Index end) {
-            for (Index f = begin; f < end; ++f) {
-                map.faces[f] =
-                    sample_face(result, result.triangles[f], map.vertices, centers, nearest);
-            }
-        },
-        poller);
+    const auto map_face = [&](Index f) {
+        map.faces[f] = sample_face(result, result.triangles[f], map.vertices, centers, nearest);
+    };
+    parallel_each(static_cast<Index>(map.faces.size()), face_grain, options.num_threads, map_face,
+                  poller);
     return map;
 }
 
@@ -328,11 +321,8 @@ std::vector<CornerCoordinates> transfer_corner_values(std::span<const CornerCoor
     const NearestOnSheet sheet(input, Ticker(poller)), cut = sheet.cut_at_seams(agree);
     const CornerFinder finder(result, points, sheet, cut);
     std::vector<FacePoints> found(num_faces);
-    parallel_chunks(
-        num_faces, corner_grain, options.num_threads,
-        [&](Index, Index begin, Index end) {
-            for (Index f = begin; f < end; ++f) found[f] = finder.find(f);
-        },
+    parallel_each(
+        num_faces, corner_grain, options.num_threads, [&](Index f) { found[f] = finder.find(f); },
         poller);
     // Corner k of face f of the result is number 3 f + k.
     const Groups corners(result.positions.size(), [&](const auto& add) {
@@ -340,24 +330,21 @@ std::vector<CornerCoordinates> transfer_corner_values(std::span<const CornerCoor
             add(result.triangles[corner / 3][corner % 3], corner);
         }
     });
-    parallel_chunks(
-        static_cast<Index>(result.positions.size()), corner_grain, options.num_threads,
-        [&](Index, Index begin, Index end) {
-            for (Index v = begin; v < end; ++v) {
-                std::vector<ClosestPoint> sides{finder.at(points[v], result.positions[v])};
-                for (const Index corner : corners.of(v)) {
-                    const Index f = corner / 3;
-                    const ClosestPoint& point = found[f][corner % 3];
-                    const auto side = std::find_if(sides.begin(), sides.end(), [&](const auto& s) {
-                        return finder.is_same(f, v, s, point);
-                    });
-                    const ClosestPoint counted = side == sides.end() ? point : *side;
-                    if (side == sides.end()) sides.push_back(point);
-                    carried[f][corner % 3] = value_at(counted.point);
-                }
-            }
-        },
-        poller);
+    const auto carry = [&](Index v) {
+        std::vector<ClosestPoint> sides{finder.at(points[v], result.positions[v])};
+        for (const Index corner : corners.of(v)) {
+            const Index f = corner / 3;
+            const ClosestPoint& point = found[f][corner % 3];
+            const auto side = std::find_if(sides.begin(), sides.end(), [&](const auto& s) {
+                return finder.is_same(f, v, s, point);
+            });
+            const ClosestPoint counted = side == sides.end() ? point : *side;
+            if (side == sides.end()) sides.push_back(point);
+            carried[f][corner % 3] = value_at(counted.point);
+        }
+    };
+    parallel_each(static_cast<Index>(result.positions.size()), corner_grain, options.num_threads,
+                  carry, poller);
     return carried;
 }
 

@@ -50,3 +50,9 @@ TEST(EdgeSides, KeysAreThoseOfUnorderedPairs) {
     EXPECT_LT(agvd::edge_key(3, 7), agvd::edge_key(3, 8));
     EXPECT_LT(agvd::edge_key(3, 8), agvd::edge_key(4, 0xfffffffe));
 }
+
+TEST(DropUnused, NumbersTheVerticesThatAreLeftInTheirOrder) {
+    std::vector<agvd::Triangle> triangles{{5, 1, 3}, {3, 1, 6}};
+    EXPECT_EQ(agvd::drop_unused(8, triangles), (std::vector<Index>{1, 3, 5, 6}));
+    EXPECT_EQ(triangles, (std::vector<agvd::Triangle>{{2, 0, 1}, {1, 0, 3}}));
+}
