@@ -8,7 +8,7 @@
 #include <set>
 
 #include "agvd/mesh/topology.h"
-#include "support/random_meshes.h"
+#include "support/dice.h"
 #include "support/shapes.h"
 
 using namespace agvd;
