@@ -10,7 +10,6 @@
 #include "agvd/core/parallel.h"
 #include "agvd/mesh/any_mesh.h"
 #include "agvd/mesh/scale.h"
-#include "agvd/mesh/surface_points.h"
 
 namespace agvd {
 namespace {
@@ -236,7 +235,10 @@ std::vector<std::vector<Index>> boundary_loops(std::span<const Triangle> triangl
 }
 
 SurfacePoint point_at(const Surface& surface, Index vertex) {
-    return point_on(surface.outgoing[vertex], 0);
+    const Index h = surface.outgoing[vertex];
+    SurfacePoint point{FaceId(Surface::face(h)), {0, 0, 0}};
+    point.barycentric[h % 3] = 1;
+    return point;
 }
 
 }  // namespace agvd
