@@ -7,6 +7,8 @@
 
 #include "agvd/core/types.h"
 #include "agvd/mesh/surface_points.h"
+#include "agvd/mesh/topology.h"
+#include "remesh/curves/curve_network.h"
 #include "remesh/curves/walk.h"
 #include "remesh/sites/cell_measures.h"
 
@@ -204,32 +206,34 @@ SiteDual label_dual(const IntrinsicTriangulation& base, const DistanceBounds& la
     return result;
 }
 
-std::vector<std::optional<SurfacePoint>> boundary_points(const IntrinsicTriangulation& base,
-                                                         const DistanceBounds& labels,
-                                                         Index num_sites,
-                                                         std::span<const Index> corners) {
+void move_to_boundary(const PreparedSurface& prepared, double spacing, int num_threads,
+                      const Progress& progress, std::vector<SurfacePoint>& sites) {
+    const IntrinsicTriangulation& base = prepared.base;
     const Surface& surface = base.surface();
-    std::vector<Index> nearest(num_sites, no_index);
+    const DistanceBounds labels = label_vertices(prepared, sites, num_threads, progress);
+    std::vector<Index> nearest(sites.size(), no_index);
     for (Index v = 0; v < surface.num_vertices(); ++v) {
         const Index site = labels.site[v];
         if (site == no_index || !surface.is_boundary_vertex(v)) continue;
         Index& best = nearest[site];
         if (best == no_index || labels.distance[v] < labels.distance[best]) best = v;
     }
-    std::vector<std::optional<SurfacePoint>> points(num_sites);
-    for (Index s = 0; s < num_sites; ++s) {
+    for (std::size_t s = 0; s < sites.size(); ++s) {
         if (nearest[s] != no_index) {
-            points[s] = base.to_input(point_on(surface.outgoing[nearest[s]], off_vertex, 0));
+            sites[s] = base.to_input(point_on(surface.outgoing[nearest[s]], off_vertex, 0));
         }
     }
-    std::vector<bool> has_corner(num_sites, false);
-    for (const Index v : corners) {
-        const Index site = labels.site[v];
-        if (site == no_index || has_corner[site]) continue;
-        has_corner[site] = true;
-        points[site] = point_at(base.input(), v);
+    std::vector<bool> has_corner(sites.size(), false);  // The first one of each site counts.
+    for (const std::vector<Index>& loop : boundary_loops(base.input())) {
+        const Curve curve = curve_of_loop(base.input(), loop);
+        for (const std::size_t i : corners_of_curve(base.input(), curve, spacing)) {
+            const Index v = base.input().tail(loop[i]);
+            const Index site = labels.site[v];
+            if (site == no_index || has_corner[site]) continue;
+            has_corner[site] = true;
+            sites[site] = point_at(base.input(), v);
+        }
     }
-    return points;
 }
 
 std::optional<TriangulatedSites> subdivide(const Surface& surface,
