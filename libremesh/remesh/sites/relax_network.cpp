@@ -347,8 +347,7 @@ private:
     std::unique_ptr<Relaxation> divide(const Relaxation& first, const CurveSites& coarse) {
         const std::vector<ChainEdge> chain = chain_edges(plan_.network, plan_.cut, coarse);
         const Refinement refinement{plan_, coarse, fine_};
-        detail::SiteDual dual =
-            detail::label_dual(surface_.base, levels_.label(first.sites()), true);
+        detail::SiteDual dual = detail::label_dual(surface_.base, levels_.label(first.sites()));
         close_rim(ends_of(chain), dual.triangles);
         find_narrow(coarse, first.sites(), dual.triangles);
         const auto relaxed = sort_by_patch(first.triangles(), first.sites());

@@ -167,13 +167,12 @@ std::vector<Triangle> label_triangles(const Surface& surface, const DistanceBoun
     return triangles;
 }
 
-SiteDual label_dual(const IntrinsicTriangulation& base, const DistanceBounds& labels,
-                    bool keeps_inside) {
+SiteDual label_dual(const IntrinsicTriangulation& base, const DistanceBounds& labels) {
     const Surface& surface = base.surface();
     SiteDual result{label_triangles(surface, labels), {}};
     struct Crossing {
         std::uint64_t pair;
-        bool is_late;  // False where the middle should lie; such edges come first.
+        bool is_rim;  // Inner edges come first.
         double length;
         Index half_edge;
     };
@@ -184,12 +183,12 @@ SiteDual label_dual(const IntrinsicTriangulation& base, const DistanceBounds& la
         const Index a = labels.site[u], b = labels.site[v];
         if (a == b) continue;
         const double length = static_cast<double>(labels.distance[u]) + labels.distance[v];
-        crossings.push_back({edge_key(a, b), (surface.twin[h] != no_index) != keeps_inside,
-                             length + surface.length[e], h});
+        crossings.push_back(
+            {edge_key(a, b), surface.twin[h] == no_index, length + surface.length[e], h});
     }
     std::sort(crossings.begin(), crossings.end(), [](const Crossing& x, const Crossing& y) {
-        return std::tie(x.pair, x.is_late, x.length, x.half_edge) <
-               std::tie(y.pair, y.is_late, y.length, y.half_edge);
+        return std::tie(x.pair, x.is_rim, x.length, x.half_edge) <
+               std::tie(y.pair, y.is_rim, y.length, y.half_edge);
     });
     for (std::size_t i = 0; i < crossings.size(); ++i) {
         const Crossing& c = crossings[i];
@@ -198,10 +197,8 @@ SiteDual label_dual(const IntrinsicTriangulation& base, const DistanceBounds& la
         const double along = std::clamp(
             meeting_share(labels, surface.tail(h), surface.head(h), surface.length_of(h)),
             end_margin, 1 - end_margin);
-        const bool is_inside = keeps_inside || surface.twin[h] != no_index;
         result.middles.push_back({static_cast<Index>(c.pair >> 32), static_cast<Index>(c.pair),
-                                  c.length,
-                                  base.to_input(point_on(h, along, is_inside ? side_margin : 0))});
+                                  c.length, base.to_input(point_on(h, along, side_margin))});
     }
     return result;
 }

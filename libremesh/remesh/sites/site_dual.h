@@ -22,7 +22,7 @@ namespace remesh::detail {
 struct Middle {
     Index low = 0, high = 0;  //!< The sites.
     double length = 0;        //!< Of a path between them.
-    SurfacePoint point;       //!< On the input; on its boundary if they meet there.
+    SurfacePoint point;       //!< On the input, off its boundary.
     //! A site that is there already; no_index: none, `point` is used.
     Index site = no_index;
 };
@@ -40,10 +40,8 @@ struct SiteDual {
 };
 
 //! The triangulation by labels, with the middles of its edges.
-//! \param keeps_inside  true: no middle lies on the boundary.
 //! Cost: sorting the edges whose ends have two labels.
-[[nodiscard]] SiteDual label_dual(const IntrinsicTriangulation& base, const DistanceBounds& labels,
-                                  bool keeps_inside = false);
+[[nodiscard]] SiteDual label_dual(const IntrinsicTriangulation& base, const DistanceBounds& labels);
 
 //! Moves each site that labels boundary vertices onto the boundary: to a corner that it labels, or
 //! to the point nearest by its labels, off the vertices, so that it can move along.
