@@ -8,8 +8,6 @@
 namespace agvd {
 namespace {
 
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
-
 Vec2 in_frame(const SurfacePoint& point) { return {point.barycentric[1], point.barycentric[2]}; }
 
 // Calls visit(edge, point, next point) for each piece of each bisector.

@@ -26,6 +26,10 @@ inline constexpr double degree = std::numbers::pi / 180;  //!< In radians.
 
 using Vec2 = Eigen::Vector2d;  //!< A point of a face's plane.
 using Vec3 = Eigen::Vector3d;  //!< A point in space.
+//! Above 0 if the second vector lies on the left of the first one; the area that they span.
+[[nodiscard]] inline double cross(const Vec2& a, const Vec2& b) {
+    return a.x() * b.y() - a.y() * b.x();
+}
 //! Vertex indices of a triangle, counter-clockwise seen from outside.
 using Triangle = std::array<Index, 3>;
 

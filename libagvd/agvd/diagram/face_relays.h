@@ -29,10 +29,6 @@ struct Reach {
     double last_piece;  //!< Length of that piece.
 };
 
-[[nodiscard]] inline double cross(const Vec2& a, const Vec2& b) {
-    return a.x() * b.y() - a.y() * b.x();
-}
-
 //! The length of a vector.
 [[nodiscard]] inline double root(double x, double y) { return std::sqrt(x * x + y * y); }
 

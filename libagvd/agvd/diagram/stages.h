@@ -47,9 +47,9 @@ void cut_faces(const StageInput& input, EdgeLabels& labels);
 //! Parallel.
 void trace_faces(const StageInput& input, std::span<const Index> positions, DiagramParts& parts);
 
-//! Makes cells connected: with approximate distances they may have parts where two sites nearly
-//! Gives every part of a cell that is not connected to its site to a cell beside it, and traces the
-//! faces around it again, until nothing changes. This ends, since label changes only vanish.
+//! Makes cells connected: with approximate distances they may have several parts. Gives every part
+//! that is not connected to its site to a cell beside it, and traces the faces around it again,
+//! until nothing changes. This ends, since label changes only vanish.
 //! \return draw_complex() of what comes out.
 //! Cost: that of draw_complex() for most diagrams; on the others that of the cells with islands,
 //! and O(#V + arcs) quick steps.

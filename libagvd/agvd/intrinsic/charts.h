@@ -13,9 +13,6 @@ namespace agvd::detail {
     return {v.x() * turn.x() - v.y() * turn.y(), v.x() * turn.y() + v.y() * turn.x()};
 }
 [[nodiscard]] inline Vec2 conjugate(const Vec2& v) { return {v.x(), -v.y()}; }
-[[nodiscard]] inline double cross(const Vec2& a, const Vec2& b) {
-    return a.x() * b.y() - a.y() * b.x();
-}
 
 //! A face in a plane of its own.
 struct FaceChart {

@@ -12,6 +12,7 @@
 #include "agvd/core/bucket_sort.h"
 #include "agvd/core/parallel.h"
 #include "agvd/intrinsic/vertex_ring.h"
+#include "agvd/mesh/scale.h"
 
 namespace agvd::detail {
 namespace {
@@ -141,21 +142,20 @@ std::vector<Index> find_flat(const Shared& shared, int num_threads, Poller& poll
 // The parts are cells of a grid around the mesh. The number of cells along the longest side is
 // chosen so that the parts of a round surface have the wanted size.
 std::vector<Index> find_parts(const std::vector<Vec3>& positions, Ticker ticker) {
-    Vec3 low = positions[0], high = low;
+    MeshBox box;
     for (const Vec3& p : positions) {
         ticker.tick();
-        low = low.cwiseMin(p);
-        high = high.cwiseMax(p);
+        box.add(p);
     }
     const double wanted =
         std::ceil(std::sqrt(static_cast<double>(positions.size()) / part_size / 2));
     const double num_cells = std::min(wanted, static_cast<double>(most_cells));
-    const double cell = (high - low).maxCoeff() / num_cells;
+    const double cell = (box.high - box.low).maxCoeff() / num_cells;
     std::vector<Index> part_of;
     part_of.reserve(positions.size());
     for (const Vec3& p : positions) {
         ticker.tick();
-        const Vec3 at = (p - low) / cell;
+        const Vec3 at = (p - box.low) / cell;
         const auto along = [&](double x) {
             return std::min(static_cast<Index>(std::max(x, 0.0)), most_cells - 1);
         };

@@ -157,21 +157,6 @@ InputPart measure(const detail::FacePolygon& polygon) {
 IntrinsicTriangulation::IntrinsicTriangulation(const Surface& input,
                                                const IntrinsicOptions& options)
     : input_(&input), surface_(input), history_(std::make_unique<FaceHistory>(input.num_faces())) {
-    run(options);
-}
-
-IntrinsicTriangulation::IntrinsicTriangulation(Surface&& input, const IntrinsicOptions& options)
-    : owned_(std::make_unique<Surface>()),
-      input_(owned_.get()),
-      surface_(std::move(input)),
-      history_(std::make_unique<FaceHistory>(surface_.num_faces())) {
-    owned_->mesh = surface_.mesh;
-    owned_->twin = surface_.twin;
-    owned_->outgoing = surface_.outgoing;
-    run(options);
-}
-
-void IntrinsicTriangulation::run(const IntrinsicOptions& options) {
     check_options(options);
     Poller poller(options.progress);
     Ticker ticker(poller);

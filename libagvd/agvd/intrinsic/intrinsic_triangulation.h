@@ -64,9 +64,8 @@ public:
     //! Cost: a pass over the edges and O(log n) for each flip. The number of flips has no useful
     //! bound in theory; in practice it is some ten for each needle.
     explicit IntrinsicTriangulation(const Surface& input, const IntrinsicOptions& options = {});
-    //! The same for an input that is not used elsewhere. input() keeps its mesh, `twin` and
-    //! `outgoing`, and computes the rest from its positions: 78 bytes less for each face.
-    explicit IntrinsicTriangulation(Surface&& input, const IntrinsicOptions& options = {});
+    //! The input would not outlive this.
+    explicit IntrinsicTriangulation(Surface&& input, const IntrinsicOptions& options = {}) = delete;
     //! Moves; the other one may only be destroyed or assigned to.
     IntrinsicTriangulation(IntrinsicTriangulation&&) noexcept;
     //! Likewise.
@@ -113,10 +112,8 @@ public:
     [[nodiscard]] std::vector<InputPart> parts_of(Index face) const;
 
 private:
-    void run(const IntrinsicOptions& options);
     void change_faces(const IntrinsicOptions& options, Poller& poller, Ticker& ticker);
 
-    std::unique_ptr<Surface> owned_;  // The input, or null.
     const Surface* input_;
     Surface surface_;
     IntrinsicCounts counts_;

@@ -3,7 +3,6 @@
 #include "agvd/intrinsic/simplify.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "agvd/intrinsic/simplify_steps.h"
 #include "agvd/mesh/surface_points.h"
@@ -20,52 +19,6 @@ struct Part {
     Surface surface;
     std::vector<SurfacePoint> point;  // By vertex.
 };
-
-Index rank_of(std::span<const Index> ascending, Index value) {
-    return static_cast<Index>(std::lower_bound(ascending.begin(), ascending.end(), value) -
-                              ascending.begin());
-}
-
-Part part_of(const Surface& whole, std::span<const Index> faces) {
-    std::vector<Index> vertices, edges;
-    for (const Index f : faces) {
-        for (Index k = 0; k < 3; ++k) {
-            vertices.push_back(whole.mesh.triangles[f][k]);
-            edges.push_back(whole.edge[3 * f + k]);
-        }
-    }
-    vertices = distinct(std::move(vertices));
-    edges = distinct(std::move(edges));
-    const auto moved = [&](Index half_edge) {
-        if (half_edge == no_index) return no_index;
-        return 3 * rank_of(faces, Surface::face(half_edge)) + half_edge % 3;
-    };
-
-    Part part;
-    Surface& s = part.surface;
-    part.point.resize(vertices.size());
-    for (const Index f : faces) {
-        Triangle t = whole.mesh.triangles[f];
-        for (Index k = 0; k < 3; ++k) {
-            t[k] = rank_of(vertices, t[k]);
-            part.point[t[k]] = point_on(3 * f + k, 0);
-            s.twin.push_back(moved(whole.twin[3 * f + k]));
-            s.edge.push_back(rank_of(edges, whole.edge[3 * f + k]));
-            s.apex.push_back(whole.apex[3 * f + k]);
-        }
-        s.mesh.triangles.push_back(t);
-    }
-    for (const Index v : vertices) {
-        s.mesh.positions.push_back(whole.mesh.positions[v]);
-        s.outgoing.push_back(moved(whole.outgoing[v]));
-        s.can_be_pseudo_source.push_back(whole.can_be_pseudo_source[v]);
-    }
-    for (const Index e : edges) {
-        s.edge_half.push_back(moved(whole.edge_half[e]));
-        s.length.push_back(whole.length[e]);
-    }
-    return part;
-}
 
 // Cuts edges at their middles until the complex is simplicial.
 FaceHistory make_simplicial(Part& part, FaceCharts& charts, std::span<const Index> faces) {
@@ -91,8 +44,12 @@ FaceHistory make_simplicial(Part& part, FaceCharts& charts, std::span<const Inde
 
 SimplifiedMesh simplify(const Surface& surface, std::span<const Index> faces,
                         std::span<const SurfacePoint> points) {
-    Part part = part_of(surface, faces);
+    Part part{surface_of_part(surface, faces, {}), {}};
     Surface& s = part.surface;
+    part.point.resize(s.num_vertices());
+    for (Index h = 0; h < s.twin.size(); ++h) {
+        part.point[s.tail(h)] = point_on(3 * faces[h / 3] + h % 3, 0);
+    }
     Poller never;
     detail::raise_degenerate_faces(s, 1, never);
     FaceCharts charts(s);

@@ -42,10 +42,7 @@ MeshBox box_of(const MeshView& mesh, int num_threads) {
     };
     parallel_chunks(num_faces, pass_grain, num_threads, measure);
     MeshBox whole;
-    for (const MeshBox& box : boxes) {
-        whole.low = whole.low.cwiseMin(box.low);
-        whole.high = whole.high.cwiseMax(box.high);
-    }
+    for (const MeshBox& box : boxes) whole.add(box);
     return whole;
 }
 

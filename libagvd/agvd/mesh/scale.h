@@ -23,6 +23,11 @@ struct MeshBox {
         low = low.cwiseMin(point);
         high = high.cwiseMax(point);
     }
+    //! Grows to hold the box.
+    void add(const MeshBox& other) {
+        low = low.cwiseMin(other.low);
+        high = high.cwiseMax(other.high);
+    }
     //! Whether the boxes have a point in common.
     [[nodiscard]] bool meets(const MeshBox& other) const {
         return (low.array() <= other.high.array()).all() &&

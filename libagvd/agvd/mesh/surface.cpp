@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <string>
 
 #include "agvd/core/error.h"
@@ -206,6 +207,47 @@ Surface build_surface(TriangleMesh mesh, Connectivity connectivity, int num_thre
     measure(surface, num_threads, poller);
     find_pseudo_sources(surface, num_threads, poller);
     return surface;
+}
+
+Surface surface_of_part(const Surface& whole, std::span<const Index> faces, Ticker ticker) {
+    const auto distinct = [&](std::vector<Index>& values) {
+        sort_ticked(values, ticker, std::less<>());
+        values.erase(std::unique(values.begin(), values.end()), values.end());
+    };
+    std::vector<Index> vertices, edges;
+    for (const Index f : faces) {
+        for (Index h = 3 * f; h < 3 * f + 3; ++h) {
+            vertices.push_back(whole.tail(h));
+            edges.push_back(whole.edge[h]);
+        }
+    }
+    distinct(vertices);
+    distinct(edges);
+    const auto moved = [&](Index half_edge) {
+        if (half_edge == no_index) return no_index;
+        return 3 * rank_of(faces, Surface::face(half_edge)) + half_edge % 3;
+    };
+    Surface part;
+    for (const Index f : faces) {
+        ticker.tick(8);
+        Triangle& t = part.mesh.triangles.emplace_back(whole.mesh.triangles[f]);
+        for (Index& v : t) v = rank_of(vertices, v);
+        for (Index h = 3 * f; h < 3 * f + 3; ++h) {
+            part.twin.push_back(moved(whole.twin[h]));
+            part.edge.push_back(rank_of(edges, whole.edge[h]));
+            part.apex.push_back(whole.apex[h]);
+        }
+    }
+    for (const Index v : vertices) {
+        part.mesh.positions.push_back(whole.mesh.positions[v]);
+        part.outgoing.push_back(moved(whole.outgoing[v]));
+        part.can_be_pseudo_source.push_back(whole.can_be_pseudo_source[v]);
+    }
+    for (const Index e : edges) {
+        part.edge_half.push_back(moved(whole.edge_half[e]));
+        part.length.push_back(whole.length[e]);
+    }
+    return part;
 }
 
 std::vector<std::vector<Index>> boundary_loops(const Surface& surface) {

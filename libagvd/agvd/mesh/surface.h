@@ -7,6 +7,7 @@
 //! are arithmetic. Everything else is one flat array per quantity.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 
 #include "agvd/core/progress.h"
@@ -33,10 +34,8 @@ struct Connectivity {
 
 //! The frame of half-edge h: its tail at (0, 0), its head at (length, 0), its face above (y > 0).
 struct Surface {
-    TriangleMesh mesh;        //!< The faces, and the positions of the vertices.
-    std::vector<Index> twin;  //!< #H: the half-edge across; no_index on the boundary.
-    //! IntrinsicTriangulation may take these four away. They are empty then, and length_of and
-    //! apex_of compute the same numbers from the positions.
+    TriangleMesh mesh;             //!< The faces, and the positions of the vertices.
+    std::vector<Index> twin;       //!< #H: the half-edge across; no_index on the boundary.
     std::vector<Index> edge;       //!< #H: its undirected edge.
     std::vector<Index> edge_half;  //!< #E: the edge's half-edge with the lower index.
     std::vector<double> length;    //!< #E, mesh units.
@@ -69,13 +68,7 @@ struct Surface {
     //! The vertex where it ends.
     [[nodiscard]] Index head(Index half_edge) const { return tail(next(half_edge)); }
     //! Mesh units.
-    [[nodiscard]] double length_of(Index half_edge) const {
-        return edge.empty() ? length_in_space(half_edge) : length[edge[half_edge]];
-    }
-    //! The third corner of its face, in its frame.
-    [[nodiscard]] Vec2 apex_of(Index half_edge) const {
-        return apex.empty() ? apex_in_space(half_edge) : apex[half_edge];
-    }
+    [[nodiscard]] double length_of(Index half_edge) const { return length[edge[half_edge]]; }
     //! The distance between the positions of the ends: the half-edge's length for a face in space.
     [[nodiscard]] double length_in_space(Index half_edge) const {
         return (mesh.positions[head(half_edge)] - mesh.positions[tail(half_edge)]).norm();
@@ -118,6 +111,18 @@ inline Vec2 Surface::apex_in_space(Index half_edge) const {
 [[nodiscard]] Surface build_surface(TriangleMesh mesh, Connectivity connectivity, int num_threads,
                                     const Progress& progress = {});
 
+//! The place of a value in ascending ones.
+[[nodiscard]] inline Index rank_of(std::span<const Index> ascending, Index value) {
+    return static_cast<Index>(std::lower_bound(ascending.begin(), ascending.end(), value) -
+                              ascending.begin());
+}
+
+//! Components of a surface as a surface of their own; vertices, edges and faces keep their order.
+//! \param faces  ascending: all those of the components.
+//! Cost: O(n log n).
+[[nodiscard]] Surface surface_of_part(const Surface& whole, std::span<const Index> faces,
+                                      Ticker ticker);
+
 //! Boundary loops: each a cycle of half-edges without twin, head of one = tail of the next, in the
 //! direction that has the surface on the left; loops ordered by their lowest half-edge.
 [[nodiscard]] std::vector<std::vector<Index>> boundary_loops(const Surface& surface);
@@ -159,7 +164,7 @@ void for_each_edge_at(const Surface& surface, Index vertex, const Each& each) {
 //! In square mesh units.
 [[nodiscard]] inline double face_area(const Surface& surface, Index face) {
     const Index h = 3 * face;
-    return surface.length_of(h) * surface.apex_of(h).y() / 2;
+    return surface.length_of(h) * surface.apex[h].y() / 2;
 }
 
 //! The area of all faces, summed in their order. Cost: O(#F).

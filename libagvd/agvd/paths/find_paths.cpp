@@ -95,7 +95,7 @@ std::optional<FaceStrip> trace(const Surface& surface, const SiteGoal& goal,
             strip.target = *target;
             return strip;
         }
-        const Vec2 end(surface.length_of(inside), 0), apex = surface.apex_of(inside);
+        const Vec2 end(surface.length_of(inside), 0), apex = surface.apex[inside];
         ray.from = end - ray.from;
         ray.image = end - ray.image;
         const Vec2 way = ray.image - ray.from, to_apex = apex - ray.from;

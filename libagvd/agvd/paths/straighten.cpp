@@ -284,14 +284,14 @@ private:
             detour_.push_back(h);
             if (inside == goal) return {true, node.last};
             h = node.is_left ? Surface::next(inside) : Surface::previous(inside);
-            add_corner(surface_.apex_of(node.is_left ? h : inside));
+            add_corner(surface_.apex[node.is_left ? h : inside]);
         }
         return {false, node.last};
     }
 
     [[nodiscard]] Vec2 apex_of(Index half_edge, const Vec2& tail, const Vec2& head) const {
         const Vec2 along = (head - tail) / surface_.length_of(half_edge);
-        const Vec2 apex = surface_.apex_of(half_edge);
+        const Vec2 apex = surface_.apex[half_edge];
         return tail + apex.x() * along + apex.y() * Vec2(-along.y(), along.x());
     }
 

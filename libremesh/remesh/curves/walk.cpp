@@ -17,7 +17,6 @@ constexpr double stop_share = 0.9;
 // vertex.
 constexpr int most_crossings = 2000;
 
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 // Vector `a` in the frame whose first axis is `axis`, of length 1.
 Vec2 turned_back(const Vec2& a, const Vec2& axis) { return {axis.dot(a), cross(axis, a)}; }
 
@@ -32,12 +31,12 @@ struct Ray {
 Ray in_next(const Surface& surface, const Ray& ray) {
     const Vec2 head(surface.length_of(ray.half_edge), 0);
     const Index next = Surface::next(ray.half_edge);
-    const Vec2 axis = (surface.apex_of(ray.half_edge) - head) / surface.length_of(next);
+    const Vec2 axis = (surface.apex[ray.half_edge] - head) / surface.length_of(next);
     return {next, turned_back(ray.at - head, axis), turned_back(ray.direction, axis)};
 }
 
 SurfacePoint point_at(const Surface& surface, const Ray& ray) {
-    const Vec2 apex = surface.apex_of(ray.half_edge);
+    const Vec2 apex = surface.apex[ray.half_edge];
     const double length = surface.length_of(ray.half_edge);
     const double up = ray.at.y() / apex.y();
     const double head = (ray.at.x() - up * apex.x()) / length;
@@ -66,7 +65,7 @@ void find_exit(const Surface& surface, Ray& ray, bool is_inside) {
         }
         return;
     }
-    const bool is_left = cross(ray.direction, surface.apex_of(ray.half_edge) - ray.at) > 0;
+    const bool is_left = cross(ray.direction, surface.apex[ray.half_edge] - ray.at) > 0;
     ray = in_next(surface, ray);
     if (!is_left) ray = in_next(surface, ray);
 }
@@ -87,7 +86,7 @@ Walk walk_straight(const Surface& surface, const SurfacePoint& from, const Vec3&
     const double length = surface.length_of(h);
     const Vec3 x_axis = (p[t[1]] - p[t[0]]) / length;
     const Vec3 up = p[t[2]] - p[t[0]];
-    const Vec2 apex = surface.apex_of(h);
+    const Vec2 apex = surface.apex[h];
     const Vec3 y_axis = (up - apex.x() * x_axis) / apex.y();
     const Vec2 flat(x_axis.dot(step), y_axis.dot(step));
     double left = step.norm();

@@ -69,7 +69,7 @@ std::vector<Vec2> coordinates_of_vertices(const MeshView& mesh, const TextureCoo
     return result;
 }
 
-std::string names_of_formats(const char* mark) {
+std::string mesh_formats(const char* mark) {
     std::string text;
     for (const MeshFormat& format : formats) {
         const bool is_last = &format == std::end(formats) - 1;
@@ -105,13 +105,11 @@ const MeshFormat& require_format(const MeshPath& path) {
     }
     const std::string begin = path.path.string() + ": unknown ";
     if (!path.format.empty()) {
-        throw IoError(
-            joined(begin, "format ", in_quotes(path.format), "; use ", names_of_formats("")));
+        throw IoError(joined(begin, "format ", in_quotes(path.format), "; use ", mesh_formats()));
     }
-    throw IoError(
-        joined(begin, "extension ", in_quotes(path.path.extension().string()), "; use ",
-               names_of_formats("."),
-               ", or name the format (remesh: --from for an input, --to for the output)"));
+    throw IoError(joined(
+        begin, "extension ", in_quotes(path.path.extension().string()), "; use ", mesh_formats("."),
+        ", or name the format (remesh: --from for an input, --to for the output)"));
 }
 
 MeshFile read_mesh(const std::filesystem::path& path, const ReadOptions& options) {

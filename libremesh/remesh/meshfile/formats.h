@@ -64,9 +64,6 @@ struct MeshFormat {
     [[nodiscard]] bool is_single() const { return largest < std::numeric_limits<double>::max(); }
 };
 
-//! "ply, obj, ... or glb" with `mark` before each name.
-[[nodiscard]] std::string names_of_formats(const char* mark);
-
 //! With its dot, in lower case; empty if there is none.
 [[nodiscard]] std::string lower_extension(const std::filesystem::path& path);
 

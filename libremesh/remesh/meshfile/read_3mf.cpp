@@ -269,10 +269,7 @@ private:
         const auto found = tag.find(name);
         if (!found) return std::nullopt;
         const std::string_view text = trimmed(*found);
-        std::uint64_t value = 0;
-        const char* const end = text.data() + text.size();
-        const auto [last, error] = std::from_chars(text.data(), end, value);
-        if (error == std::errc{} && last == end) return value;
+        if (const auto value = as_count(text)) return value;
         fail(tag, name, " of ", in_quotes(tag.name), " is ", in_quotes(text),
              " and no whole number from 0");
     }

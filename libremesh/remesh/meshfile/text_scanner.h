@@ -23,6 +23,15 @@ namespace remesh {
     return value;
 }
 
+//! The text as a whole number from 0; nothing if it is something else.
+[[nodiscard]] inline std::optional<std::uint64_t> as_count(std::string_view text) {
+    const char* const end = text.data() + text.size();
+    std::uint64_t value = 0;
+    const auto [last, error] = std::from_chars(text.data(), end, value);
+    if (error != std::errc{} || last != end) return std::nullopt;
+    return value;
+}
+
 class TextScanner {
 public:
     struct Rules {

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <limits>
 
 #include "agvd/mesh/any_mesh.h"
@@ -5,37 +6,6 @@
 #include "remesh/meshfile/text.h"
 
 namespace remesh {
-namespace {
-
-struct Side {
-    std::uint64_t edge;
-    Index face;
-    std::uint8_t low, high;  // Corners of the face at the lower and the higher end.
-
-    [[nodiscard]] bool operator<(const Side& other) const {
-        return edge != other.edge ? edge < other.edge : face < other.face;
-    }
-};
-
-std::vector<Side> sorted_sides(const MeshView& mesh, Ticker& ticker) {
-    const std::vector<Index> point = first_at_position(mesh.positions, ticker);
-    std::vector<Side> sides;
-    sides.reserve(3 * mesh.triangles.size());
-    for (Index f = 0; f < mesh.triangles.size(); ++f) {
-        ticker.tick();
-        for (std::uint8_t k = 0; k < 3; ++k) {
-            const auto next = static_cast<std::uint8_t>((k + 1) % 3);
-            const Index a = point[mesh.triangles[f][k]], b = point[mesh.triangles[f][next]];
-            if (a == b) continue;
-            sides.push_back({edge_key(a, b), f, a < b ? k : next, a < b ? next : k});
-        }
-    }
-    sort_ticked(sides, ticker, std::less<>());
-    return sides;
-}
-
-}  // namespace
-
 CornerCoordinates no_coordinates() {
     const double none = std::numeric_limits<double>::quiet_NaN();
     return {Vec2(none, none), Vec2(none, none), Vec2(none, none)};
@@ -62,17 +32,28 @@ std::vector<std::array<Index, 2>> find_texture_seams(const MeshView& mesh,
                                    "; give three for each"));
     }
     const CornerAgreement agree(values);
-    const std::vector<Side> sides = sorted_sides(mesh, ticker);
+    const std::vector<Index> point = first_at_position(mesh.positions, ticker);
+    std::vector<Triangle> faces(mesh.triangles.begin(), mesh.triangles.end());
+    for (Triangle& t : faces) t = {point[t[0]], point[t[1]], point[t[2]]};
     std::vector<std::array<Index, 2>> seams;
-    for (std::size_t first = 0, i = 0; i < sides.size(); ++i) {
-        ticker.tick();
-        if (sides[i].edge != sides[first].edge) first = i;
-        const Side &a = sides[first], &b = sides[i];
-        if (agree(a.face, a.low, b.face, b.low) && agree(a.face, a.high, b.face, b.high)) continue;
-        const Triangle& t = mesh.triangles[a.face];
-        seams.push_back({t[a.low], t[a.high]});
-        while (i + 1 < sides.size() && sides[i + 1].edge == a.edge) ++i;
-    }
+    for_each_edge(sorted_edge_sides(faces, ticker), [&](std::span<const EdgeSide> edge) {
+        ticker.tick(edge.size());
+        // The corners of a side's face at the lower and the higher end.
+        const auto low = [](const EdgeSide& side) {
+            return (side.forward ? side.half_edge : next_half_edge(side.half_edge)) % 3;
+        };
+        const auto high = [](const EdgeSide& side) {
+            return (side.forward ? next_half_edge(side.half_edge) : side.half_edge) % 3;
+        };
+        const EdgeSide& a = edge[0];
+        const auto agrees = [&](const EdgeSide& b) {
+            return agree(a.face(), low(a), b.face(), low(b)) &&
+                   agree(a.face(), high(a), b.face(), high(b));
+        };
+        if (a.low() == a.high() || std::ranges::all_of(edge, agrees)) return;
+        const Triangle& t = mesh.triangles[a.face()];
+        seams.push_back({t[low(a)], t[high(a)]});
+    });
     return seams;
 }
 

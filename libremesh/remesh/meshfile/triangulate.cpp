@@ -141,12 +141,6 @@ std::vector<Vec2> project(std::span<const Index> polygon, std::span<const Vec3> 
     return flat;
 }
 
-// Twice the signed area of (a, b, c).
-double area(const Vec2& a, const Vec2& b, const Vec2& c) {
-    const Vec2 ab = b - a, ac = c - a;
-    return ab.x() * ac.y() - ab.y() * ac.x();
-}
-
 // The rest of a polygon during ear clipping: a cycle of corners in a linked list.
 struct Ring {
     std::vector<Vec2> point;
@@ -163,7 +157,8 @@ struct Ring {
     }
 
     [[nodiscard]] double turn(std::size_t i) const {
-        return area(point[previous[i]], point[i], point[next[i]]);
+        const Vec2& at = point[previous[i]];
+        return cross(point[i] - at, point[next[i]] - at);
     }
 
     // The triangle at corner i turns left and holds no other corner. Corners at the position of one
@@ -175,7 +170,7 @@ struct Ring {
         const auto is_inside = [&](std::size_t j) {
             const Vec2& p = point[j];
             if (p == a || p == b || p == c) return false;
-            return area(a, b, p) >= 0 && area(b, c, p) >= 0 && area(c, a, p) >= 0;
+            return cross(b - a, p - a) >= 0 && cross(c - b, p - b) >= 0 && cross(a - c, p - c) >= 0;
         };
         return !reflex.any_in(a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c), is_inside);
     }

@@ -203,10 +203,7 @@ public:
                                        const char* what) const {
         const std::string text = element[name];
         if (text.empty()) return std::nullopt;
-        std::uint64_t value = 0;
-        const char* const end = text.data() + text.size();
-        const auto [last, error] = std::from_chars(text.data(), end, value);
-        if (error == std::errc{} && last == end) return value;
+        if (const auto value = as_count(text)) return value;
         file_.fail_damaged(element.tag, what, " is ", in_quotes(text),
                            " and no whole number from 0");
     }

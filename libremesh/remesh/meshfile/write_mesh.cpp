@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "agvd/mesh/scale.h"
 #include "remesh/meshfile/atomic_file.h"
 #include "remesh/meshfile/formats.h"
 #include "remesh/meshfile/packed.h"
@@ -85,19 +86,18 @@ constexpr double share_of_diagonal = 1e-6;
 }
 
 void measure_shifts(const MeshView& mesh, Ticker& ticker, RoundingLoss& loss) {
-    Vec3 low = Vec3::Constant(std::numeric_limits<double>::max()), high = -low;
+    MeshBox box;
     PointWelder before, after;
     for (const Vec3& p : mesh.positions) {
         ticker.tick(4);
         const Vec3 q = rounded(p);
         loss.largest_shift = std::max(loss.largest_shift, (q - p).norm());
-        low = low.cwiseMin(p);
-        high = high.cwiseMax(p);
+        box.add(p);
         before.index_of(p);
         after.index_of(q);
     }
-    loss.diagonal = (high - low).norm();
-    loss.middle = low + (high - low) / 2;
+    loss.diagonal = (box.high - box.low).norm();
+    loss.middle = box.low + (box.high - box.low) / 2;
     loss.merged = static_cast<Index>(before.points().size() - after.points().size());
 }
 
@@ -194,8 +194,6 @@ void write_mesh(const std::filesystem::path& path, const MeshView& mesh, const P
 bool is_known_mesh_format(const MeshPath& path) { return find_format(path) != nullptr; }
 
 std::string mesh_format(const MeshPath& path) { return require_format(path).name; }
-
-std::string mesh_formats(const char* mark) { return names_of_formats(mark); }
 
 bool RoundingLoss::matters() const {
     return merged > 0 || largest_shift > share_of_edge * shortest_edge ||

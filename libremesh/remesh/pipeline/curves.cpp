@@ -92,21 +92,6 @@ void find_seams(const CleanedInput& cleaned, double spacing, const RemeshOptions
     prune_seams(surface, found.is_crease, spacing, found.is_wide, Ticker(poller));
 }
 
-// Moves sites whose cells meet the boundary onto it, and those nearest to its corners there.
-void move_to_boundary(const Surface& surface, double spacing, int num_threads,
-                      const Progress& progress, std::vector<SurfacePoint>& sites) {
-    std::vector<Index> corners;
-    for (const std::vector<Index>& loop : boundary_loops(surface)) {
-        const std::vector<Index> some = find_corners(surface, loop, spacing);
-        corners.insert(corners.end(), some.begin(), some.end());
-    }
-    const PreparedSurface prepared(surface, spacing, num_threads, progress);
-    const std::vector<std::optional<SurfacePoint>> points =
-        boundary_points(prepared.base, label_vertices(prepared, sites, num_threads, progress),
-                        static_cast<Index>(sites.size()), corners);
-    for (Index i = 0; i < sites.size(); ++i) sites[i] = points[i].value_or(sites[i]);
-}
-
 GivenNetwork plan_with_given(const CleanedInput& cleaned, std::vector<std::uint8_t> is_crease,
                              double spacing, const RemeshOptions& options) {
     const Progress progress = cleaned_progress(options);
@@ -120,7 +105,8 @@ GivenNetwork plan_with_given(const CleanedInput& cleaned, std::vector<std::uint8
     if (!is_relaxed(options)) sites = take(sites, distinct_points(surface, sites));
     GivenNetwork given = plan_given_network(surface, is_crease, sites, network);
     if (given.has_boundary || options.boundary != Boundary::Keep) return given;
-    move_to_boundary(surface, spacing, options.num_threads, progress, sites);
+    move_to_boundary(PreparedSurface(surface, spacing, options.num_threads, progress), spacing,
+                     options.num_threads, progress, sites);
     return plan_given_network(surface, std::move(is_crease), sites, network);
 }
 

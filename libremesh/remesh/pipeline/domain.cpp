@@ -18,7 +18,7 @@ namespace {
     Index narrowest = 0;
     double most = 0;
     for (Index h = 0; h < surface.twin.size(); ++h) {
-        const double narrow = surface.length_of(h) / surface.apex_of(h).y();
+        const double narrow = surface.length_of(h) / surface.apex[h].y();
         if (narrow <= most) continue;
         most = narrow;
         narrowest = Surface::face(h);

@@ -44,6 +44,15 @@ constexpr double on_edge = 1e-6;
 
 Index bounded_count(double count) { return static_cast<Index>(std::clamp(count, 1.0, 1e9)); }
 
+// The base refers to the surface, which is cut.
+struct CutBase {
+    CutBase(CutSurface given, const IntrinsicOptions& options)
+        : cut(std::move(given)), base(cut.surface(), options) {}
+
+    CutSurface cut;
+    IntrinsicTriangulation base;
+};
+
 // What target lengths are found on.
 struct FieldBase {
     std::shared_ptr<const IntrinsicTriangulation> base;
@@ -63,10 +72,9 @@ FieldBase make_base(const CleanedInput& cleaned, const FoundCurves& found, doubl
     for (Index v = cut.num_original; v < cut.original.size(); ++v) {
         made.joined.emplace_back(cut.original[v], v);
     }
-    made.original = std::move(cut.original);
-    Surface surface = cut.own ? *std::move(cut.own) : *cut.whole;
-    made.base = std::make_shared<const IntrinsicTriangulation>(
-        std::move(surface),
+    made.original = cut.original;
+    const auto on_cut = std::make_shared<const CutBase>(
+        std::move(cut),
         IntrinsicOptions{
             .max_length = longest_edge * spacing,
             .min_length = drops_vertices ? shortest_edge * spacing : 0,
@@ -74,6 +82,7 @@ FieldBase make_base(const CleanedInput& cleaned, const FoundCurves& found, doubl
                 most_splits_per_site * (num_sites + 1) + cleaned.surface.num_vertices(), 1e9)),
             .num_threads = options.num_threads,
             .progress = cleaned_progress(options)});
+    made.base = {on_cut, &on_cut->base};
     return made;
 }
 

@@ -9,6 +9,7 @@
 
 #include "agvd/core/parallel.h"
 #include "agvd/core/random.h"
+#include "agvd/mesh/scale.h"
 #include "agvd/mesh/surface.h"
 #include "agvd/mesh/surface_points.h"
 #include "remesh/curves/walk.h"
@@ -95,16 +96,13 @@ Grid::Runs runs_around(const std::vector<std::pair<std::uint64_t, Index>>& keys,
 
 Grid build_grid(const Surface& surface, std::span<const ScatteredPoint> points,
                 std::span<const double> unit, double cell_size, Ticker ticker) {
-    Vec3 low = points[0].position, high = low;
-    for (const ScatteredPoint& p : points) {
-        low = low.cwiseMin(p.position);
-        high = high.cwiseMax(p.position);
-    }
+    MeshBox box;
+    for (const ScatteredPoint& p : points) box.add(p.position);
     // Cells are at least as wide as the reach, and wider if an axis would run out of bits.
-    cell_size = std::max(cell_size, (high - low).maxCoeff() / static_cast<double>(row) / 2);
+    cell_size = std::max(cell_size, (box.high - box.low).maxCoeff() / static_cast<double>(row) / 2);
     std::vector<std::pair<std::uint64_t, Index>> keys(points.size());
     for (Index i = 0; i < keys.size(); ++i) {
-        const Vec3 at = (points[i].position - low) / cell_size;
+        const Vec3 at = (points[i].position - box.low) / cell_size;
         const auto along = [&](int axis) { return static_cast<std::uint64_t>(at[axis]) + 1; };
         keys[i] = {(along(2) * row + along(1)) * row + along(0), i};
     }

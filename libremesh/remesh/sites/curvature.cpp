@@ -100,9 +100,10 @@ struct CurvatureCells {
         for (const Index v : start) distance[v] = 0;
         visit_in_rounds(surface.num_vertices(), start, [&](Index v, const auto& wait) {
             ticker.tick(4);
-            for_each_edge(surface, v, [&](Index other, double length) {
-                if (!(distance[v] + length < distance[other])) return;
-                distance[other] = distance[v] + length;
+            for_each_edge_at(surface, v, [&](Index h, Index other) {
+                const double reached = distance[v] + surface.length_of(h);
+                if (!(reached < distance[other])) return;
+                distance[other] = reached;
                 cell[other] = cell[v];
                 wait(other);
             });

@@ -120,10 +120,7 @@ public:
                                  area_of_face_);
         std::vector<double> shares;
         if (num_sites >= needed_samples(components_)) {
-            const std::vector<double> no_boundary(components_.size(), 0);
-            for (const Index n : share_out(components_, no_boundary, num_sites)) {
-                shares.push_back(n);
-            }
+            for (const Index n : share_out(components_, num_sites)) shares.push_back(n);
         } else {
             for (const Component& c : components_) shares.push_back(c.area());
         }

@@ -25,30 +25,10 @@ constexpr Index splits_per_point = 128;
 // Least and most distance of a point from its vertex, in heights of the face.
 constexpr double least_offset = 0.02, most_offset = 0.1;
 
-Surface component_surface(const Surface& whole, const Component& component, int num_threads,
+Surface component_surface(const Surface& whole, const Component& component,
                           const Progress& progress) {
     Poller poller(progress);
-    Ticker ticker(poller);
-    std::vector<Index> vertices;
-    for (const Index f : component.faces) {
-        const Triangle& t = whole.mesh.triangles[f];
-        vertices.insert(vertices.end(), t.begin(), t.end());
-    }
-    sort_ticked(vertices, ticker, std::less<>());
-    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-    TriangleMesh mesh;
-    mesh.positions.reserve(vertices.size());
-    for (const Index v : vertices) mesh.positions.push_back(whole.mesh.positions[v]);
-    mesh.triangles.reserve(component.faces.size());
-    for (const Index f : component.faces) {
-        ticker.tick(4);
-        Triangle& t = mesh.triangles.emplace_back(whole.mesh.triangles[f]);
-        for (Index& v : t) {
-            const auto found = std::lower_bound(vertices.begin(), vertices.end(), v);
-            v = static_cast<Index>(found - vertices.begin());
-        }
-    }
-    return build_surface(mesh.view(), num_threads, progress);
+    return surface_of_part(whole, component.faces, Ticker(poller));
 }
 
 // The local length at a point of the component's own surface.
@@ -68,7 +48,7 @@ public:
           faces_(component.faces),
           options_(options),
           stream_(stream),
-          input_(component_surface(whole, component, options.num_threads, options.progress)),
+          input_(component_surface(whole, component, options.progress)),
           base_(input_, {.max_length = max_length,
                          .most_splits = most_splits,
                          .unit_at = unit_on(faces_, options.sizes),
@@ -146,8 +126,7 @@ private:
         return found;
     }
     [[nodiscard]] SurfacePoint to_component(const SurfacePoint& point) const {
-        const auto found = std::lower_bound(faces_.begin(), faces_.end(), point.face.value());
-        const auto face = static_cast<Index>(found - faces_.begin());
+        const Index face = rank_of(faces_, point.face.value());
         return base_.to_intrinsic(SurfacePoint{FaceId(face), point.barycentric});
     }
 

@@ -14,6 +14,7 @@
 #include "agvd/mesh/topology.h"
 #include "agvd/propagation/propagate.h"
 #include "remesh/curves/glue.h"
+#include "remesh/curves/walk.h"
 #include "remesh/dual/build_dual.h"
 #include "remesh/sites/shares.h"
 #include "remesh/sites/site_dual.h"
@@ -56,22 +57,20 @@ Levels::Levels(const PreparedSurface& prepared, const RelaxOptions& options, int
     : prepared_(prepared),
       surface_(prepared.base.surface()),
       options_(options),
-      has_boundary_(std::find(surface_.twin.begin(), surface_.twin.end(), no_index) !=
-                    surface_.twin.end()),
       steps_planned_(options.steps * num_levels) {
     if (options.progress) progress_ = [this](double) { return options_.progress(fraction()); };
 }
 
 void Levels::run(Relaxation& relaxation, const DistanceBounds* labels,
-                 std::span<const Index> corners, std::span<const ChainEdge> chain) {
+                 std::span<const ChainEdge> chain) {
     const auto num_sites = static_cast<Index>(relaxation.sites().size());
-    RelaxLevel& level = result_.levels.emplace_back();
+    RelaxLevel& level = levels_.emplace_back();
     level.num_sites = num_sites;
     level.energy.push_back(relaxation.energy().energy);
     if (options_.sizes != nullptr && labels != nullptr) {
         relaxation.set_density(nullptr, lengths_at(options_.sizes, relaxation.sites()));
     }
-    if (labels != nullptr) look(relaxation, *labels, corners);
+    if (labels != nullptr) look(relaxation, *labels);
     double last = relaxation.objective();
     for (int step = 1; step <= options_.steps; ++step) {
         relaxation.step();
@@ -81,7 +80,7 @@ void Levels::run(Relaxation& relaxation, const DistanceBounds* labels,
         if (options_.goes_on && !options_.goes_on(level)) break;
         if (step % steps_per_sweep != 0 || step == options_.steps) continue;
         if (last - relaxation.objective() < options_.tolerance * last) break;
-        sweep(relaxation, corners, chain);
+        sweep(relaxation, chain);
         last = relaxation.objective();
     }
 }
@@ -111,11 +110,6 @@ std::vector<Triangle> Levels::triangulate(const DistanceBounds& labels,
     return triangles;
 }
 
-RelaxResult Levels::finish(std::vector<SurfacePoint> sites) {
-    result_.sites = std::move(sites);
-    return std::move(result_);
-}
-
 double Levels::fraction() const {
     return static_cast<double>(steps_done_) / std::max(steps_planned_, 1);
 }
@@ -124,21 +118,16 @@ bool Levels::gives_cells(Index num_sites) const {
     return surface_.num_vertices() >= vertices_per_cell * num_sites;
 }
 
-void Levels::look(Relaxation& relaxation, const DistanceBounds& labels,
-                  std::span<const Index> corners) const {
+void Levels::look(Relaxation& relaxation, const DistanceBounds& labels) const {
     const auto num_sites = static_cast<Index>(relaxation.sites().size());
     if (!gives_cells(num_sites)) return;
-    if (has_boundary_ && options_.boundary == Boundary::Keep) {
-        relaxation.move_to_boundary(boundary_points(prepared_.base, labels, num_sites, corners));
-    }
     const CellMeasures cells =
         measure_cells(prepared_, labels, num_sites, options_.num_threads, progress_);
     relaxation.set_density(&cells, lengths_at(options_.sizes, relaxation.sites()));
 }
 
 // Labels and measures the surface again.
-void Levels::sweep(Relaxation& relaxation, std::span<const Index> corners,
-                   std::span<const ChainEdge> chain) {
+void Levels::sweep(Relaxation& relaxation, std::span<const ChainEdge> chain) {
     const auto num_sites = static_cast<Index>(relaxation.sites().size());
     if (!gives_cells(num_sites)) return;
     const DistanceBounds labels = label(relaxation.sites());
@@ -146,12 +135,12 @@ void Levels::sweep(Relaxation& relaxation, std::span<const Index> corners,
     const bool is_cheap = gives_neighbours(surface_, num_sites);
     // Not with curves, which hold the triangulation together: it costs more than it gains.
     const bool is_useful =
-        chain.empty() && num_repaired_ < result_.levels.size() && flaws > most_flaws * num_sites;
+        chain.empty() && num_repaired_ < levels_.size() && flaws > most_flaws * num_sites;
     if (flaws > 0 && (is_cheap || is_useful)) {
-        if (!is_cheap) num_repaired_ = result_.levels.size();
+        if (!is_cheap) num_repaired_ = levels_.size();
         relaxation.repair(triangulate(labels, relaxation.sites(), chain));
     }
-    look(relaxation, labels, corners);
+    look(relaxation, labels);
 }
 
 }  // namespace detail
@@ -179,6 +168,20 @@ void check_options(const RelaxOptions& options, std::size_t num_sites) {
     }
 }
 
+// Sites that are fixed, or on the boundary already, stay.
+void move_inner_to_boundary(const PreparedSurface& surface, const RelaxOptions& options,
+                            const Progress& progress, std::vector<SurfacePoint>& sites) {
+    const std::vector<SurfacePoint> before = sites;
+    detail::move_to_boundary(surface, mean_spacing(surface.input(), sites.size()),
+                             options.num_threads, progress, sites);
+    for (std::size_t i = 0; i < sites.size(); ++i) {
+        const bool is_fixed = !options.is_fixed.empty() && options.is_fixed[i] != 0;
+        if (is_fixed || detail::boundary_half_edge(surface.input(), before[i])) {
+            sites[i] = before[i];
+        }
+    }
+}
+
 }  // namespace
 
 RelaxResult relax_sites(const PreparedSurface& surface, std::vector<SurfacePoint> sites,
@@ -186,16 +189,19 @@ RelaxResult relax_sites(const PreparedSurface& surface, std::vector<SurfacePoint
     check_options(options, sites.size());
     check_sites(surface.input(), sites);
     Levels levels(surface, options, 1);
-    if (options.steps == 0 || sites.empty()) return levels.finish(std::move(sites));
+    if (options.steps == 0 || sites.empty()) return {std::move(sites), {}};
     detail::even_out(surface, sites, options.is_fixed, options.num_threads, levels.progress(),
                      options.sizes);
+    if (options.boundary == Boundary::Keep) {
+        move_inner_to_boundary(surface, options, levels.progress(), sites);
+    }
     const DistanceBounds labels = levels.label(sites);
     std::vector<Triangle> triangles = levels.triangulate(labels, sites);
     Relaxation relaxation(surface.input(), {sites, std::move(triangles)}, options.is_fixed,
                           options.num_threads, levels.progress());
-    if (is_hopeless(relaxation)) return levels.finish(std::move(sites));
-    levels.run(relaxation, &labels, options.corners);
-    return levels.finish(is_hopeless(relaxation) ? std::move(sites) : relaxation.sites());
+    if (is_hopeless(relaxation)) return {std::move(sites), {}};
+    levels.run(relaxation, &labels);
+    return {is_hopeless(relaxation) ? std::move(sites) : relaxation.sites(), levels.levels()};
 }
 
 }  // namespace remesh

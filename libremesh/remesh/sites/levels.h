@@ -44,9 +44,8 @@ public:
 
     //! Takes steps until they gain too little or all are done.
     //! \param labels   of the sites; null: the relaxation has its weights already.
-    //! \param corners  boundary vertices to which sites move; found at the spacing of these sites.
     //! \param chain    edges of curves that the relaxation holds.
-    void run(Relaxation& relaxation, const DistanceBounds* labels, std::span<const Index> corners,
+    void run(Relaxation& relaxation, const DistanceBounds* labels,
              std::span<const ChainEdge> chain = {});
 
     [[nodiscard]] DistanceBounds label(std::span<const SurfacePoint> sites) const;
@@ -59,26 +58,23 @@ public:
                                                     std::span<const SurfacePoint> sites,
                                                     std::span<const ChainEdge> chain = {}) const;
 
-    //! Must be the last call.
-    [[nodiscard]] RelaxResult finish(std::vector<SurfacePoint> sites);
+    //! Those that were run.
+    [[nodiscard]] const std::vector<RelaxLevel>& levels() const { return levels_; }
 
 private:
     [[nodiscard]] double fraction() const;
     [[nodiscard]] bool gives_cells(Index num_sites) const;
-    void look(Relaxation& relaxation, const DistanceBounds& labels,
-              std::span<const Index> corners) const;
-    void sweep(Relaxation& relaxation, std::span<const Index> corners,
-               std::span<const ChainEdge> chain);
+    void look(Relaxation& relaxation, const DistanceBounds& labels) const;
+    void sweep(Relaxation& relaxation, std::span<const ChainEdge> chain);
 
     const PreparedSurface& prepared_;
     const Surface& surface_;  // Of its base.
     const RelaxOptions& options_;
     Progress progress_;
-    bool has_boundary_;
     int steps_planned_;
     int steps_done_ = 0;
     std::size_t num_repaired_ = 0;  // Levels up to the last one that used a propagation.
-    RelaxResult result_;
+    std::vector<RelaxLevel> levels_;
 };
 
 }  // namespace remesh::detail

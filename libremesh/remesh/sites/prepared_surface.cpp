@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "agvd/core/progress.h"
 #include "agvd/mesh/surface.h"
@@ -52,25 +51,13 @@ IntrinsicOptions options_for(const Surface& input, double spacing, const SizeFie
 
 }  // namespace
 
-PreparedSurface::PreparedSurface(IntrinsicTriangulation made, double spacing, int num_threads,
-                                 const Progress& progress)
-    : base(std::move(made)),
+PreparedSurface::PreparedSurface(const Surface& input, double spacing, int num_threads,
+                                 const Progress& progress, const SizeField* sizes)
+    : base(input, options_for(input, spacing, sizes, num_threads, progress)),
       piece_area(piece_share * spacing * spacing),
       pieces(std::in_place, base, piece_area, num_threads,
              within(progress, base_share, base_share)),
       layout(base.surface(), num_threads, within(progress, layout_begin, layout_begin)) {}
-
-PreparedSurface::PreparedSurface(const Surface& input, double spacing, int num_threads,
-                                 const Progress& progress, const SizeField* sizes)
-    : PreparedSurface(
-          IntrinsicTriangulation(input, options_for(input, spacing, sizes, num_threads, progress)),
-          spacing, num_threads, progress) {}
-
-PreparedSurface::PreparedSurface(Surface&& input, double spacing, int num_threads,
-                                 const Progress& progress, const SizeField* sizes)
-    : PreparedSurface(IntrinsicTriangulation(std::move(input), options_for(input, spacing, sizes,
-                                                                           num_threads, progress)),
-                      spacing, num_threads, progress) {}
 
 void PreparedSurface::find_pieces(int num_threads, const Progress& progress) {
     if (!pieces) pieces.emplace(base, piece_area, num_threads, progress);

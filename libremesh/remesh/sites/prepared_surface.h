@@ -26,9 +26,9 @@ struct PreparedSurface {
     //! Cost: that of the base, and O(#F) for the rest. Some 280 bytes for each face of the base.
     PreparedSurface(const Surface& input, double spacing, int num_threads = 0,
                     const Progress& progress = {}, const SizeField* sizes = nullptr);
-    //! The same, but takes the input over (see IntrinsicTriangulation).
+    //! The input would not outlive this.
     PreparedSurface(Surface&& input, double spacing, int num_threads = 0,
-                    const Progress& progress = {}, const SizeField* sizes = nullptr);
+                    const Progress& progress = {}, const SizeField* sizes = nullptr) = delete;
 
     IntrinsicTriangulation base;  //!< On which distances are computed.
     double piece_area;            //!< As FacePieces takes it.
@@ -41,10 +41,6 @@ struct PreparedSurface {
     //! Sets `pieces` if they were reset.
     //! \throw Cancelled  the progress callback returned false.
     void find_pieces(int num_threads, const Progress& progress = {});
-
-private:
-    PreparedSurface(IntrinsicTriangulation made, double spacing, int num_threads,
-                    const Progress& progress);
 };
 
 //! The square root of the area for each site, mesh units.

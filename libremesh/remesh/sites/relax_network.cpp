@@ -201,7 +201,6 @@ public:
           options_(options),
           levels_(surface, options_, num_levels),
           fine_(std::move(fine)) {
-        options_.boundary = Boundary::Free;
         patch_ = label_components(surface.input().twin);
         faces_.resize(patch_.count);
         const std::vector<Index> parts = parts_of_base(surface.base, patch_.of_face);
@@ -223,7 +222,7 @@ public:
         std::unique_ptr<Relaxation> last = start_coarse();
         const std::vector<ChainEdge> chain = chain_edges(plan_.network, plan_.cut, fine_);
         if (last) {
-            levels_.run(*last, nullptr, {}, chain);
+            levels_.run(*last, nullptr, chain);
         } else {
             last = start(fine_, sample(fine_, num_inner_, plan_.spacing));
             std::vector<Triangle> triangles =
@@ -288,8 +287,7 @@ private:
     }
 
     [[nodiscard]] NetworkSites finish(const Relaxation& last) {
-        return {last.curves()->sites(), last.sites(), levels_.finish({}).levels,
-                std::move(narrow_points_)};
+        return {last.curves()->sites(), last.sites(), levels_.levels(), std::move(narrow_points_)};
     }
 
     std::vector<SurfacePoint> sample(const CurveSites& curves, Index num_inner, double spacing) {
@@ -323,7 +321,7 @@ private:
         repair_patches(chain, sites, triangles,
                        [&](Index patch) { return simplified(patch, sites); });
         auto relaxation = make_relaxation({std::move(sites), std::move(triangles)}, curves);
-        levels_.run(*relaxation, &labels, {}, chain);
+        levels_.run(*relaxation, &labels, chain);
         return relaxation;
     }
 
@@ -349,8 +347,7 @@ private:
     std::unique_ptr<Relaxation> divide(const Relaxation& first, const CurveSites& coarse) {
         const std::vector<ChainEdge> chain = chain_edges(plan_.network, plan_.cut, coarse);
         const Refinement refinement{plan_, coarse, fine_};
-        detail::SiteDual dual =
-            detail::label_dual(surface_.base, levels_.label(first.sites()), true);
+        detail::SiteDual dual = detail::label_dual(surface_.base, levels_.label(first.sites()));
         close_rim(ends_of(chain), dual.triangles);
         find_narrow(coarse, first.sites(), dual.triangles);
         const auto relaxed = sort_by_patch(first.triangles(), first.sites());
@@ -390,7 +387,7 @@ private:
     const PreparedSurface& surface_;
     const NetworkPlan& plan_;
     SamplingOptions sampling_;
-    RelaxOptions options_;
+    const RelaxOptions& options_;
     detail::Levels levels_;
     const CurveSites fine_;
     FaceLabels patch_;                       // Of the faces of the input.

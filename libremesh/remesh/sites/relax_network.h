@@ -20,7 +20,7 @@ struct NetworkSites {
 //! sampling.num_samples vertices: a site of a curve counts as often as it becomes a vertex.
 //! \param surface   of plan.cut.surface().
 //! \param plan      its network needs at most sampling.num_samples vertices.
-//! \param options   boundary and corners are ignored.
+//! \param options   boundary and is_fixed are ignored.
 //! \throw as sample_sites and relax_sites.
 [[nodiscard]] NetworkSites sample_network_sites(const PreparedSurface& surface,
                                                 const NetworkPlan& plan,

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "agvd/core/parallel.h"
 #include "agvd/core/portable_math.h"
@@ -36,9 +35,6 @@ constexpr double even_bending = 0.05;
 // They draw sites to creases.
 constexpr double plane_weight = 2;
 constexpr double most_weight = 64;
-// A triangle of three boundary sites below this quality (4 sqrt(3) S / sum of the squared sides, S:
-// area) covers no part of the surface.
-constexpr double degenerate_quality = 0.1;
 
 }  // namespace
 
@@ -105,41 +101,6 @@ void Relaxation::repair(const std::vector<Triangle>& triangles) {
     find_turned(mesh_, at_, facing_, turned_);
 }
 
-void Relaxation::move_to_boundary(std::span<const std::optional<SurfacePoint>> points) {
-    std::vector<std::uint8_t> is_at_rim = is_stuck_;  // Or one triangle away from the rim.
-    for (Index h = 0; h < mesh_.twin.size(); ++h) {
-        if (mesh_.twin[h] == no_index) is_at_rim[mesh_.tail(SiteMesh::previous(h))] = 1;
-    }
-    bool has_moved = false;
-    for (Index i = 0; i < points.size(); ++i) {
-        if (!points[i] || is_fixed_[i] != 0) continue;
-        const bool is_corner = vertex_of(surface_, *points[i]).has_value();
-        if (boundary_[i] != no_index ? !is_corner : is_at_rim[i] == 0) continue;
-        sites_[i] = *points[i];
-        move_[i].setZero();
-        locate(i);
-        is_fixed_[i] = is_corner ? 1 : 0;
-        has_moved = true;
-    }
-    if (!has_moved) return;
-    std::vector<Triangle> kept;
-    for (const Triangle& t : mesh_.triangles) {
-        if (!is_degenerate_at_boundary(t)) kept.push_back(t);
-    }
-    take_triangles(std::move(kept));
-}
-
-bool Relaxation::is_degenerate_at_boundary(const Triangle& t) const {
-    double squares = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-        if (boundary_[t[k]] == no_index) return false;
-        squares += (at_[t[(k + 1) % 3]] - at_[t[k]]).squaredNorm();
-    }
-    const Vec3 normal = (at_[t[1]] - at_[t[0]]).cross(at_[t[2]] - at_[t[0]]);
-    return !(normal.dot(facing_[t[0]] + facing_[t[1]] + facing_[t[2]]) > 0) ||
-           2 * std::numbers::sqrt3 * normal.norm() < degenerate_quality * squares;
-}
-
 void Relaxation::set_density(const CellMeasures* cells, std::span<const double> length) {
     if (cells != nullptr) {
         weigh_cells(*cells, length.empty() ? bending_power : 0);
@@ -157,9 +118,7 @@ void Relaxation::set_density(const CellMeasures* cells, std::span<const double> 
     measure();
 }
 
-void Relaxation::measure() {
-    measure_energy(mesh_, at_, weight_, curves_.has_value(), ticker_, now_);
-}
+void Relaxation::measure() { measure_energy(mesh_, at_, weight_, ticker_, now_); }
 
 void Relaxation::weigh_cells(const CellMeasures& cells, double power_of_bending) {
     // Sums over a site and its neighbours: measurements of cells are rough where faces are large,

@@ -43,12 +43,6 @@ public:
     //! Replaces the triangles if the new ones have fewer flaws.
     void repair(const std::vector<Triangle>& triangles);
 
-    //! Moves sites at the rim of the triangulation to their points on the boundary. Sites already
-    //! on the boundary move only if their point is a vertex. Sites at a vertex stay there from then
-    //! on. Drops triangles along the boundary that have become degenerate.
-    //! \param points  #sites; empty for sites without one.
-    void move_to_boundary(std::span<const std::optional<SurfacePoint>> points);
-
     //! Cost: O(#sites) and the faces crossed.
     void step();
 
@@ -66,7 +60,6 @@ public:
 private:
     void weigh_cells(const CellMeasures& cells, double power_of_bending);
     void measure();
-    [[nodiscard]] bool is_degenerate_at_boundary(const Triangle& triangle) const;
     void find_stuck();
     void take_triangles(std::vector<Triangle> triangles);
     void locate(Index i);

@@ -1,6 +1,5 @@
 //! \file
-//! The parts of sampling: sites along boundary loops, and two ways to place points inside a
-//! component (sampling.cpp chooses).
+//! The parts of sampling: two ways to place points inside a component (sampling.cpp chooses).
 #pragma once
 
 #include <algorithm>
@@ -16,12 +15,6 @@
 
 namespace remesh {
 
-//! Applies corners_of_curve to a loop of boundary_loops.
-//! \param spacing  > 0, mesh units.
-//! \return vertices, in the loop's order.
-[[nodiscard]] std::vector<Index> find_corners(const Surface& surface,
-                                              const std::vector<Index>& loop, double spacing);
-
 //! Places sites strictly inside the faces of a surface whose boundary has its sites already.
 //! \param rim      sites on the boundary, from which inner ones keep a distance.
 //! \param count    of inner sites; shared by how many each component lacks at this spacing.
@@ -34,15 +27,6 @@ namespace remesh {
                                                            const SamplingOptions& options);
 
 namespace detail {
-
-//! Sites on a loop, at least three: at its corners, and at equal distances of about a spacing along
-//! each curve between them.
-//! \param corner_spacing  see find_corners.
-//! \param unit_at         the unit of distances and spacing; empty: mesh units.
-[[nodiscard]] std::vector<SurfacePoint> sample_loop(const Surface& surface,
-                                                    const std::vector<Index>& loop,
-                                                    double corner_spacing, double spacing,
-                                                    const UnitAt& unit_at = {});
 
 //! The index in a list of sums, each with its part, of a part drawn by size.
 //! \param pick  uniform in [0, 1).

@@ -93,13 +93,6 @@ std::vector<Component> sized_components(const Surface& surface, const SizeField*
     return components;
 }
 
-double sized_length(const Surface& surface, std::span<const Index> half_edges,
-                    const SizeField* sizes) {
-    double length = 0;
-    for (const Index h : half_edges) length += local_length(surface, h, sizes);
-    return length;
-}
-
 double sized_boundary_length(const Surface& surface, const Component& component,
                              const SizeField* sizes) {
     double length = 0;
@@ -148,19 +141,12 @@ std::uint64_t needed_samples(const std::vector<Component>& components) {
     return needed;
 }
 
-std::vector<Index> share_out(const std::vector<Component>& components,
-                             std::span<const double> boundary_length, Index num_samples) {
-    double area = 0, length = 0;
-    for (Index i = 0; i < components.size(); ++i) {
-        area += components[i].area();
-        length += boundary_length[i];
-    }
-    const double spacing = spacing_of(num_samples, area, length);
+std::vector<Index> share_out(const std::vector<Component>& components, Index num_samples) {
+    double area = 0;
+    for (const Component& c : components) area += c.area();
+    const double spacing = spacing_of(num_samples, area, 0);
     std::vector<double> vertices;
-    for (Index i = 0; i < components.size(); ++i) {
-        vertices.push_back(2 / std::numbers::sqrt3 * components[i].area() / (spacing * spacing) +
-                           boundary_length[i] / (2 * spacing));
-    }
+    for (const Component& c : components) vertices.push_back(inner_sites(c.area(), 0, spacing));
     const std::uint64_t needed = needed_samples(components);
     if (num_samples < needed) return apportion(vertices, num_samples);
     std::vector<Index> quota = apportion(vertices, num_samples - static_cast<Index>(needed));

@@ -29,10 +29,6 @@ void set_areas(std::vector<Component>& components, std::span<const double> area_
                                                       const SizeField* sizes,
                                                       const Progress& progress = {});
 
-//! The length of a chain of half-edges in local lengths.
-[[nodiscard]] double sized_length(const Surface& surface, std::span<const Index> half_edges,
-                                  const SizeField* sizes);
-
 //! The length of a component's edges with a single face, in local lengths.
 [[nodiscard]] double sized_boundary_length(const Surface& surface, const Component& component,
                                            const SizeField* sizes);
@@ -52,12 +48,10 @@ void set_areas(std::vector<Component>& components, std::span<const double> area_
 //! The sum of minimum_samples over the components.
 [[nodiscard]] std::uint64_t needed_samples(const std::vector<Component>& components);
 
-//! The sites of each component: what its topology needs, and a share of the rest by the vertices of
-//! a mesh of equilateral triangles. Small ones of several get up to four times what they need.
-//! Fewer than needed_samples are all shared in that proportion: some components may get none.
-//! \param boundary_length  #components, mesh units: of the boundary on which sites lie.
+//! The sites of each component: what its topology needs, and a share of the rest by area. Small
+//! ones of several get up to four times what they need. Fewer than needed_samples are all shared in
+//! that proportion: some components may get none.
 [[nodiscard]] std::vector<Index> share_out(const std::vector<Component>& components,
-                                           std::span<const double> boundary_length,
                                            Index num_samples);
 
 //! The inner sites of each component, by how many it lacks at this spacing. Small closed ones,

@@ -7,6 +7,8 @@
 
 #include "agvd/core/types.h"
 #include "agvd/mesh/surface_points.h"
+#include "agvd/mesh/topology.h"
+#include "remesh/curves/curve_network.h"
 #include "remesh/curves/walk.h"
 #include "remesh/sites/cell_measures.h"
 
@@ -165,13 +167,12 @@ std::vector<Triangle> label_triangles(const Surface& surface, const DistanceBoun
     return triangles;
 }
 
-SiteDual label_dual(const IntrinsicTriangulation& base, const DistanceBounds& labels,
-                    bool keeps_inside) {
+SiteDual label_dual(const IntrinsicTriangulation& base, const DistanceBounds& labels) {
     const Surface& surface = base.surface();
     SiteDual result{label_triangles(surface, labels), {}};
     struct Crossing {
         std::uint64_t pair;
-        bool is_late;  // False where the middle should lie; such edges come first.
+        bool is_rim;  // Inner edges come first.
         double length;
         Index half_edge;
     };
@@ -182,12 +183,12 @@ SiteDual label_dual(const IntrinsicTriangulation& base, const DistanceBounds& la
         const Index a = labels.site[u], b = labels.site[v];
         if (a == b) continue;
         const double length = static_cast<double>(labels.distance[u]) + labels.distance[v];
-        crossings.push_back({edge_key(a, b), (surface.twin[h] != no_index) != keeps_inside,
-                             length + surface.length[e], h});
+        crossings.push_back(
+            {edge_key(a, b), surface.twin[h] == no_index, length + surface.length[e], h});
     }
     std::sort(crossings.begin(), crossings.end(), [](const Crossing& x, const Crossing& y) {
-        return std::tie(x.pair, x.is_late, x.length, x.half_edge) <
-               std::tie(y.pair, y.is_late, y.length, y.half_edge);
+        return std::tie(x.pair, x.is_rim, x.length, x.half_edge) <
+               std::tie(y.pair, y.is_rim, y.length, y.half_edge);
     });
     for (std::size_t i = 0; i < crossings.size(); ++i) {
         const Crossing& c = crossings[i];
@@ -196,40 +197,40 @@ SiteDual label_dual(const IntrinsicTriangulation& base, const DistanceBounds& la
         const double along = std::clamp(
             meeting_share(labels, surface.tail(h), surface.head(h), surface.length_of(h)),
             end_margin, 1 - end_margin);
-        const bool is_inside = keeps_inside || surface.twin[h] != no_index;
         result.middles.push_back({static_cast<Index>(c.pair >> 32), static_cast<Index>(c.pair),
-                                  c.length,
-                                  base.to_input(point_on(h, along, is_inside ? side_margin : 0))});
+                                  c.length, base.to_input(point_on(h, along, side_margin))});
     }
     return result;
 }
 
-std::vector<std::optional<SurfacePoint>> boundary_points(const IntrinsicTriangulation& base,
-                                                         const DistanceBounds& labels,
-                                                         Index num_sites,
-                                                         std::span<const Index> corners) {
+void move_to_boundary(const PreparedSurface& prepared, double spacing, int num_threads,
+                      const Progress& progress, std::vector<SurfacePoint>& sites) {
+    const IntrinsicTriangulation& base = prepared.base;
     const Surface& surface = base.surface();
-    std::vector<Index> nearest(num_sites, no_index);
+    const DistanceBounds labels = label_vertices(prepared, sites, num_threads, progress);
+    std::vector<Index> nearest(sites.size(), no_index);
     for (Index v = 0; v < surface.num_vertices(); ++v) {
         const Index site = labels.site[v];
         if (site == no_index || !surface.is_boundary_vertex(v)) continue;
         Index& best = nearest[site];
         if (best == no_index || labels.distance[v] < labels.distance[best]) best = v;
     }
-    std::vector<std::optional<SurfacePoint>> points(num_sites);
-    for (Index s = 0; s < num_sites; ++s) {
+    for (std::size_t s = 0; s < sites.size(); ++s) {
         if (nearest[s] != no_index) {
-            points[s] = base.to_input(point_on(surface.outgoing[nearest[s]], off_vertex, 0));
+            sites[s] = base.to_input(point_on(surface.outgoing[nearest[s]], off_vertex, 0));
         }
     }
-    std::vector<bool> has_corner(num_sites, false);
-    for (const Index v : corners) {
-        const Index site = labels.site[v];
-        if (site == no_index || has_corner[site]) continue;
-        has_corner[site] = true;
-        points[site] = point_at(base.input(), v);
+    std::vector<bool> has_corner(sites.size(), false);  // The first one of each site counts.
+    for (const std::vector<Index>& loop : boundary_loops(base.input())) {
+        const Curve curve = curve_of_loop(base.input(), loop);
+        for (const std::size_t i : corners_of_curve(base.input(), curve, spacing)) {
+            const Index v = base.input().tail(loop[i]);
+            const Index site = labels.site[v];
+            if (site == no_index || has_corner[site]) continue;
+            has_corner[site] = true;
+            sites[site] = point_at(base.input(), v);
+        }
     }
-    return points;
 }
 
 std::optional<TriangulatedSites> subdivide(const Surface& surface,

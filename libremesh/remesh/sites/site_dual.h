@@ -22,7 +22,7 @@ namespace remesh::detail {
 struct Middle {
     Index low = 0, high = 0;  //!< The sites.
     double length = 0;        //!< Of a path between them.
-    SurfacePoint point;       //!< On the input; on its boundary if they meet there.
+    SurfacePoint point;       //!< On the input, off its boundary.
     //! A site that is there already; no_index: none, `point` is used.
     Index site = no_index;
 };
@@ -40,19 +40,15 @@ struct SiteDual {
 };
 
 //! The triangulation by labels, with the middles of its edges.
-//! \param keeps_inside  true: no middle lies on the boundary.
 //! Cost: sorting the edges whose ends have two labels.
-[[nodiscard]] SiteDual label_dual(const IntrinsicTriangulation& base, const DistanceBounds& labels,
-                                  bool keeps_inside = false);
+[[nodiscard]] SiteDual label_dual(const IntrinsicTriangulation& base, const DistanceBounds& labels);
 
-//! For each site the corner that it labels; otherwise the point on the boundary that is nearest by
-//! its labels, off the vertices, so that the site can move along. Empty for sites that label no
-//! boundary vertex.
-//! \param corners  boundary vertices. If a site labels several, the first one counts.
-//! Cost: O(#V + #sites).
-[[nodiscard]] std::vector<std::optional<SurfacePoint>> boundary_points(
-    const IntrinsicTriangulation& base, const DistanceBounds& labels, Index num_sites,
-    std::span<const Index> corners);
+//! Moves each site that labels boundary vertices onto the boundary: to a corner that it labels, or
+//! to the point nearest by its labels, off the vertices, so that it can move along.
+//! \param spacing  of the sites, at which corners are found (corners_of_curve).
+//! Cost: that of label_vertices.
+void move_to_boundary(const PreparedSurface& surface, double spacing, int num_threads,
+                      const Progress& progress, std::vector<SurfacePoint>& sites);
 
 //! Adds sites in the middles between neighbours, so that most sites have six neighbours. If these
 //! are too many, the closest pairs get none; if they are too few, the largest triangles get one

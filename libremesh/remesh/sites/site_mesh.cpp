@@ -197,8 +197,7 @@ Index flip_towards_delaunay(SiteMesh& mesh, std::span<const Vec3> positions,
 }
 
 void measure_energy(const SiteMesh& mesh, std::span<const Vec3> positions,
-                    std::span<const double> weight, bool clips_at_rim, Ticker& ticker,
-                    CvtEnergy& result) {
+                    std::span<const double> weight, Ticker& ticker, CvtEnergy& result) {
     result.energy = 0;
     result.weighted = 0;
     result.cells.assign(positions.size(), {Vec3::Zero(), Vec3::Zero(), 0, 0});
@@ -233,7 +232,7 @@ void measure_energy(const SiteMesh& mesh, std::span<const Vec3> positions,
             steepest = std::max(steepest, std::abs(cotangent));
             result.cotangent[3 * i + k] = cotangent;
         }
-        if (clips_at_rim && obtuse_at_rim < 3) {
+        if (obtuse_at_rim < 3) {
             const std::size_t k = obtuse_at_rim;
             const ClippedTriangle clipped(positions[t[k]], positions[t[(k + 1) % 3]],
                                           positions[t[(k + 2) % 3]], up, density);

@@ -44,7 +44,7 @@ Index flip_towards_delaunay(SiteMesh& mesh, std::span<const Vec3> positions,
                             std::span<const double> cotangent, Ticker ticker = {});
 
 //! The energy of the Voronoi diagram of the sites on their triangulation, which is taken as a
-//! surface of its own.
+//! surface of its own: cells end at its rim.
 struct CvtEnergy {
     struct Cell {
         Vec3 slope;   //!< Gradient of `weighted`; tangential, perpendicular to `normal`.
@@ -63,12 +63,9 @@ struct CvtEnergy {
 //! \param mesh    Delaunay or nearly so: a circumcentre outside its triangle gives negative areas,
 //!                for which neighbours compensate.
 //! \param weight  #sites: density, > 0; linear in between.
-//! \param clips_at_rim  cells end at the rim of the triangulation. Otherwise the cell of a site
-//!                      near the rim reaches beyond it, which draws the site outwards.
 //! Cost: O(n).
 void measure_energy(const SiteMesh& mesh, std::span<const Vec3> positions,
-                    std::span<const double> weight, bool clips_at_rim, Ticker& ticker,
-                    CvtEnergy& result);
+                    std::span<const double> weight, Ticker& ticker, CvtEnergy& result);
 
 //! Fills `turned` with the triangles that face against the surface or are degenerate, ascending.
 //! \param facing  #sites: normals of the surface.

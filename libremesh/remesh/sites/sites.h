@@ -47,11 +47,12 @@ struct SamplingOptions {
     const SizeField* sizes = nullptr;
 };
 
-//! Places exactly num_samples points, no two at one position, component by component (by lowest
-//! face). Each gets what its topology needs (minimum_samples), small ones up to four times that;
-//! the rest is shared by area, and by boundary if sites lie on it. Too few for all topologies are
-//! shared by size alone. Points lie strictly inside faces, except those of Boundary::Keep, which
-//! come first: corners, and points at equal distances between them. Points on opposite walls of a
+//! Places exactly num_samples points, no two at one position. First those on the boundary with
+//! Boundary::Keep, as plan_network plans them: corners, and points at equal distances between them;
+//! none if they are too few for that. The others lie strictly inside faces, component by component
+//! (by lowest face). Each gets what its topology needs (minimum_samples), small ones up to four
+//! times that; the rest is shared by area. Too few for all topologies are shared by size alone.
+//! Points on opposite walls of a
 //! thin part do not repel each other in blue noise. Farthest points begin from the boundary or a
 //! random point.
 //! \throw InvalidOption    num_samples < 1 or > 8e8, or num_threads < 0.
@@ -90,8 +91,8 @@ struct RelaxOptions {
     //! the level so far. False ends the level; its sites stay where they are now. May be empty.
     std::function<bool(const RelaxLevel&)> goes_on = {};
     std::vector<std::uint8_t> is_fixed = {};  //!< #sites: 1 for sites that stay; or empty.
-    Boundary boundary = Boundary::Keep;       //!< Keep: inner sites whose cells meet it move to it.
-    std::vector<Index> corners = {};          //!< Boundary vertices: with Keep, sites move there.
+    //! Keep: before the first step, inner sites whose cells meet it move to it, and to its corners.
+    Boundary boundary = Boundary::Keep;
     int num_threads = 0;     //!< >= 0; 0: all cores. The same bytes for any number.
     Progress progress = {};  //!< Polled during the call; see poll.
     //! Target lengths: cells get areas in proportion to their squares. Outlives the call; null: all

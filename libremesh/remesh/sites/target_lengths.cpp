@@ -34,7 +34,7 @@ void for_each_line_across(const Surface& surface, Index vertex, const Each& each
         const Index opposite = Surface::next(h), twin = surface.twin[opposite];
         if (twin == no_index) return;
         // In the frame of the opposite edge, whose twin runs the other way.
-        const Vec2 here = surface.apex_of(opposite), across = surface.apex_of(twin);
+        const Vec2 here = surface.apex[opposite], across = surface.apex[twin];
         const double length = surface.length_of(opposite);
         const Vec2 there(length - across.x(), -across.y());
         const double share = here.y() / (here.y() - there.y());
@@ -183,7 +183,8 @@ void limit_growth(const Surface& surface, std::span<const std::pair<Index, Index
              copy != copies.end() && copy->first == v; ++copy) {
             reach(copy->second, 0);
         }
-        for_each_edge(surface, v, reach);
+        for_each_edge_at(surface, v,
+                         [&](Index h, Index other) { reach(other, surface.length_of(h)); });
         if (paths == Paths::Lines) for_each_line_across(surface, v, reach);
     };
     std::vector<Index> all(length.size());

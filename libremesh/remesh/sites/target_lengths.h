@@ -34,16 +34,6 @@ namespace remesh {
 //! The gradation with which target_lengths() lets targets grow by a slope.
 [[nodiscard]] double gradation_for(double slope);
 
-//! Calls each(other end, length) for the edges at a vertex.
-template <typename Each>
-void for_each_edge(const Surface& surface, Index vertex, const Each& each) {
-    for_each_outgoing(surface, vertex, [&](Index h) {
-        each(surface.head(h), surface.length_of(h));
-        const Index in = Surface::previous(h);
-        if (surface.twin[in] == no_index) each(surface.tail(in), surface.length_of(in));
-    });
-}
-
 //! Calls visit(vertex, wait) for some vertices, then, in rounds, for those that visits have given
 //! to wait(vertex).
 template <typename Visit>

@@ -494,21 +494,3 @@ TEST(IntrinsicTriangulation, FlatVerticesGoPartByPartForAnyNumberOfThreads) {
         checks::expect_same(one.surface(), other.surface());
     }
 }
-
-TEST(IntrinsicTriangulation, AnInputThatIsGivenAwayChangesNothing) {
-    for_each_mesh([](const TriangleMesh&, const Surface& input, std::uint64_t seed) {
-        const IntrinsicTriangulation kept(input, options_of(input, seed));
-        Surface given = input;
-        const IntrinsicTriangulation taken(std::move(given), options_of(input, seed));
-        checks::expect_same(kept.surface(), taken.surface());
-        const Surface& left = taken.input();
-        EXPECT_TRUE(left.edge.empty() && left.length.empty() && left.apex.empty());
-        EXPECT_EQ(left.mesh.triangles, input.mesh.triangles);
-        EXPECT_EQ(left.twin, input.twin);
-        EXPECT_EQ(left.outgoing, input.outgoing);
-        for (Index h = 0; h < input.twin.size(); ++h) {
-            ASSERT_EQ(left.length_of(h), input.length_of(h));
-            ASSERT_EQ(left.apex_of(h), input.apex_of(h));
-        }
-    });
-}

@@ -68,7 +68,7 @@ TEST(Components, AreMeasuredOneByOne) {
         double area = 0;
         for (std::size_t k = 0; k < c.faces.size(); ++k) {
             EXPECT_EQ(labels.of_face[c.faces[k]], i);
-            area += surface.length_of(3 * c.faces[k]) * surface.apex_of(3 * c.faces[k]).y() / 2;
+            area += surface.length_of(3 * c.faces[k]) * surface.apex[3 * c.faces[k]].y() / 2;
             ASSERT_EQ(c.area_up_to[k], area);
         }
     }

@@ -166,7 +166,7 @@ TEST(ThinParts, TakeAQuarterOfTheOtherSitesAtMost) {
         double more = 0, others = 0;
         for (Index f = 0; f < base.surface().num_faces(); ++f) {
             const Index h = 3 * f;
-            const double area = base.surface().length_of(h) * base.surface().apex_of(h).y() / 2;
+            const double area = base.surface().length_of(h) * base.surface().apex[h].y() / 2;
             for (const Index v : base.surface().mesh.triangles[f]) {
                 if (length[v] < edge) {
                     more += area / 3 * (1 / (length[v] * length[v]) - 1 / (edge * edge));
