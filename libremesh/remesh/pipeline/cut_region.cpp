@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "agvd/mesh/surface_points.h"
 #include "remesh/clean/soup.h"
 #include "remesh/curves/glue.h"
 #include "remesh/pipeline/region.h"
