@@ -50,8 +50,8 @@ ClosestPoint closest_point_on_side(const std::array<Vec3, 3>& corners, FaceId fa
     return result;
 }
 
-double box_distance_sq(const MeshBox& box, const Vec3& query) {
-    return (box.low - query).cwiseMax(query - box.high).cwiseMax(0.0).squaredNorm();
+double box_distance_sq(const Vec3& low, const Vec3& high, const Vec3& query) {
+    return (low - query).cwiseMax(query - high).cwiseMax(0.0).squaredNorm();
 }
 
 }  // namespace
@@ -113,23 +113,28 @@ ClosestPointTree::ClosestPointTree(const MeshView& mesh, const Progress& progres
         face_.emplace_back(face);
     }
     // Children follow their node, so in a backward loop they are done before it.
-    const MeshBox& root = nodes_.front().box;
+    const Node& root = nodes_.front();
     for (auto node = nodes_.rbegin(); node != nodes_.rend(); ++node) {
         ticker.tick();
         if (node->right != 0) {
-            node->box.add((&*node + 1)->box);
-            node->box.add(nodes_[node->right].box);
+            const Node& first = *(&*node + 1);
+            node->low = first.low.cwiseMin(nodes_[node->right].low);
+            node->high = first.high.cwiseMax(nodes_[node->right].high);
             continue;
         }
+        node->low = node->high = corners_[node->begin][0];
         for (Index slot = node->begin; slot < node->end; ++slot) {
-            for (const Vec3& corner : corners_[slot]) node->box.add(corner);
+            for (const Vec3& corner : corners_[slot]) {
+                node->low = node->low.cwiseMin(corner);
+                node->high = node->high.cwiseMax(corner);
+            }
         }
     }
     const double padding =
         padding_share * root.low.cwiseAbs().cwiseMax(root.high.cwiseAbs()).maxCoeff();
     for (Node& node : nodes_) {
-        node.box.low.array() -= padding;
-        node.box.high.array() += padding;
+        node.low.array() -= padding;
+        node.high.array() += padding;
     }
 }
 
@@ -139,10 +144,13 @@ void ClosestPointTree::build(const std::vector<Vec3>& centers, std::vector<Index
     const auto self = static_cast<Index>(nodes_.size());
     nodes_.push_back({.begin = begin, .end = end});
     if (end - begin <= leaf_size) return;
-    MeshBox box;
-    for (Index i = begin; i < end; ++i) box.add(centers[faces[i]]);
+    Vec3 low = centers[faces[begin]], high = low;
+    for (Index i = begin; i < end; ++i) {
+        low = low.cwiseMin(centers[faces[i]]);
+        high = high.cwiseMax(centers[faces[i]]);
+    }
     int axis = 0;
-    (box.high - box.low).maxCoeff(&axis);
+    (high - low).maxCoeff(&axis);
     const Index middle = begin + (end - begin) / 2;
     std::nth_element(faces.begin() + begin, faces.begin() + middle, faces.begin() + end,
                      [&](Index a, Index b) {
@@ -167,7 +175,9 @@ bool ClosestPointTree::is_within(const Vec3& point, double distance) const {
 ClosestPoint ClosestPointTree::search(const Vec3& point, double most_sq, double enough_sq) const {
     ClosestPoint best;
     best.distance_sq = infinity;
-    const auto distance_sq = [&](Index node) { return box_distance_sq(nodes_[node].box, point); };
+    const auto distance_sq = [&](Index node) {
+        return box_distance_sq(nodes_[node].low, nodes_[node].high, point);
+    };
     struct Waiting {
         double distance_sq;
         Index node;

@@ -5,7 +5,6 @@
 
 #include "agvd/core/progress.h"
 #include "agvd/mesh/mesh.h"
-#include "agvd/mesh/scale.h"
 
 namespace agvd {
 
@@ -47,7 +46,7 @@ private:
     struct Node {
         Index begin, end;  // Slots of the triangles below.
         Index right = 0;   // Second child (the first follows its parent); 0 for a leaf.
-        MeshBox box = {};
+        Vec3 low = Vec3::Zero(), high = Vec3::Zero();  // Box.
     };
     void build(const std::vector<Vec3>& centers, std::vector<Index>& faces, Index begin, Index end,
                Ticker& ticker);

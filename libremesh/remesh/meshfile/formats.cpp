@@ -142,7 +142,7 @@ std::string names_of(const std::vector<Attribute>& attributes) {
 }
 
 bool is_color(std::string_view name) {
-    return name == "red" || name == "green" || name == "blue" || name == "alpha";
+    return std::ranges::find(color_names, name) != color_names.end();
 }
 
 bool is_label(const Attribute& attribute) {

@@ -9,8 +9,6 @@
 namespace remesh {
 namespace {
 
-constexpr std::array part_names = {"red", "green", "blue", "alpha"};
-
 using nlohmann::json;
 
 const json::json_pointer base_color("/pbrMetallicRoughness/baseColorFactor");
@@ -66,7 +64,7 @@ void TextColors::finish(std::size_t num_elements, ElementKind kind, MeshAttribut
     auto& target = is_vertex ? attributes.of_vertices : attributes.of_faces;
     for (std::size_t k = 0; k < parts_.size(); ++k) {
         if (parts_[k].empty()) continue;
-        target.push_back({.name = part_names[k],
+        target.push_back({.name = color_names[k],
                           .type = is_intensity ? NumberType::Float64 : NumberType::UInt8,
                           .values = std::move(parts_[k]),
                           .is_intensity = is_intensity});
@@ -75,7 +73,7 @@ void TextColors::finish(std::size_t num_elements, ElementKind kind, MeshAttribut
 
 std::vector<const Attribute*> colors_of(const std::vector<Attribute>& attributes) {
     std::vector<const Attribute*> colors;
-    for (const char* name : part_names) {
+    for (const char* name : color_names) {
         const Attribute* const part = find_attribute(attributes, name);
         if (part != nullptr) {
             colors.push_back(part);

@@ -141,7 +141,10 @@ struct MeshAttributes {
 //! Their names, with commas.
 [[nodiscard]] std::string names_of(const std::vector<Attribute>& attributes);
 
-//! Whether the name is that of a part of a colour: red, green, blue or alpha.
+//! What the parts of a colour are called.
+inline constexpr std::array color_names = {"red", "green", "blue", "alpha"};
+
+//! Whether the name is one of these.
 [[nodiscard]] bool is_color(std::string_view name);
 
 //! Whether values between two values make no sense: integers that are no colours.
@@ -239,16 +242,11 @@ void append_triangles(std::span<const Index> polygon, std::span<const Vec3> posi
 void write_mesh(const std::filesystem::path& path, const MeshView& mesh,
                 const Progress& progress = {});
 
-//! The bytes that write_mesh writes, for write_files_atomically.
-//! \throw IoError, InvalidInput, Cancelled  as write_mesh.
-[[nodiscard]] std::string format_mesh(const std::filesystem::path& path, const MeshView& mesh,
-                                      const Progress& progress = {});
-
-//! The same with attributes, in the format that `path` names. PLY holds all, under their names and
-//! types. Normals are those of the mesh. What the format cannot hold is left out: see
-//! remove_unwritable; of texture coordinates those of faces with a corner that has none, but that
-//! GLB has zeros there.
-//! \throw InvalidInput  also: an attribute does not have one value for each vertex or face,
+//! The bytes that write_mesh writes, for write_files_atomically, with attributes. PLY holds all,
+//! under their names and types. Normals are those of the mesh. What the format cannot hold is left
+//! out: see remove_unwritable; of texture coordinates those of faces with a corner that has none,
+//! but that GLB has zeros there.
+//! \throw IoError, InvalidInput, Cancelled  as write_mesh; InvalidInput also: an attribute does not have one value for each vertex or face,
 //!        or one of its values has no name while others have.
 [[nodiscard]] std::string format_mesh(const MeshPath& path, const MeshView& mesh,
                                       const MeshAttributes& attributes,
@@ -256,7 +254,8 @@ void write_mesh(const std::filesystem::path& path, const MeshView& mesh,
 
 //! The same, in the format that the extension names.
 [[nodiscard]] inline std::string format_mesh(const std::filesystem::path& path,
-                                             const MeshView& mesh, const MeshAttributes& attributes,
+                                             const MeshView& mesh,
+                                             const MeshAttributes& attributes = {},
                                              const Progress& progress = {}) {
     return format_mesh(MeshPath{path}, mesh, attributes, progress);
 }

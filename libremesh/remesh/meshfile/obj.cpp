@@ -148,12 +148,10 @@ int count_coordinates(TextScanner& scan) {
 void take_coordinates(std::string_view rest, PolygonSoup& soup) {
     rest = rest.substr(0, rest.find('/'));
     if (rest.empty()) return;
-    std::int64_t number = 0;
-    const auto [last, error] = std::from_chars(rest.data(), rest.data() + rest.size(), number);
+    std::int64_t number = as_whole<std::int64_t>(rest).value_or(0);
     SoupTexture& texture = soup.texture;
     if (number < 0) number += static_cast<std::int64_t>(texture.values.size()) + 1;
-    if (error != std::errc{} || last != rest.data() + rest.size() || number < 1 ||
-        number > no_index) {
+    if (number < 1 || number > no_index) {
         texture.is_broken = true;
         return;
     }

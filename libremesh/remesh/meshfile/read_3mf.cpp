@@ -269,7 +269,7 @@ private:
         const auto found = tag.find(name);
         if (!found) return std::nullopt;
         const std::string_view text = trimmed(*found);
-        if (const auto value = as_count(text)) return value;
+        if (const auto value = as_whole<std::uint64_t>(text)) return value;
         fail(tag, name, " of ", in_quotes(tag.name), " is ", in_quotes(text),
              " and no whole number from 0");
     }

@@ -37,6 +37,22 @@ double area_of(const MeshView& mesh) {
     return area;
 }
 
+// #V: the lowest corner, 3 f + k, at each vertex; no_index: it is in no face.
+std::vector<Index> lowest_corners(const MeshView& mesh) {
+    std::vector<Index> corners(mesh.positions.size(), no_index);
+    for (auto corner = static_cast<Index>(3 * mesh.triangles.size()); corner-- > 0;) {
+        corners[mesh.triangles[corner / 3][corner % 3]] = corner;
+    }
+    return corners;
+}
+
+// The lowest corner at a vertex.
+Index require_corner(const SourceFile& file, std::size_t start,
+                     const std::vector<Index>& lowest_corner, Index vertex) {
+    if (lowest_corner[vertex] != no_index) return lowest_corner[vertex];
+    file.fail_unusable(start, "vertex ", vertex, " is in no face; use a vertex of a face");
+}
+
 // Calls `read` at each line that holds something; it reads all of the line.
 // \throw IoError  there is none: `empty` says so.
 template <typename Read>
@@ -148,18 +164,8 @@ private:
 
     SurfacePoint vertex_site(TextScanner& scan) {
         const Index vertex = index(scan, "vertex", "vertices", mesh_.positions.size());
-        if (lowest_corner_.empty()) {
-            lowest_corner_.assign(mesh_.positions.size(), no_index);
-            for (auto corner = static_cast<Index>(3 * mesh_.triangles.size()); corner-- > 0;) {
-                lowest_corner_[mesh_.triangles[corner / 3][corner % 3]] = corner;
-            }
-        }
-        const Index corner = lowest_corner_[vertex];
-        if (corner == no_index) {
-            file_.fail_unusable(start_, "vertex ", vertex,
-                                " is in no face; use a vertex of a face");
-        }
-        return point_on(corner, 0);
+        if (lowest_corner_.empty()) lowest_corner_ = lowest_corners(mesh_);
+        return point_on(require_corner(file_, start_, lowest_corner_, vertex), 0);
     }
 
     SurfacePoint face_site(TextScanner& scan) {
@@ -200,27 +206,20 @@ std::vector<Index> read_vertices(const std::filesystem::path& path, const MeshVi
                                  const Progress& progress) {
     Poller poller(progress);
     const SourceFile file = load_file(path, poller);
-    Ticker ticker = file.ticker;
-    std::vector<bool> is_corner(mesh.positions.size(), false);
-    for (const Triangle& t : mesh.triangles) {
-        ticker.tick();
-        for (const Index v : t) is_corner[v] = true;
-    }
+    const std::vector<Index> lowest_corner = lowest_corners(mesh);
     std::vector<Index> vertices;
-    read_lines(
-        file, "the file holds no vertex; write lines of one vertex index", [&](TextScanner& scan) {
-            const std::size_t start = scan.offset();
-            const std::int64_t value = scan.integer("a vertex index");
-            if (value < 0 || static_cast<std::uint64_t>(value) >= is_corner.size()) {
-                file.fail_unusable(start, "there is no vertex ", value, ": the mesh has ",
-                                   is_corner.size(), " vertices, counted from 0; correct the line");
-            }
-            if (!is_corner[static_cast<std::size_t>(value)]) {
-                file.fail_unusable(start, "vertex ", value,
-                                   " is in no face; use a vertex of a face");
-            }
-            vertices.push_back(static_cast<Index>(value));
-        });
+    read_lines(file, "the file holds no vertex; write lines of one vertex index",
+               [&](TextScanner& scan) {
+                   const std::size_t start = scan.offset();
+                   const std::int64_t value = scan.integer("a vertex index");
+                   if (value < 0 || static_cast<std::uint64_t>(value) >= lowest_corner.size()) {
+                       file.fail_unusable(start, "there is no vertex ", value, ": the mesh has ",
+                                          lowest_corner.size(),
+                                          " vertices, counted from 0; correct the line");
+                   }
+                   vertices.push_back(static_cast<Index>(value));
+                   require_corner(file, start, lowest_corner, vertices.back());
+               });
     return vertices;
 }
 

@@ -23,10 +23,11 @@ namespace remesh {
     return value;
 }
 
-//! The text as a whole number from 0; nothing if it is something else.
-[[nodiscard]] inline std::optional<std::uint64_t> as_count(std::string_view text) {
+//! The text as a whole number of a type; nothing if it is something else.
+template <typename Whole>
+[[nodiscard]] std::optional<Whole> as_whole(std::string_view text) {
     const char* const end = text.data() + text.size();
-    std::uint64_t value = 0;
+    Whole value = 0;
     const auto [last, error] = std::from_chars(text.data(), end, value);
     if (error != std::errc{} || last != end) return std::nullopt;
     return value;

@@ -40,8 +40,6 @@ const VtkType* find_type(const Test& test) {
 constexpr std::array reserved_names = {"x",           "y", "z", "nx", "ny", "nz", "vertex_indices",
                                        "vertex_index"};
 
-constexpr std::array color_names = {"red", "green", "blue", "alpha"};
-
 void add_points(const VtkArray& points, const SourceFile& file, PolygonSoup& soup) {
     soup.positions.reserve(points.values.size() / 3);
     for (std::size_t i = 0; i + 2 < points.values.size(); i += 3) {

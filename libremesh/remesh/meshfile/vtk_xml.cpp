@@ -203,7 +203,7 @@ public:
                                        const char* what) const {
         const std::string text = element[name];
         if (text.empty()) return std::nullopt;
-        if (const auto value = as_count(text)) return value;
+        if (const auto value = as_whole<std::uint64_t>(text)) return value;
         file_.fail_damaged(element.tag, what, " is ", in_quotes(text),
                            " and no whole number from 0");
     }

@@ -123,11 +123,6 @@ std::string short_number(double value) {
 
 }  // namespace
 
-std::string format_mesh(const std::filesystem::path& path, const MeshView& mesh,
-                        const Progress& progress) {
-    return format_mesh(MeshPath{path}, mesh, {}, progress);
-}
-
 std::string format_mesh(const MeshPath& path, const MeshView& mesh,
                         const MeshAttributes& attributes, const Progress& progress) {
     Poller poller(progress);
@@ -188,7 +183,7 @@ std::string describe_unit(const MeshPath& path, const std::string& unit) {
 }
 
 void write_mesh(const std::filesystem::path& path, const MeshView& mesh, const Progress& progress) {
-    write_file_atomically(path, format_mesh(path, mesh, progress), progress);
+    write_file_atomically(path, format_mesh(path, mesh, {}, progress), progress);
 }
 
 bool is_known_mesh_format(const MeshPath& path) { return find_format(path) != nullptr; }

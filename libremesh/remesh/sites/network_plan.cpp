@@ -134,7 +134,7 @@ double length_of(const Surface& surface, std::span<const std::uint8_t> is_crease
 NetworkPlan plan_network(const Surface& surface, std::vector<std::uint8_t> is_crease,
                          Index num_vertices, JunctionSet junctions, int num_threads,
                          const Progress& progress, const SizeField* sizes, LockedElements locked) {
-    double spacing = detail::spacing_of(num_vertices, surface_area(surface), 0);
+    double spacing = detail::spacing_of(num_vertices, surface_area(surface));
     const MeshBox box = box_of(surface.mesh.view());
     NetworkPlan plan;
     plan.junctions = std::move(junctions);

@@ -19,16 +19,6 @@ constexpr Index candidates_per_site = 5;
 constexpr Index least_candidates = 60;
 constexpr Index most_samples = no_index / candidates_per_site;
 
-// #F
-std::vector<Index> components_of_faces(const Surface& surface,
-                                       const std::vector<Component>& components) {
-    std::vector<Index> component_of(surface.num_faces());
-    for (Index i = 0; i < components.size(); ++i) {
-        for (const Index f : components[i].faces) component_of[f] = i;
-    }
-    return component_of;
-}
-
 // `count` points strictly inside faces of a component, besides those on its rim; fewer if it is too
 // small for that many.
 // \param done  the fraction that progress reports.
@@ -71,7 +61,7 @@ std::vector<SurfacePoint> sample_components(const Surface& surface,
                                             std::span<const SurfacePoint> rim,
                                             const SpacingOf& spacing_of,
                                             const SamplingOptions& options) {
-    const std::vector<Index> component_of = components_of_faces(surface, components);
+    const std::vector<Index> component_of = label_components(surface.twin).of_face;
     std::vector<std::vector<SurfacePoint>> rim_of(components.size());
     for (const SurfacePoint& site : rim) {
         rim_of[component_of[site.face.value()]].push_back(site);
@@ -142,7 +132,7 @@ std::vector<SurfacePoint> sample_sites(const Surface& surface, const SamplingOpt
             detail::sized_components(surface, options.sizes, begin);
         const std::vector<Index> quota = detail::share_out(components, options.num_samples);
         const auto spacing_of = [&](Index i) {
-            return detail::spacing_of(quota[i], components[i].area(), 0);
+            return detail::spacing_of(quota[i], components[i].area());
         };
         sites = sample_components(surface, components, quota, {}, spacing_of, options);
     }

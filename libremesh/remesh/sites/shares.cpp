@@ -106,9 +106,8 @@ double sized_boundary_length(const Surface& surface, const Component& component,
 
 // A mesh with N vertices, boundary length L and spacing h has 2 N - L / h triangles, each of area
 // sqrt(3) / 4 h^2.
-double spacing_of(double num_vertices, double area, double boundary_length) {
-    const double half = boundary_length / (4 * num_vertices);
-    return half + std::sqrt(half * half + 2 * area / (std::numbers::sqrt3 * num_vertices));
+double spacing_of(double num_vertices, double area) {
+    return std::sqrt(2 * area / (std::numbers::sqrt3 * num_vertices));
 }
 
 double inner_sites(double area, double boundary_length, double spacing) {
@@ -144,7 +143,7 @@ std::uint64_t needed_samples(const std::vector<Component>& components) {
 std::vector<Index> share_out(const std::vector<Component>& components, Index num_samples) {
     double area = 0;
     for (const Component& c : components) area += c.area();
-    const double spacing = spacing_of(num_samples, area, 0);
+    const double spacing = spacing_of(num_samples, area);
     std::vector<double> vertices;
     for (const Component& c : components) vertices.push_back(inner_sites(c.area(), 0, spacing));
     const std::uint64_t needed = needed_samples(components);

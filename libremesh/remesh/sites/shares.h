@@ -33,12 +33,11 @@ void set_areas(std::vector<Component>& components, std::span<const double> area_
 [[nodiscard]] double sized_boundary_length(const Surface& surface, const Component& component,
                                            const SizeField* sizes);
 
-//! The distance of neighbours in a mesh of equilateral triangles with this number of vertices,
-//! which include those on the boundary.
-[[nodiscard]] double spacing_of(double num_vertices, double area, double boundary_length);
+//! The distance of neighbours in a closed mesh of equilateral triangles with so many vertices.
+[[nodiscard]] double spacing_of(double num_vertices, double area);
 
-//! The number of inner vertices of such a mesh; negative if the surface is too narrow for the
-//! spacing.
+//! The number of inner vertices of a mesh of equilateral triangles; negative if the surface is too
+//! narrow for the spacing.
 [[nodiscard]] double inner_sites(double area, double boundary_length, double spacing);
 
 //! Whole numbers with the sum `total`, in proportion to the weights (>= 0): the largest remainders
