@@ -110,9 +110,9 @@ public:
 
 private:
     // Growth of the squared distances for a worth of 1, by the fourth power of a mean edge length.
-    static constexpr double price = 2;
+    static constexpr double price = 1.25;
     // Out of the budget, a share of all squared distances, an edit gets so many times its worth.
-    static constexpr double most_over = 100, share_of_budget = 0.03;
+    static constexpr double most_over = 30, share_of_budget = 0.01;
     // In mean edge lengths: no sample gets farther than that.
     static constexpr double largest = 0.4;
     // For each vertex of the mesh, at most: inside faces, and vertices of the surface.
