@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "agvd/mesh/closest_point.h"
@@ -16,8 +17,27 @@
 
 namespace remesh::detail {
 
-//! Knows for samples of the surface the nearest faces of a mesh, among those of the same part:
-//! parts may touch or overlap.
+//! A direction of an axis. Faces look to a side if their normal does, at least a little.
+struct Side {
+    int axis = 0;
+    bool is_against = false;
+
+    //! The one that a normal is nearest to.
+    [[nodiscard]] static Side of(const Vec3& normal) {
+        Side side;
+        normal.cwiseAbs().maxCoeff(&side.axis);
+        side.is_against = normal[side.axis] < 0;
+        return side;
+    }
+    [[nodiscard]] bool sees(const Vec3& normal) const {
+        return is_against ? normal[axis] < 0 : normal[axis] > 0;
+    }
+    [[nodiscard]] auto operator<=>(const Side&) const = default;
+};
+
+//! Knows for samples of the surface the nearest faces of a mesh. These are of the same part, as
+//! parts may touch or overlap, and look to the same side, as the far side of a thin wall may be
+//! nearer; where no face does, to any side.
 class DistanceGuard {
 public:
     //! \param mesh  outlives this.
@@ -27,62 +47,58 @@ public:
         : mesh_(mesh), samples_at_(mesh.num_faces()) {
         const FaceLabels parts = label_components(surface.twin);
         add_samples(surface, parts.of_face);
-        std::vector<TriangleMesh> of_part(parts.count);
         std::vector<std::vector<Index>> faces(parts.count);
         for (Index f = 0; f < mesh.num_faces(); ++f) {
-            const Triangle& t = mesh.face(f).corner;
-            const Index part = parts.of_face[mesh.face_of_surface(t[0]).value()];
-            auto& [positions, triangles] = of_part[part];
-            const auto first = static_cast<Index>(positions.size());
-            for (const Vec3& at : mesh.corners_of(f)) positions.push_back(at);
-            triangles.push_back({first, first + 1, first + 2});
-            faces[part].push_back(f);
+            const Index v = mesh.face(f).corner[0];
+            faces[parts.of_face[mesh.face_of_surface(v).value()]].push_back(f);
         }
         std::erase_if(samples_, [&](const Sample& s) { return faces[s.part].empty(); });
-        std::stable_sort(samples_.begin(), samples_.end(),
-                         [](const Sample& s, const Sample& t) { return s.part < t.part; });
-        std::optional<ClosestPointTree> tree;
-        for (Index i = 0; i < samples_.size(); ++i) {
-            Sample& sample = samples_[i];
-            if (i == 0 || samples_[i - 1].part != sample.part) {
-                tree.emplace(of_part[sample.part].view());
-            }
-            const ClosestPoint nearest = tree->query(sample.at);
-            sample.face = faces[sample.part][nearest.point.face.value()];
-            sample.distance_sq = nearest.distance_sq;
-            samples_at_[sample.face].push_back(i);
-        }
+        std::stable_sort(samples_.begin(), samples_.end(), [](const Sample& s, const Sample& t) {
+            return std::tie(s.part, s.side) < std::tie(t.part, t.side);
+        });
+        for (Index i = 0; i < samples_.size();) i = assign_like(i, faces[samples_[i].part]);
+    }
+
+    //! From now on distances may grow beyond what edits are worth, by a small share in all: for the
+    //! few triangles that are still bad.
+    void open_budget() {
+        for (const Sample& s : samples_) budget_ += share_of_budget * s.weight * s.distance_sq;
     }
 
     //! Compares the distances of the samples of some faces with those that were taken over last.
     //! \param changed  each once, also those that are no longer there.
-    //! \param gain  of shape quality, in all.
+    //! \param worth  of the gain of shape quality, see ShapeGain.
     //! \return false if they have grown by more than that is worth.
     //! Cost: O(#samples #changed).
-    [[nodiscard]] bool accepts(std::span<const Index> changed, double gain) {
+    [[nodiscard]] bool accepts(std::span<const Index> changed, double worth) {
         found_.clear();
         boxed_.clear();
         for (const Index f : changed) {
-            if (mesh_.face(f).is_there) boxed_.push_back({f, mesh_.corners_of(f), mesh_.box_of(f)});
+            if (!mesh_.face(f).is_there) continue;
+            const auto corners = mesh_.corners_of(f);
+            boxed_.push_back({f, corners, mesh_.box_of(f), normal_of(corners)});
         }
-        double sum = 0, most_before = 0, most_now = 0;
+        double growth = 0, most_before = 0, most_now = 0;
         for (const Index f : changed) {
             if (f >= samples_at_.size()) continue;
             for (const Index i : samples_at_[f]) {
                 const Sample& sample = samples_[i];
                 const Found now = find_nearest(i);
                 found_.push_back(now);
-                sum += sample.weight * (now.distance_sq - sample.distance_sq);
+                growth += sample.weight * (now.distance_sq - sample.distance_sq);
                 most_before = std::max(most_before, sample.distance_sq);
                 most_now = std::max(most_now, now.distance_sq);
             }
         }
         const double length_sq = squared(mesh_.mean_length());
-        return sum * cost <= gain * squared(length_sq) &&
-               most_now <= std::max(most_before, squared(largest) * length_sq);
+        if (most_now > std::max(most_before, squared(largest) * length_sq)) return false;
+        const double paid = price * worth * squared(length_sq);
+        from_budget_ = std::max(growth - paid, 0.0);
+        return growth <= paid || (growth <= most_over * paid && from_budget_ <= budget_);
     }
     //! Takes over what accepts() has found.
     void take_over() {
+        budget_ -= from_budget_;
         samples_at_.resize(mesh_.num_faces());
         for (const Found& now : found_) samples_at_[samples_[now.sample].face].clear();
         for (const Found& now : found_) {
@@ -93,17 +109,20 @@ public:
     }
 
 private:
-    // Of quality, for a growth of squared distances by the fourth power of a mean edge length.
-    static constexpr double cost = 2;
+    // Growth of the squared distances for a worth of 1, by the fourth power of a mean edge length.
+    static constexpr double price = 1.25;
+    // Out of the budget, a share of all squared distances, an edit gets so many times its worth.
+    static constexpr double most_over = 30, share_of_budget = 0.01;
     // In mean edge lengths: no sample gets farther than that.
     static constexpr double largest = 0.4;
     // For each vertex of the mesh, at most: inside faces, and vertices of the surface.
-    static constexpr double samples_for_each = 4;
+    static constexpr double samples_for_each = 8;
 
     struct Sample {
         Vec3 at;
         double weight;
         Index part;  // Of the surface.
+        Side side;
         Index face = no_index;
         double distance_sq = 0;
     };
@@ -115,21 +134,29 @@ private:
         Index face;
         std::array<Vec3, 3> corners;
         MeshBox box;
+        Vec3 normal;
     };
     static double squared(double x) { return x * x; }
+    static Vec3 normal_of(const std::array<Vec3, 3>& corners) {
+        return (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+    }
 
     // Points that divide faces evenly, and vertices: tips are among these.
     void add_samples(const Surface& surface, std::span<const Index> parts) {
-        double area = 0;
+        const auto& p = surface.mesh.positions;
+        const double area = surface_area(surface);
         std::vector<double> around(surface.num_vertices(), 0);
+        std::vector<Vec3> normal_at(surface.num_vertices(), Vec3::Zero());
         std::vector<Index> part_of(surface.num_vertices(), 0);
-        for (Index f = 0; f < surface.num_faces(); ++f) area += area_of(surface, f);
         const double count = samples_for_each * mesh_.num_vertices();
         double due = 0;  // Samples that the faces so far should have.
         for (Index f = 0; f < surface.num_faces(); ++f) {
-            const double own = area_of(surface, f);
-            for (const Index v : surface.mesh.triangles[f]) {
+            const auto& [a, b, c] = surface.mesh.triangles[f];
+            const double own = face_area(surface, f);
+            const Vec3 normal = normal_of({p[a], p[b], p[c]});
+            for (const Index v : {a, b, c}) {
                 around[v] += own / 3;
+                normal_at[v] += normal;
                 part_of[v] = parts[f];
             }
             const double before = std::floor(due);
@@ -137,49 +164,79 @@ private:
             if (!(std::floor(due) > before)) continue;
             const auto rows = static_cast<int>(std::ceil(std::sqrt(std::floor(due) - before)));
             const double weight = area / count * (std::floor(due) - before) / (rows * rows);
-            add_in_face(surface, f, parts[f], rows, weight);
+            add_in_face({p[a], p[b], p[c]}, rows, {{}, weight, parts[f], Side::of(normal)});
         }
         const auto stride = static_cast<Index>(1 + surface.num_vertices() / count);
         for (Index v = 0; v < surface.num_vertices(); v += stride) {
-            samples_.push_back({surface.mesh.positions[v], stride * around[v], part_of[v]});
+            samples_.push_back({p[v], stride * around[v], part_of[v], Side::of(normal_at[v])});
         }
     }
     // The middles of rows^2 equal triangles.
-    void add_in_face(const Surface& surface, Index f, Index part, int rows, double weight) {
-        const auto& p = surface.mesh.positions;
-        const auto& [a, b, c] = surface.mesh.triangles[f];
+    void add_in_face(const std::array<Vec3, 3>& corners, int rows, Sample sample) {
+        const auto& [a, b, c] = corners;
         for (int i = 0; i < rows; ++i) {
             for (int j = 0; i + j < rows; ++j) {
                 for (int up = 0; up < (i + j + 1 < rows ? 2 : 1); ++up) {
                     const double u = (i + (1 + up) / 3.0) / rows, v = (j + (1 + up) / 3.0) / rows;
-                    const Vec3 at = p[a] + u * (p[b] - p[a]) + v * (p[c] - p[a]);
-                    samples_.push_back({at, weight, part});
+                    sample.at = a + u * (b - a) + v * (c - a);
+                    samples_.push_back(sample);
                 }
             }
         }
     }
-    static double area_of(const Surface& surface, Index f) {
-        const auto& p = surface.mesh.positions;
-        const auto& [a, b, c] = surface.mesh.triangles[f];
-        return (p[b] - p[a]).cross(p[c] - p[a]).norm() / 2;
+    // Finds the nearest faces for the samples from `begin` on, up to one of another part or side.
+    // \param faces  of that part.
+    // \return the end.
+    Index assign_like(Index begin, std::vector<Index> faces) {
+        const Index part = samples_[begin].part;
+        const Side side = samples_[begin].side;
+        const auto is_seen = [&](Index f) { return side.sees(normal_of(mesh_.corners_of(f))); };
+        if (std::any_of(faces.begin(), faces.end(), is_seen)) {
+            std::erase_if(faces, [&](Index f) { return !is_seen(f); });
+        }
+        TriangleMesh candidates;
+        for (const Index f : faces) {
+            const auto first = static_cast<Index>(candidates.positions.size());
+            for (const Vec3& at : mesh_.corners_of(f)) candidates.positions.push_back(at);
+            candidates.triangles.push_back({first, first + 1, first + 2});
+        }
+        const ClosestPointTree tree(candidates.view());
+        Index i = begin;
+        for (; i < samples_.size(); ++i) {
+            Sample& sample = samples_[i];
+            if (sample.part != part || sample.side != side) break;
+            const ClosestPoint nearest = tree.query(sample.at);
+            sample.face = faces[nearest.point.face.value()];
+            sample.distance_sq = nearest.distance_sq;
+            samples_at_[sample.face].push_back(i);
+        }
+        return i;
     }
     // The nearest of the faces in boxed_.
     [[nodiscard]] Found find_nearest(Index sample) const {
+        const auto is_seen = [&](const BoxedFace& f) {
+            return samples_[sample].side.sees(f.normal);
+        };
+        const bool is_any_seen = std::any_of(boxed_.begin(), boxed_.end(), is_seen);
         const Vec3& at = samples_[sample].at;
         Found nearest{sample, no_index, std::numeric_limits<double>::infinity()};
-        for (const auto& [face, corners, box] : boxed_) {
-            const double least = (at - at.cwiseMax(box.low).cwiseMin(box.high)).squaredNorm();
+        for (const BoxedFace& f : boxed_) {
+            if (is_any_seen && !is_seen(f)) continue;
+            const double least = (at - at.cwiseMax(f.box.low).cwiseMin(f.box.high)).squaredNorm();
             if (least >= nearest.distance_sq) continue;
             const double distance_sq =
-                closest_point_on_triangle(corners, FaceId(face), at).distance_sq;
-            if (distance_sq < nearest.distance_sq) nearest = {sample, face, distance_sq};
+                closest_point_on_triangle(f.corners, FaceId(f.face), at).distance_sq;
+            if (distance_sq < nearest.distance_sq) nearest = {sample, f.face, distance_sq};
         }
         return nearest;
     }
 
     const EditedMesh& mesh_;
+    double budget_ = 0;
     std::vector<Sample> samples_;
     std::vector<std::vector<Index>> samples_at_;  // By face: the samples nearest to it.
+    // What accepts() has found.
+    double from_budget_ = 0;
     std::vector<Found> found_;
     std::vector<BoxedFace> boxed_;
 };

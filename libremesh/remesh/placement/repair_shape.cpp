@@ -23,8 +23,8 @@ using detail::ShapeEdit;
 using detail::ShapeGain;
 using detail::ShapeSteps;
 
-// What a change elsewhere, for the count, is worth.
-constexpr double gain_elsewhere = 0.03;
+// What a change elsewhere, for the count, is worth: see ShapeGain.
+constexpr double worth_elsewhere = 4e-4;
 
 // The changes that may stay: those that neither add intersections nor leave the surface.
 class EditGuard {
@@ -32,16 +32,17 @@ public:
     EditGuard(const EditedMesh& mesh, const Surface& surface)
         : mesh_(mesh), crossings_(mesh), distances_(mesh, surface) {}
 
-    [[nodiscard]] bool accepts(const EditedMesh::Mark& mark, double gain) {
+    [[nodiscard]] bool accepts(const EditedMesh::Mark& mark, double worth) {
         const std::vector<Index> changed = mesh_.changed_since(mark);
-        return distances_.accepts(changed, gain) && crossings_.accepts(changed);
+        return distances_.accepts(changed, worth) && crossings_.accepts(changed);
     }
     // Also takes over the changes; they must not be taken back later.
-    [[nodiscard]] bool accept(const EditedMesh::Mark& mark, double gain) {
-        if (!accepts(mark, gain)) return false;
+    [[nodiscard]] bool accept(const EditedMesh::Mark& mark, double worth) {
+        if (!accepts(mark, worth)) return false;
         take_over();
         return true;
     }
+    void open_budget() { distances_.open_budget(); }
     // After accepts(), of the same changes.
     void take_over() {
         distances_.take_over();
@@ -81,7 +82,7 @@ public:
                 (void)steps_.move_to_mean(into);
                 steps_.relax(before);
                 if (steps_.worst_since(before) >= wanted_ &&
-                    guard_.accept(before, gain_elsewhere)) {
+                    guard_.accept(before, worth_elsewhere)) {
                     ++count_;
                     return true;
                 }
@@ -181,7 +182,7 @@ private:
             const bool is_done = steps_.edit({face, k, ShapeEdit::Kind::Split});
             steps_.relax(before);
             if (is_done && steps_.worst_since(before) >= least &&
-                guard_.accept(before, gain_elsewhere)) {
+                guard_.accept(before, worth_elsewhere)) {
                 mesh_.changed_since(before, changed_, before_);
                 for (const Index changed : changed_) push_edges(changed);
                 --count_;
@@ -207,9 +208,9 @@ private:
 };
 
 // Triangles below these qualities are repaired, one after the other: the worst triangles first have
-// all the vertices that can be spared. Angles of 21.3, 29.1 and 32.5 degrees count as .425, .57 and
-// .63.
-constexpr std::array goals{0.425, 0.57, 0.63};
+// all the vertices that can be spared. Angles of 21.3, 29.1, 32.5 and 36.6 degrees count as .425,
+// .57, .63 and .7. The last time distance may be spent on the worst that are left.
+constexpr std::array goals{0.425, 0.57, 0.63, 0.7, 0.7};
 // A later goal is given up where more triangles than this share are bad: it would cost much, for
 // little.
 constexpr double most_bad = 0.15;
@@ -273,7 +274,7 @@ private:
         const EditedMesh::Mark before = mesh_.mark();
         if (steps_.improve(f)) {
             steps_.relax(before);
-            if (!guard_.accept(before, steps_.gain_since(before).sum)) mesh_.take_back(before);
+            if (!guard_.accept(before, steps_.gain_since(before).worth)) mesh_.take_back(before);
         }
         if (steps_.is_bad(f)) try_edits(f);
     }
@@ -342,7 +343,7 @@ private:
         steps_.relax(before);
         const ShapeGain gain = steps_.gain_since(before);
         const double score = score_of(gain, edit.kind == ShapeEdit::Kind::Split);
-        return score > 0 && guard_.accepts(before, gain.sum) ? score : 0;
+        return score > 0 && guard_.accepts(before, gain.worth) ? score : 0;
     }
 
     EditedMesh& mesh_;
@@ -369,10 +370,15 @@ std::vector<Index> repair_shape(const detail::MeshCurves& curves,
     if (is_good) return numbers;
     EditGuard guard(edited, curves.whole());
     const EditedMesh::Mark start = edited.mark();
-    for (const double goal : goals) {
-        ShapeRepair repair(edited, guard, curves.surface().num_faces(), goal, ticker);
-        if (goal > goals.front() && repair.share_of_bad() > most_bad) break;
-        if (!repair.run()) return numbers;
+    for (std::size_t i = 0; i < goals.size(); ++i) {
+        const EditedMesh::Mark before = edited.mark();
+        ShapeRepair repair(edited, guard, curves.surface().num_faces(), goals[i], ticker);
+        if (i + 1 == goals.size()) guard.open_budget();
+        if (i > 0 && repair.share_of_bad() > most_bad) break;
+        if (!repair.run()) {
+            edited.take_back(before);
+            break;  // The guards know the state that was taken back.
+        }
     }
     if (edited.mark().faces > start.faces) mesh = edited.result(numbers);
     return numbers;

@@ -35,7 +35,16 @@ struct ShapeEdit {
 struct ShapeGain {
     double worst = 0, sum = 0;
     bool is_all = false;  //!< All have the wanted quality.
+    double worth = 0;     //!< By how much the sum of harm_of() has fallen.
 };
+
+//! What a triangle of some quality is worth to be rid of: much if it is bad, nothing if it is good
+//! enough.
+[[nodiscard]] inline double harm_of(double quality) {
+    constexpr double enough = 0.75;  // An angle of 39.8 degrees.
+    const double missing = std::max(enough - quality, 0.0);
+    return missing * missing * missing;
+}
 
 //! Improves triangles below a wanted quality by flips and slides, and keeps a budget of slides.
 class ShapeSteps {
@@ -87,10 +96,12 @@ public:
         double worst_before = wanted_, worst_now = wanted_;
         for (const double quality : before_) {
             gain.sum += std::max(wanted_ - quality, 0.0);
+            gain.worth += harm_of(quality);
             worst_before = std::min(worst_before, quality);
         }
         for (const Index f : changed_) {
             gain.sum -= std::max(wanted_ - mesh_.face(f).quality, 0.0);
+            gain.worth -= harm_of(mesh_.face(f).quality);
             worst_now = std::min(worst_now, mesh_.face(f).quality);
         }
         gain.worst = worst_now - worst_before;
