@@ -11,6 +11,7 @@
 #include "remesh/pipeline/run.h"
 #include "remesh/pipeline/sizes.h"
 #include "remesh/pipeline/stage_context.h"
+#include "remesh/placement/placement.h"
 
 namespace remesh::detail {
 namespace {
@@ -56,6 +57,15 @@ bool check_mesh(const CleanedInput& cleaned, const Domain& domain, std::span<con
     return true;
 }
 
+std::vector<SurfacePoint> flat_corners(const BuiltMesh& built) {
+    std::vector<SurfacePoint> corners;
+    for (const Triangle& t : built.mesh.triangles) {
+        if (!is_flat(built.mesh.positions, t)) continue;
+        for (const Index v : t) corners.push_back(built.sites[v]);
+    }
+    return corners;
+}
+
 }  // namespace
 
 AttemptEnd run_attempt(const CleanedInput& cleaned, const FoundCurves& found,
@@ -81,6 +91,7 @@ AttemptEnd run_attempt(const CleanedInput& cleaned, const FoundCurves& found,
     result.sizing = measure_edges(built.mesh.view(), built.sites, options.num_samples, sizes);
     result.sites =
         to_original(built.sites, cleaned.given, {domain.whole->mesh.view(), cleaned.face_origin});
+    std::vector<SurfacePoint> flats = flat_corners(built);
     result.mesh = std::move(built.mesh);
     if (const auto& crossings = built.self_intersections) {
         result.self_intersections = crossings->all;
@@ -88,6 +99,7 @@ AttemptEnd run_attempt(const CleanedInput& cleaned, const FoundCurves& found,
     }
     return {.has_mesh = true,
             .crossing_corners = std::move(built.crossing_corners),
+            .flat_corners = std::move(flats),
             .narrow_points = std::move(sites.narrow_points)};
 }
 

@@ -35,18 +35,23 @@ Index num_more_crossings(const RemeshResult& result) {
 // Intersections that follow from the input's are no reason to give up creases: meshes of other
 // faces have other numbers of them.
 bool is_fine(const RemeshResult& result) {
-    return result.verdict.faces_without_area == 0 &&
-           (num_more_crossings(result) == 0 || result.new_self_intersections == 0);
+    return num_more_crossings(result) == 0 || result.new_self_intersections == 0;
 }
 
-// Fewer creases are worth fewer new self-intersections, and faces without area.
+// Whether the result does not reach a part of the input.
+bool has_lost_part(const RemeshResult& result) {
+    return result.verdict.largest_distance > result.verdict.spacing;
+}
+
+// Fewer creases are worth fewer new self-intersections, no lost part, and faces without area.
 bool is_better(const RemeshResult& result, const RemeshResult& best) {
+    if (is_fine(result) != is_fine(best)) return is_fine(result);
     const Index crossings = num_more_crossings(result), of_best = num_more_crossings(best);
-    if (crossings == of_best) {
-        return result.verdict.faces_without_area < best.verdict.faces_without_area;
+    if (!is_fine(result) && crossings != of_best) {
+        return crossings < of_best && result.new_self_intersections < best.new_self_intersections;
     }
-    return crossings < of_best &&
-           (is_fine(result) || result.new_self_intersections < best.new_self_intersections);
+    if (has_lost_part(result) != has_lost_part(best)) return has_lost_part(best);
+    return result.verdict.faces_without_area < best.verdict.faces_without_area;
 }
 
 // Whether lengths in places are ours to choose.
@@ -109,8 +114,8 @@ private:
     void run_all(bool has_junctions) {
         KeptCurves kept{has_junctions, !found_.is_seam.empty(), found_.is_crease};
         for (int num_changes = 0;;) {
-            std::vector<SurfacePoint> crossings;
-            if (try_curves(kept, crossings)) return;
+            BadPoints bad;
+            if (try_curves(kept, bad)) return;
             if (!found_.strips.empty()) {  // The same without them.
                 refines_ = false;
                 find_lengths({});
@@ -121,21 +126,29 @@ private:
                 kept.has_seams = false;
                 continue;
             }
-            if (change_near(crossings, num_changes, kept.is_crease)) continue;
-            if (!has_creases(kept.is_crease)) return;
+            if (change_near(bad, num_changes, kept.is_crease)) continue;
+            // Faces without area are no reason to give up more.
+            if (!has_creases(kept.is_crease) || (best_ && is_fine(*best_))) return;
             kept.is_crease.assign(kept.is_crease.size(), 0);
         }
     }
 
-    // Changes creases where faces intersect: those that were left out there come back, and the next
-    // time all go there.
+    // Corners of bad faces.
+    struct BadPoints {
+        std::vector<SurfacePoint> crossings, flats;  // Of faces that intersect, and without area.
+    };
+
+    // Changes creases at bad faces: where some intersect, those that were left out come back. The
+    // next time all go there.
     // \param num_changes  so far.
     // \return whether there was a change.
-    bool change_near(std::span<const SurfacePoint> crossings, int& num_changes,
+    bool change_near(const BadPoints& bad, int& num_changes,
                      std::vector<std::uint8_t>& is_crease) const {
         const double spacing = spacing_for(cleaned_, options_);
-        while (num_changes < most_changes && !crossings.empty()) {
+        while (num_changes < most_changes) {
             const bool come_back = num_changes++ == 0;
+            std::vector<SurfacePoint> points = bad.crossings;
+            if (!come_back) points.insert(points.end(), bad.flats.begin(), bad.flats.end());
             std::vector<std::uint8_t> is_among = come_back ? found_.is_close : is_crease;
             if (!come_back) {
                 for (Index e = 0; e < is_among.size(); ++e) {
@@ -143,7 +156,7 @@ private:
                 }
             }
             std::vector<Vec3> corners;
-            for (const SurfacePoint& point : crossings) {
+            for (const SurfacePoint& point : points) {
                 corners.push_back(position(cleaned_.surface.mesh.view(), point));
             }
             const std::vector<Index> near =
@@ -155,10 +168,9 @@ private:
     }
 
     // Keeps the result if it is the best.
-    // \param[out] crossings  corners of faces that intersect; none if less creases would not help,
-    //                        or there is no mesh.
-    // \return whether it is no use to try other curves.
-    bool try_curves(const KeptCurves& kept, std::vector<SurfacePoint>& crossings) {
+    // \param[out] bad  no crossings if less creases would not help; empty if there is no mesh.
+    // \return whether no other curves would give a better one.
+    bool try_curves(const KeptCurves& kept, BadPoints& bad) {
         RemeshResult result = first_;
         AttemptEnd end =
             run_attempt(cleaned_, found_, kept, sizes_.field.get(), {options_, result});
@@ -171,15 +183,16 @@ private:
         }
         result.features.gave_up = kept.is_crease != found_.is_crease;
         if (!is_hopeless(result.self_intersections.value_or(0), {options_, result})) {
-            crossings = end.crossing_corners;
+            bad.crossings = end.crossing_corners;
         }
+        bad.flats = std::move(end.flat_corners);
         if (!best_ || is_better(result, *best_)) {
             best_ = std::move(result);
             kept_ = kept;
             narrow_points_ = std::move(end.narrow_points);
             crossings_ = std::move(end.crossing_corners);
         }
-        return is_bare || is_fine(*best_);
+        return is_bare || (is_fine(*best_) && best_->verdict.faces_without_area == 0);
     }
 
     // Runs the best attempt again with shorter edges on narrow parts, if such a part was lost, and
@@ -187,8 +200,7 @@ private:
     void shorten_edges() {
         if (!may_shorten(options_)) return;
         // A rod that is narrower than the spacing gets shorter by some edges.
-        const bool has_lost_part = best_->verdict.largest_distance > best_->verdict.spacing;
-        if (!has_lost_part) narrow_points_.clear();
+        if (!has_lost_part(*best_)) narrow_points_.clear();
         double length = best_->verdict.spacing;
         std::vector<SizedPoint> points;
         std::vector<SurfacePoint> crossings = std::move(crossings_);

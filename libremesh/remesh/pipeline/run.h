@@ -19,6 +19,7 @@ struct AttemptEnd {
     bool has_mesh = false;
     Index num_needed = 0;  //!< Without a mesh: so many vertices may suffice.
     std::vector<SurfacePoint> crossing_corners = {};  //!< See BuiltMesh.
+    std::vector<SurfacePoint> flat_corners = {};      //!< Of faces without area, likewise.
     //! On the cleaned surface, where parts are narrower than the spacing: see PlacedSites.
     std::vector<SurfacePoint> narrow_points = {};
 };

@@ -123,12 +123,14 @@ public:
         measure(other);
         return true;
     }
-    //! \return the new vertex, near the middle of that edge; no_index if it cannot be split.
-    Index split(Index face, Index k) {
+    //! Splits the edge from corner k of the face to the next.
+    //! \param share  of the edge before the new vertex; brought into [0.2, 0.8].
+    //! \return the new vertex; no_index if the edge cannot be split.
+    Index split(Index face, Index k, double share = 0.5) {
         const Index h = 3 * face + k, a = tail(h), b = head(h);
         if (mobility(a) == Mobility::Fixed && mobility(b) == Mobility::Fixed) return no_index;
         Vertex vertex;
-        if (!find_between(a, b, label(h), vertex)) return no_index;
+        if (!find_between(a, b, std::clamp(share, 0.2, 0.8), label(h), vertex)) return no_index;
         const Index other = twin(h);
         const auto keeps_normal = [&](Index side) {
             const Vec3 &p = at(tail(side)), &q = at(head(side)), &r = at(apex(side));
@@ -340,24 +342,25 @@ private:
         return !is_ear &&
                keeps_bend(vertices_[gone].place.curve, before, after, largest_bend_at(gone));
     }
-    // Finds a point of the surface, or of a curve, near the middle. False if walks from both ends
-    // miss it.
-    [[nodiscard]] bool find_between(Index a, Index b, Index curve, Vertex& vertex) const {
-        vertex.offset = (vertices_[a].offset + vertices_[b].offset) / 2;
-        const Vec3 middle = (at(a) + at(b)) / 2;
+    // Finds a point of the surface, or of a curve, near one of an edge. False if walks from both
+    // ends miss it.
+    [[nodiscard]] bool find_between(Index a, Index b, double share, Index curve,
+                                    Vertex& vertex) const {
+        vertex.offset = vertices_[a].offset + share * (vertices_[b].offset - vertices_[a].offset);
+        const Vec3 wanted = at(a) + share * (at(b) - at(a));
         const double most = largest_miss * (at(b) - at(a)).norm();
         if (curve != no_index) {
             if (curve == unknown_curve) return false;
             vertex.mobility = Mobility::Boundary;
             const auto [from, to] = curves_.interval(curve, vertices_[a].place, vertices_[b].place);
-            // Where the curve bends, the middle of its arc may be far from that of the edge.
+            // Where the curve bends, the same share of its arc may be far from there.
             double nearest = most;
             Vertex tried = vertex;
-            for (const double share : {0.5, 0.35, 0.65, 0.2, 0.8}) {
-                tried.place = {curve, from + share * (to - from), no_index};
+            for (const double arc : {share, 0.5, 0.35, 0.65, 0.2, 0.8}) {
+                tried.place = {curve, from + arc * (to - from), no_index};
                 tried.point = curves_.point(curve, tried.place.along);
                 locate(tried);
-                const double miss = (tried.at - middle).norm();
+                const double miss = (tried.at - wanted).norm();
                 if (!(miss < nearest)) continue;
                 nearest = miss;
                 vertex = tried;
@@ -367,10 +370,10 @@ private:
         const bool takes_other = !vertices_[a].place.is_free() && vertices_[b].place.is_free();
         for (const Index from : {takes_other ? b : a, takes_other ? a : b}) {
             const SurfacePoint& point = vertices_[from].point;
-            const Vec3 step = middle - vertex.offset - position(surface_.mesh.view(), point);
+            const Vec3 step = wanted - vertex.offset - position(surface_.mesh.view(), point);
             vertex.point = walk_straight(surface_, point, step).end;
             locate(vertex);
-            if ((vertex.at - middle).norm() <= most) return true;
+            if ((vertex.at - wanted).norm() <= most) return true;
         }
         return false;
     }

@@ -214,8 +214,6 @@ constexpr std::array goals{0.425, 0.57, 0.63, 0.7, 0.7};
 // A later goal is given up where more triangles than this share are bad: it would cost much, for
 // little.
 constexpr double most_bad = 0.15;
-// Least gain of an edit.
-constexpr double least_edit_gain = 0.02;
 // Budgets for each initially bad triangle: where all are bad, work would not end.
 constexpr std::size_t edits_for_each = 3, slides_for_each = 200;
 // This many bad triangles get the whole budget; each further one gets fewer slides. Organic meshes
@@ -230,9 +228,13 @@ constexpr int most_rounds_of_repair = 6;
 class ShapeRepair {
 public:
     // \param num_faces  of the surface.
-    ShapeRepair(EditedMesh& mesh, EditGuard& guard, Index num_faces, double goal, Ticker& ticker)
+    // \param is_settled  by face: 1 for bad triangles that no edit helps, until one beside them
+    //                    changes. A later goal that is higher does not help them either.
+    ShapeRepair(EditedMesh& mesh, EditGuard& guard, Index num_faces, double goal,
+                std::vector<std::uint8_t>& is_settled, Ticker& ticker)
         : mesh_(mesh),
           guard_(guard),
+          is_settled_(is_settled),
           steps_(mesh, num_faces, goal, ticker),
           spare_(mesh, steps_, guard, goal, ticker) {}
 
@@ -254,40 +256,45 @@ public:
         steps_.allow_slides(num_slides);
         work();
         steps_.allow_slides(num_slides / share_of_balance);
-        return spare_.balance();
+        const EditedMesh::Mark before = mesh_.mark();
+        const bool is_kept = spare_.balance();
+        reopen_since(before);
+        return is_kept;
     }
 
 private:
-    // After the first round only where triangles have changed.
     void work() {
-        std::vector<std::pair<double, Index>> bad = steps_.bad_faces();
-        for (int round = 0; round < most_rounds_of_repair && !bad.empty(); ++round) {
-            const EditedMesh::Mark start = mesh_.mark();
-            for (const auto& [quality, f] : bad) {
-                if (steps_.is_bad(f)) repair(f);
+        is_settled_.resize(mesh_.num_faces(), 0);
+        for (int round = 0; round < most_rounds_of_repair; ++round) {
+            bool is_done = true;
+            for (const auto& [quality, f] : steps_.bad_faces()) {
+                if (is_settled_[f] != 0 || !steps_.is_bad(f)) continue;
+                is_done = false;
+                repair(f);
             }
-            bad = steps_.bad_around(mesh_.changed_since(start));
+            if (is_done) return;
         }
     }
 
     void repair(Index f) {
+        is_settled_[f] = 1;
         const EditedMesh::Mark before = mesh_.mark();
         if (steps_.improve(f)) {
             steps_.relax(before);
             if (!guard_.accept(before, steps_.gain_since(before).worth)) mesh_.take_back(before);
         }
         if (steps_.is_bad(f)) try_edits(f);
+        reopen_since(before);
     }
-
-    // What an edit is worth; 0: nothing. Edits that repair all triangles come first, then splits.
-    // These count by the sum of their gains, since in a chain of equal triangles no worst one
-    // improves alone. Others count by the worst triangle: they remove faces, which distorts the
-    // sum.
-    [[nodiscard]] static double score_of(const ShapeGain& gain, bool is_split) {
-        if (gain.worst < 0 || gain.sum < least_edit_gain) return 0;
-        if (is_split) return 1 + gain.sum;
-        if (gain.is_all) return 100 + gain.sum;
-        return gain.worst < least_edit_gain ? 0 : gain.worst;
+    void reopen_since(const EditedMesh::Mark& mark) {
+        is_settled_.resize(mesh_.num_faces(), 0);
+        for (const Index changed : mesh_.changed_since(mark)) {
+            is_settled_[changed] = 0;
+            if (!mesh_.face(changed).is_there) continue;
+            for (const Index v : mesh_.face(changed).corner) {
+                for (const Index f : mesh_.faces_at(v)) is_settled_[f] = 0;
+            }
+        }
     }
 
     // The edits that gain most before the triangles around are relaxed, the best one first.
@@ -298,7 +305,7 @@ private:
                                     ShapeEdit::Kind::Split, ShapeEdit::Kind::Press}) {
                 const ShapeEdit edit{f, k, kind};
                 const EditedMesh::Mark before = mesh_.mark();
-                if (steps_.edit(edit)) all.emplace_back(steps_.gain_since(before).sum, edit);
+                if (steps_.edit(edit)) all.emplace_back(steps_.gain_since(before).score, edit);
                 mesh_.take_back(before);
             }
         }
@@ -342,12 +349,12 @@ private:
         if (!steps_.edit(edit)) return 0;
         steps_.relax(before);
         const ShapeGain gain = steps_.gain_since(before);
-        const double score = score_of(gain, edit.kind == ShapeEdit::Kind::Split);
-        return score > 0 && guard_.accepts(before, gain.worth) ? score : 0;
+        return gain.score > 0 && guard_.accepts(before, gain.worth) ? gain.score : 0;
     }
 
     EditedMesh& mesh_;
     EditGuard& guard_;
+    std::vector<std::uint8_t>& is_settled_;
     ShapeSteps steps_;
     SpareVertices spare_;
     std::size_t edits_left_ = 0;
@@ -370,10 +377,15 @@ std::vector<Index> repair_shape(const detail::MeshCurves& curves,
     if (is_good) return numbers;
     EditGuard guard(edited, curves.whole());
     const EditedMesh::Mark start = edited.mark();
+    std::vector<std::uint8_t> is_settled;
     for (std::size_t i = 0; i < goals.size(); ++i) {
         const EditedMesh::Mark before = edited.mark();
-        ShapeRepair repair(edited, guard, curves.surface().num_faces(), goals[i], ticker);
-        if (i + 1 == goals.size()) guard.open_budget();
+        ShapeRepair repair(edited, guard, curves.surface().num_faces(), goals[i], is_settled,
+                           ticker);
+        if (i + 1 == goals.size()) {
+            guard.open_budget();
+            is_settled.clear();
+        }
         if (i > 0 && repair.share_of_bad() > most_bad) break;
         if (!repair.run()) {
             edited.take_back(before);

@@ -18,7 +18,8 @@
 namespace remesh::detail {
 
 //! An edit of the edge from corner k of a face to the next: it is collapsed to its second end, or
-//! to its first one, or split; or it lies on a curve and the third corner goes there, between both.
+//! to its first one, or split at the foot of the third corner; or it lies on a curve and that corner
+//! goes to the foot.
 struct ShapeEdit {
     enum class Kind : std::uint8_t { ToSecond, ToFirst, Split, Press };
 
@@ -31,11 +32,14 @@ struct ShapeEdit {
     }
 };
 
-//! The gain of the triangles touched since a mark, each counted up to the wanted quality.
+//! The gain of the triangles touched since a mark.
 struct ShapeGain {
-    double worst = 0, sum = 0;
-    bool is_all = false;  //!< All have the wanted quality.
-    double worth = 0;     //!< By how much the sum of harm_of() has fallen.
+    double worst = 0;  //!< Of the worst one, counted up to the wanted quality.
+    double worth = 0;  //!< By how much the sum of harm_of() has fallen.
+    //! Above 0 if the triangles are better in the order of their quality, up to the wanted one: the
+    //! worst first, and the next ones where that has hardly changed. A chain of equal triangles
+    //! gets better one by one that way, and two slivers may become one.
+    double score = 0;
 };
 
 //! What a triangle of some quality is worth to be rid of: much if it is bad, nothing if it is good
@@ -79,33 +83,29 @@ public:
         std::iota(all.begin(), all.end(), Index{0});
         return bad_among(all);
     }
-    //! The same of those that have a corner in common with one of some faces.
-    [[nodiscard]] std::vector<std::pair<double, Index>> bad_around(
-        std::span<const Index> faces) const {
-        std::vector<Index> around;
-        for (const Index f : faces) {
-            for (const Index v : mesh_.face(f).corner) {
-                around.insert(around.end(), mesh_.faces_at(v).begin(), mesh_.faces_at(v).end());
-            }
-        }
-        return bad_among(distinct(std::move(around)));
-    }
     [[nodiscard]] ShapeGain gain_since(const EditedMesh::Mark& mark) {
         mesh_.changed_since(mark, changed_, before_);
         ShapeGain gain;
-        double worst_before = wanted_, worst_now = wanted_;
-        for (const double quality : before_) {
-            gain.sum += std::max(wanted_ - quality, 0.0);
-            gain.worth += harm_of(quality);
-            worst_before = std::min(worst_before, quality);
+        now_.clear();
+        for (const double quality : before_) gain.worth += harm_of(quality);
+        for (const Index f : changed_) now_.push_back(mesh_.face(f).quality);
+        for (const double quality : now_) gain.worth -= harm_of(quality);
+        const auto sort = [&](std::vector<double>& qualities, std::size_t count) {
+            for (double& quality : qualities) quality = std::min(quality, wanted_);
+            qualities.resize(count, wanted_);
+            std::sort(qualities.begin(), qualities.end());
+        };
+        const std::size_t count = std::max({before_.size(), now_.size(), std::size_t{1}});
+        sort(before_, count);
+        sort(now_, count);
+        gain.worst = now_[0] - before_[0];
+        for (std::size_t rank = 0; rank < count; ++rank) {
+            const double change = now_[rank] - before_[rank];
+            if (std::abs(change) < least_gain) continue;
+            gain.score = now_[0] < wanted_ ? change / static_cast<double>(1 + rank)
+                                           : all_good + gain.worth;
+            break;
         }
-        for (const Index f : changed_) {
-            gain.sum -= std::max(wanted_ - mesh_.face(f).quality, 0.0);
-            gain.worth -= harm_of(mesh_.face(f).quality);
-            worst_now = std::min(worst_now, mesh_.face(f).quality);
-        }
-        gain.worst = worst_now - worst_before;
-        gain.is_all = worst_now >= wanted_;
         return gain;
     }
     //! The lowest quality of the triangles touched since.
@@ -145,13 +145,15 @@ public:
         const Index a = t[edit.k], b = t[(edit.k + 1) % 3];
         if (edit.kind == ShapeEdit::Kind::ToSecond) return mesh_.collapse(a, b);
         if (edit.kind == ShapeEdit::Kind::ToFirst) return mesh_.collapse(b, a);
-        if (edit.kind == ShapeEdit::Kind::Split) return mesh_.split(edit.face, edit.k) != no_index;
         const Index apex = t[(edit.k + 2) % 3];
-        if (!mesh_.face(edit.face).is_hard(edit.k) || mesh_.mobility(apex) != Mobility::Free) {
-            return false;
+        const Vec3 along = mesh_.at(b) - mesh_.at(a);
+        const double foot = along.dot(mesh_.at(apex) - mesh_.at(a)) / along.squaredNorm();
+        if (edit.kind == ShapeEdit::Kind::Split) {
+            return mesh_.split(edit.face, edit.k, foot) != no_index;
         }
+        if (!mesh_.face(edit.face).is_hard(edit.k)) return false;
         const EditedMesh::Mark before = mesh_.mark();
-        const Index added = mesh_.split(edit.face, edit.k);
+        const Index added = mesh_.split(edit.face, edit.k, foot);
         if (added != no_index && mesh_.collapse(apex, added)) return true;
         mesh_.take_back(before);
         return false;
@@ -161,6 +163,10 @@ public:
 
 private:
     static constexpr double least_step_gain = 1e-3;
+    // Of an edit.
+    static constexpr double least_gain = 0.02;
+    // The least score of edits that leave no bad triangle.
+    static constexpr double all_good = 100;
     // A slide takes some 16 steps of an edge's length at most; where its walks cross more edges
     // than usual, as around spikes, it counts as several.
     static constexpr double steps_of_slide = 16;
@@ -247,7 +253,7 @@ private:
     const std::size_t crossings_of_slide_;
     std::size_t slides_left_ = 0;
     std::vector<Index> changed_;  // Scratch.
-    std::vector<double> before_;  // Scratch.
+    std::vector<double> before_, now_;  // Scratch.
 };
 
 }  // namespace remesh::detail
