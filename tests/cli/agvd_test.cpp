@@ -36,7 +36,9 @@ TEST_F(AgvdDiagram, WritesEveryOutputAskedFor) {
 // A diagram needs no topology: the cell of a single site is the whole surface.
 TEST_F(AgvdDiagram, OneAndTwoSitesDoOnAnySurface) {
     const std::string torus = put("torus.off", shapes::torus(16, 12));
-    const std::string two_grids = put("grids.off", shapes::join(shapes::grid(2), shapes::grid(2)));
+    TriangleMesh apart = shapes::grid(2);
+    for (Vec3& p : apart.positions) p.x() += 3;
+    const std::string two_grids = put("grids.off", shapes::join(shapes::grid(2), apart));
     for (const std::string& in : {torus, two_grids}) {
         for (const std::size_t n : {1u, 2u}) {
             const auto outcome = diagram({in, "-n", std::to_string(n), "-o", at("d.agvd"), "-q"});

@@ -367,15 +367,21 @@ private:
             }
             return nearest < most;
         }
+        // Walks from one end may leave its face on the wrong side.
         const bool takes_other = !vertices_[a].place.is_free() && vertices_[b].place.is_free();
+        double nearest = most;
+        Vertex tried = vertex;
         for (const Index from : {takes_other ? b : a, takes_other ? a : b}) {
             const SurfacePoint& point = vertices_[from].point;
             const Vec3 step = wanted - vertex.offset - position(surface_.mesh.view(), point);
-            vertex.point = walk_straight(surface_, point, step).end;
-            locate(vertex);
-            if ((vertex.at - wanted).norm() <= most) return true;
+            tried.point = walk_straight(surface_, point, step).end;
+            locate(tried);
+            const double miss = (tried.at - wanted).norm();
+            if (!(miss < nearest)) continue;
+            nearest = miss;
+            vertex = tried;
         }
-        return false;
+        return nearest < most;
     }
     // The largest distance of a curve between two vertices from the edge.
     [[nodiscard]] double bend(Index curve, Index from, Index to) const {

@@ -20,7 +20,7 @@ inline constexpr double low_quality = 0.7;
 inline constexpr double sine_weight = low_quality / 0.597;
 
 //! 6 / sqrt(3) * S / (p h) ([frey1999]): S area, p half the perimeter, h the longest edge; lower if
-//! an angle is small. 0 to 1.
+//! an angle is small, or near 180 degrees. 0 to 1.
 [[nodiscard]] inline double shape_quality(const Vec3& a, const Vec3& b, const Vec3& c) {
     const Vec3 u = b - a, v = c - a, w = c - b;
     const double ab = u.norm(), bc = w.norm(), ca = v.norm();
@@ -29,8 +29,11 @@ inline constexpr double sine_weight = low_quality / 0.597;
     const double longest = std::max({ab, bc, ca});
     // The smallest angle is the one between the longest sides.
     const double sine = doubled_area * std::min({ab, bc, ca}) / (ab * bc * ca);
-    return std::min(2 * std::numbers::sqrt3 * doubled_area / ((ab + bc + ca) * longest),
-                    sine_weight * sine);
+    // The largest angle lies opposite the longest side.
+    const double squares = ab * ab + bc * bc + ca * ca - 2 * longest * longest;
+    const double cosine = squares * longest / (2 * ab * bc * ca);
+    return std::min({2 * std::numbers::sqrt3 * doubled_area / ((ab + bc + ca) * longest),
+                     sine_weight * sine, 2 * (1 + cosine)});
 }
 
 //! Appends eight unit vectors orthogonal to `normal`, which is not zero.

@@ -18,8 +18,8 @@
 namespace remesh::detail {
 
 //! An edit of the edge from corner k of a face to the next: it is collapsed to its second end, or
-//! to its first one, or split at the foot of the third corner; or it lies on a curve and that corner
-//! goes to the foot.
+//! to its first one, or split at the foot of the third corner; or it lies on a curve and that
+//! corner goes to the foot.
 struct ShapeEdit {
     enum class Kind : std::uint8_t { ToSecond, ToFirst, Split, Press };
 
@@ -102,8 +102,8 @@ public:
         for (std::size_t rank = 0; rank < count; ++rank) {
             const double change = now_[rank] - before_[rank];
             if (std::abs(change) < least_gain) continue;
-            gain.score = now_[0] < wanted_ ? change / static_cast<double>(1 + rank)
-                                           : all_good + gain.worth;
+            gain.score =
+                now_[0] < wanted_ ? change / static_cast<double>(1 + rank) : all_good + gain.worth;
             break;
         }
         return gain;
@@ -252,7 +252,7 @@ private:
     const double wanted_;
     const std::size_t crossings_of_slide_;
     std::size_t slides_left_ = 0;
-    std::vector<Index> changed_;  // Scratch.
+    std::vector<Index> changed_;        // Scratch.
     std::vector<double> before_, now_;  // Scratch.
 };
 

@@ -131,6 +131,19 @@ TEST(EditedMesh, ASplitAddsAVertexAndACollapseTakesItAway) {
     EXPECT_TRUE(is_like(sample.result(edited), mesh));
 }
 
+TEST(EditedMesh, ASplitIsWhereItIsAskedForButNotAtTheEnds) {
+    const Sample sample(shapes::sphere(2));
+    for (const auto& [asked, wanted] : {std::pair(0.3, 0.3), {0.05, 0.2}, {1.2, 0.8}}) {
+        EditedMesh edited = sample.edited();
+        const Index added = edited.split(5, 1, asked);
+        ASSERT_NE(added, no_index) << asked;
+        const Vec3 from = edited.at(sample.placed.triangles[5][1]);
+        const Vec3 to = edited.at(sample.placed.triangles[5][2]);
+        const double share = (edited.at(added) - from).dot(to - from) / (to - from).squaredNorm();
+        EXPECT_NEAR(share, wanted, 0.02);
+    }
+}
+
 // A collapse next to the boundary makes an inner edge one of the boundary.
 TEST(EditedMesh, AnyCollapsesKeepTheBoundaryHard) {
     const TriangleMesh mesh = shapes::tube(24, 6);

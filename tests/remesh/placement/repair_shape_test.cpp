@@ -174,6 +174,47 @@ TEST(ShapeSteps, AVertexIsPutOntoACurve) {
     EXPECT_TRUE(is_done);
 }
 
+// Triangle 0 has an angle of 166 degrees opposite its edge 0.
+TriangleMesh sliver_at_a_side() {
+    return {{{0, 0, 0}, {2, 0, 0}, {1.4, 0.1, 0}, {1.9, 1, 0}}, {{0, 1, 2}, {2, 1, 3}}};
+}
+
+TEST(ShapeSteps, ASliverIsDividedAtTheFootOfItsCorner) {
+    using Kind = remesh::detail::ShapeEdit::Kind;
+    const MovableMesh placed(sliver_at_a_side());
+    const remesh::detail::MeshCurves curves = placed.curves();
+    remesh::detail::EditedMesh mesh(curves, placed.placed, placed.mobility, placed.hard);
+    Ticker ticker;
+    remesh::detail::ShapeSteps steps(mesh, 2, 0.7, ticker);
+    const remesh::detail::EditedMesh::Mark before = mesh.mark();
+    ASSERT_TRUE(steps.edit({0, 0, Kind::Split}));
+    EXPECT_LT((mesh.at(4) - Vec3(1.4, 0, 0)).norm(), 1e-9);
+    // The sum of what is missing grows, as two triangles are narrow now; but the worst is better.
+    EXPECT_GT(steps.gain_since(before).score, 0);
+    EXPECT_GT(steps.gain_since(before).worst, 0);
+    const remesh::detail::EditedMesh::Mark divided = mesh.mark();
+    ASSERT_TRUE(mesh.collapse(4, 0));
+    EXPECT_LT(steps.gain_since(divided).score, 0);
+    EXPECT_EQ(steps.gain_since(before).score, 0);
+}
+
+TEST(ShapeSteps, EqualTrianglesGetBetterOneByOne) {
+    using Kind = remesh::detail::ShapeEdit::Kind;
+    const MovableMesh placed(shapes::join(sliver_at_a_side(), sliver_at_a_side()));
+    const remesh::detail::MeshCurves curves = placed.curves();
+    remesh::detail::EditedMesh mesh(curves, placed.placed, placed.mobility, placed.hard);
+    Ticker ticker;
+    remesh::detail::ShapeSteps steps(mesh, 4, 0.7, ticker);
+    const remesh::detail::EditedMesh::Mark before = mesh.mark();
+    const Index added = mesh.split(2, 1);
+    ASSERT_NE(added, no_index);
+    ASSERT_TRUE(mesh.collapse(added, 5));
+    EXPECT_EQ(steps.gain_since(before).score, 0);
+    ASSERT_TRUE(steps.edit({0, 0, Kind::Split}));
+    EXPECT_EQ(steps.gain_since(before).worst, 0);
+    EXPECT_GT(steps.gain_since(before).score, 0);
+}
+
 TEST(RepairShape, FixedVerticesStay) {
     const TriangleMesh mesh = uneven_tube();
     MovableMesh placed(mesh);
