@@ -75,7 +75,7 @@ class Attempts {
     // Changes of creases in places before all go.
     static constexpr int most_changes = 3;
     // Runs with shorter edges in places.
-    static constexpr int most_shortenings = 4;
+    static constexpr int most_shortenings = 3;
 
 public:
     // \param most_lengths  see find_sizes.

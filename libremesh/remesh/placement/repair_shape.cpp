@@ -349,7 +349,7 @@ private:
         if (!steps_.edit(edit)) return 0;
         steps_.relax(before);
         const ShapeGain gain = steps_.gain_since(before);
-        return gain.score > 0 && guard_.accepts(before, std::max(gain.worth, 0.0)) ? gain.score : 0;
+        return gain.score > 0 && guard_.accepts(before, gain.worth) ? gain.score : 0;
     }
 
     EditedMesh& mesh_;

@@ -35,7 +35,9 @@ struct ShapeEdit {
 //! The gain of the triangles touched since a mark.
 struct ShapeGain {
     double worst = 0;  //!< Of the worst one, counted up to the wanted quality.
-    double worth = 0;  //!< By how much the sum of harm_of() has fallen.
+    //! By how much the sum of harm_of() has fallen, or that of the worst one: an edit may add
+    //! faces.
+    double worth = 0;
     //! Above 0 if the triangles are better in the order of their quality, up to the wanted one: the
     //! worst first, and the next ones where that has hardly changed. A chain of equal triangles
     //! gets better one by one that way, and two slivers may become one.
@@ -98,6 +100,7 @@ public:
         const std::size_t count = std::max({before_.size(), now_.size(), std::size_t{1}});
         sort(before_, count);
         sort(now_, count);
+        gain.worth = std::max(gain.worth, harm_of(before_[0]) - harm_of(now_[0]));
         gain.worst = now_[0] - before_[0];
         for (std::size_t rank = 0; rank < count; ++rank) {
             const double change = now_[rank] - before_[rank];
