@@ -36,8 +36,8 @@ TEST_F(AgvdDiagram, WritesEveryOutputAskedFor) {
 // A diagram needs no topology: the cell of a single site is the whole surface.
 TEST_F(AgvdDiagram, OneAndTwoSitesDoOnAnySurface) {
     const std::string torus = put("torus.off", shapes::torus(16, 12));
-    TriangleMesh apart = shapes::grid(2);
-    for (Vec3& p : apart.positions) p.x() += 3;
+    agvd::TriangleMesh apart = shapes::grid(2);
+    for (agvd::Vec3& p : apart.positions) p.x() += 3;
     const std::string two_grids = put("grids.off", shapes::join(shapes::grid(2), apart));
     for (const std::string& in : {torus, two_grids}) {
         for (const std::size_t n : {1u, 2u}) {
