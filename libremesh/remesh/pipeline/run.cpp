@@ -43,17 +43,6 @@ bool has_lost_part(const RemeshResult& result) {
     return result.verdict.largest_distance > result.verdict.spacing;
 }
 
-// Fewer creases are worth fewer new self-intersections, no lost part, and faces without area.
-bool is_better(const RemeshResult& result, const RemeshResult& best) {
-    if (is_fine(result) != is_fine(best)) return is_fine(result);
-    const Index crossings = num_more_crossings(result), of_best = num_more_crossings(best);
-    if (!is_fine(result) && crossings != of_best) {
-        return crossings < of_best && result.new_self_intersections < best.new_self_intersections;
-    }
-    if (has_lost_part(result) != has_lost_part(best)) return has_lost_part(best);
-    return result.verdict.faces_without_area < best.verdict.faces_without_area;
-}
-
 // Whether lengths in places are ours to choose.
 bool may_shorten(const RemeshOptions& options) {
     const Sizing& sizing = options.sizing;
@@ -344,6 +333,17 @@ std::string describe_gaps(const CleanedInput& cleaned) {
 }
 
 }  // namespace
+
+// Fewer creases are worth fewer new self-intersections, no lost part, and faces without area.
+bool is_better(const RemeshResult& result, const RemeshResult& best) {
+    if (is_fine(result) != is_fine(best)) return is_fine(result);
+    const Index crossings = num_more_crossings(result), of_best = num_more_crossings(best);
+    if (!is_fine(result) && crossings != of_best) {
+        return crossings < of_best && result.new_self_intersections < best.new_self_intersections;
+    }
+    if (has_lost_part(result) != has_lost_part(best)) return has_lost_part(best);
+    return result.verdict.faces_without_area < best.verdict.faces_without_area;
+}
 
 RemeshResult run_stages(const InputMesh& input, const RemeshOptions& given) {
     RemeshOptions options = given;

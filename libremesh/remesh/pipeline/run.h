@@ -14,6 +14,10 @@ struct KeptCurves;
 //! \throw what remesh() throws.
 [[nodiscard]] RemeshResult run_stages(const InputMesh& input, const RemeshOptions& options);
 
+//! Whether a result is better than the best one so far: by new self-intersections, then by a part
+//! of the input that it does not reach, then by faces without area.
+[[nodiscard]] bool is_better(const RemeshResult& result, const RemeshResult& best);
+
 //! What an attempt tells besides its result.
 struct AttemptEnd {
     bool has_mesh = false;

@@ -349,37 +349,34 @@ private:
         vertex.offset = vertices_[a].offset + share * (vertices_[b].offset - vertices_[a].offset);
         const Vec3 wanted = at(a) + share * (at(b) - at(a));
         const double most = largest_miss * (at(b) - at(a)).norm();
+        double nearest = most;
+        Vertex tried = vertex;
+        const auto keep_if_nearer = [&] {
+            locate(tried);
+            const double miss = (tried.at - wanted).norm();
+            if (!(miss < nearest)) return;
+            nearest = miss;
+            vertex = tried;
+        };
         if (curve != no_index) {
             if (curve == unknown_curve) return false;
-            vertex.mobility = Mobility::Boundary;
+            tried.mobility = Mobility::Boundary;
             const auto [from, to] = curves_.interval(curve, vertices_[a].place, vertices_[b].place);
             // Where the curve bends, the same share of its arc may be far from there.
-            double nearest = most;
-            Vertex tried = vertex;
             for (const double arc : {share, 0.5, 0.35, 0.65, 0.2, 0.8}) {
                 tried.place = {curve, from + arc * (to - from), no_index};
                 tried.point = curves_.point(curve, tried.place.along);
-                locate(tried);
-                const double miss = (tried.at - wanted).norm();
-                if (!(miss < nearest)) continue;
-                nearest = miss;
-                vertex = tried;
+                keep_if_nearer();
             }
             return nearest < most;
         }
         // Walks from one end may leave its face on the wrong side.
         const bool takes_other = !vertices_[a].place.is_free() && vertices_[b].place.is_free();
-        double nearest = most;
-        Vertex tried = vertex;
         for (const Index from : {takes_other ? b : a, takes_other ? a : b}) {
             const SurfacePoint& point = vertices_[from].point;
             const Vec3 step = wanted - vertex.offset - position(surface_.mesh.view(), point);
             tried.point = walk_straight(surface_, point, step).end;
-            locate(tried);
-            const double miss = (tried.at - wanted).norm();
-            if (!(miss < nearest)) continue;
-            nearest = miss;
-            vertex = tried;
+            keep_if_nearer();
         }
         return nearest < most;
     }

@@ -150,6 +150,7 @@ public:
         if (edit.kind == ShapeEdit::Kind::ToFirst) return mesh_.collapse(b, a);
         const Index apex = t[(edit.k + 2) % 3];
         const Vec3 along = mesh_.at(b) - mesh_.at(a);
+        if (!(along.squaredNorm() > 0)) return false;
         const double foot = along.dot(mesh_.at(apex) - mesh_.at(a)) / along.squaredNorm();
         if (edit.kind == ShapeEdit::Kind::Split) {
             return mesh_.split(edit.face, edit.k, foot) != no_index;
