@@ -145,6 +145,7 @@ private:
                 }
             }
             std::vector<Vec3> corners;
+            corners.reserve(points.size());
             for (const SurfacePoint& point : points) {
                 corners.push_back(position(cleaned_.surface.mesh.view(), point));
             }
