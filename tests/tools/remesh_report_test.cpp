@@ -47,7 +47,8 @@ remesh::RemeshResult example_result() {
                       .farthest = {5, 6, 7},
                       .diagonal = 8,
                       .min_angle = std::numbers::pi / 8,
-                      .small_angle_share = 0.125};
+                      .small_angle_share = 0.125,
+                      .narrow = {51, 12, 13, 14}};
     result.junctions = {.edges = 31,
                         .curves = 32,
                         .vertices = 33,
@@ -156,7 +157,11 @@ TEST(RemeshReport, GivesEveryFieldOfTheResult) {
                                        {"largest_distance_percent_of_diagonal", 37.5},
                                        {"farthest_point", {5.0, 6.0, 7.0}},
                                        {"min_angle_deg", 22.5},
-                                       {"small_angle_percent", 12.5}}));
+                                       {"small_angle_percent", 12.5},
+                                       {"narrow_faces", 51},
+                                       {"narrow_faces_at_acute_corners", 12},
+                                       {"narrow_faces_at_thin_walls", 13},
+                                       {"narrow_faces_between_creases", 14}}));
     EXPECT_EQ(report["junctions"], json({{"input_edges", 31},
                                          {"curves", 32},
                                          {"vertices", 33},
@@ -273,22 +278,25 @@ TEST(RemeshReport, WithoutDelaunayThereAreNoFiguresOfIt) {
 TEST(RemeshReport, TextIsForAnyUser) {
     remesh::RemeshResult result = example_result();
     result.junctions = {};
-    EXPECT_EQ(remesh::to_text(result, {.input_path = "in.ply", .output_path = "out.ply"}),
-              "input: in.ply\n"
-              "repaired: 4 split edges\n"
-              "result: 3 vertices, 1 face; same topology\n"
-              "edges: mean length 1\n"
-              "10 components dropped, because the area is too small\n"
-              "6 sites dropped, because they have no cell\n"
-              "triangles: 12.5 % narrow (an angle below 30 degrees), smallest angle 22.5 degrees; "
-              "17 pairs cross (16 in the input)\n"
-              "distance: farthest 37.5 % of the size, from the input's vertex at 5 6 7\n"
-              "too small for edges of 0.5: creases of length 2.75 (too few of the given sites lie "
-              "on 24 creases or on the boundary; with all creases no mesh was found, or only one "
-              "that self-intersects), creases of length 2.625 (too close to stronger ones), 43 "
-              "walls (thinnest 0.25; about 44 samples would do), 41 "
-              "components (fewer than 12 vertices; about 42 samples would do)\n"
-              "written: out.ply");
+    EXPECT_EQ(
+        remesh::to_text(result, {.input_path = "in.ply", .output_path = "out.ply"}),
+        "input: in.ply\n"
+        "repaired: 4 split edges\n"
+        "result: 3 vertices, 1 face; same topology\n"
+        "edges: mean length 1\n"
+        "10 components dropped, because the area is too small\n"
+        "6 sites dropped, because they have no cell\n"
+        "triangles: 12.5 % narrow (an angle below 30 degrees), smallest angle 22.5 degrees "
+        "(51 faces below 30: 12 at acute corners, 13 at walls thinner than the edges, 14 between "
+        "close creases); "
+        "17 pairs cross (16 in the input)\n"
+        "distance: farthest 37.5 % of the size, from the input's vertex at 5 6 7\n"
+        "too small for edges of 0.5: creases of length 2.75 (too few of the given sites lie "
+        "on 24 creases or on the boundary; with all creases no mesh was found, or only one "
+        "that self-intersects), creases of length 2.625 (too close to stronger ones), 43 "
+        "walls (thinnest 0.25; about 44 samples would do), 41 "
+        "components (fewer than 12 vertices; about 42 samples would do)\n"
+        "written: out.ply");
 }
 
 TEST(RemeshReport, TextOfAGoodResultHasAVerdictOfThreeLines) {
@@ -310,7 +318,10 @@ TEST(RemeshReport, TextOfAGoodResultHasAVerdictOfThreeLines) {
               "distance: farthest 6.25 % of the size, from the input's vertex at 1 2 3\n"
               "too small for edges of 0.25: nothing");
     result.self_intersections.reset();
-    EXPECT_NE(remesh::to_text(result).find("; crossings not counted\n"), std::string::npos);
+    result.verdict.narrow = {.count = 7};
+    EXPECT_NE(
+        remesh::to_text(result).find("45.0 degrees (7 faces below 30); crossings not counted\n"),
+        std::string::npos);
 }
 
 TEST(RemeshReport, DetailsTellTopologyTimeAndMemory) {

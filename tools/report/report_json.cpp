@@ -218,7 +218,11 @@ Json to_json(const Verdict& verdict) {
         {"largest_distance_percent_of_diagonal", 100 * verdict.largest_distance / verdict.diagonal},
         {"farthest_point", {verdict.farthest.x(), verdict.farthest.y(), verdict.farthest.z()}},
         {"min_angle_deg", verdict.min_angle * degrees},
-        {"small_angle_percent", 100 * verdict.small_angle_share}};
+        {"small_angle_percent", 100 * verdict.small_angle_share},
+        {"narrow_faces", verdict.narrow.count},
+        {"narrow_faces_at_acute_corners", verdict.narrow.at_acute_corners},
+        {"narrow_faces_at_thin_walls", verdict.narrow.at_thin_walls},
+        {"narrow_faces_between_creases", verdict.narrow.between_creases}};
 }
 
 Json to_json(const AttributeReport& attributes) {

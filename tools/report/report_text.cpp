@@ -164,6 +164,19 @@ std::string describe_crossings(const RemeshResult& result) {
            std::to_string(result.input_self_intersections) + " in the input)";
 }
 
+// Empty if there are none.
+std::string describe_narrow(const NarrowFaces& narrow) {
+    if (narrow.count == 0) return "";
+    std::string why;
+    const auto add = [&](Index count, const char* where) {
+        if (count > 0) why += (why.empty() ? ": " : ", ") + std::to_string(count) + where;
+    };
+    add(narrow.at_acute_corners, " at acute corners");
+    add(narrow.at_thin_walls, " at walls thinner than the edges");
+    add(narrow.between_creases, " between close creases");
+    return " (" + counted(narrow.count, "face") + " below 30" + why + ")";
+}
+
 // Three lines: the shape of the triangles, the distance, and what is lost.
 std::string describe_verdict(const RemeshResult& result) {
     const Verdict& verdict = result.verdict;
@@ -175,7 +188,8 @@ std::string describe_verdict(const RemeshResult& result) {
     const Vec3& at = verdict.farthest;
     const std::string lost = describe_lost(verdict, result.features);
     return "triangles: " + shape + ", smallest angle " + fixed(verdict.min_angle * degrees, 1) +
-           " degrees; " + describe_crossings(result) + "\ndistance: farthest " +
+           " degrees" + describe_narrow(verdict.narrow) + "; " + describe_crossings(result) +
+           "\ndistance: farthest " +
            significant(100 * verdict.largest_distance / verdict.diagonal) +
            " % of the size, from the input's vertex at " + significant(at.x()) + ' ' +
            significant(at.y()) + ' ' + significant(at.z()) + "\ntoo small for edges of " +

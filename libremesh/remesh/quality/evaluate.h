@@ -171,6 +171,16 @@ struct Evaluation {
 [[nodiscard]] Evaluation evaluate(const MeshView& original, const MeshView& result,
                                   const EvaluationOptions& options = {});
 
+//! Faces with an angle below pi / 6, and how many of them the input forces. An edge is sharp if two
+//! faces meet there at more than 40 degrees, or if it has not two.
+struct NarrowFaces {
+    Index count = 0;
+    Index at_acute_corners = 0;  //!< That angle lies between two sharp edges.
+    //! Of the others: with a vertex on a wall that is thinner than the edges there are long.
+    Index at_thin_walls = 0;
+    Index between_creases = 0;  //!< Of the others: all three corners are on sharp edges.
+};
+
 //! Parts of a result that are smaller than the spacing of its vertices. All lengths in mesh units.
 struct Verdict {
     double spacing = 0;  //!< Mean edge length of the result.
@@ -190,6 +200,7 @@ struct Verdict {
 
     double min_angle = 0;          //!< Radians; of the faces of the result.
     double small_angle_share = 0;  //!< Of these faces: those with an angle below pi / 6.
+    NarrowFaces narrow = {};       //!< The same ones.
     Index faces_without_area = 0;  //!< Of these faces.
 };
 

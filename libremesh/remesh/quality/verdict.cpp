@@ -8,8 +8,10 @@
 
 #include "agvd/core/parallel.h"
 #include "agvd/core/union_find.h"
+#include "agvd/mesh/any_mesh.h"
 #include "agvd/mesh/closest_point.h"
 #include "agvd/mesh/scale.h"
+#include "remesh/curves/curve_network.h"
 
 namespace remesh {
 namespace {
@@ -134,6 +136,58 @@ void judge_walls(const MeshView& mesh, const std::vector<VertexShape>& shapes,
     verdict.samples_for_walls = rounded_up(most_times * static_cast<double>(shapes.size()));
 }
 
+// By half-edge: see NarrowFaces.
+std::vector<std::uint8_t> find_sharp(const MeshView& mesh, Ticker ticker) {
+    constexpr double most_angle = 40 * degree;
+    std::vector<std::uint8_t> is_sharp(3 * mesh.triangles.size(), 1);
+    const std::vector<EdgeSide> sides = sorted_edge_sides(mesh.triangles, ticker);
+    for_each_edge(sides, [&](std::span<const EdgeSide> edge) {
+        if (edge.size() != 2) return;
+        const auto normal = [&](const EdgeSide& side) {
+            return doubled_normal(mesh.positions, mesh.triangles[side.face()]);
+        };
+        if (angle_between(normal(edge[0]), normal(edge[1])) > most_angle) return;
+        for (const EdgeSide& side : edge) is_sharp[side.half_edge] = 0;
+    });
+    return is_sharp;
+}
+
+void judge_narrow_faces(const MeshView& mesh, const std::vector<Wall>& walls, Poller& poller,
+                        NarrowFaces& narrow) {
+    constexpr double most_angle = 30 * degree;
+    const std::vector<std::uint8_t> is_sharp = find_sharp(mesh, Ticker(poller));
+    std::vector<std::uint8_t> is_on_crease(mesh.positions.size(), 0);
+    for (Index h = 0; h < is_sharp.size(); ++h) {
+        if (is_sharp[h] == 0) continue;
+        for (const Index end : {h, next_half_edge(h)}) {
+            is_on_crease[mesh.triangles[end / 3][end % 3]] = 1;
+        }
+    }
+    for (Index f = 0; f < mesh.triangles.size(); ++f) {
+        const Triangle& t = mesh.triangles[f];
+        bool is_narrow = false, is_acute = false;
+        for (Index k = 0; k < 3; ++k) {
+            const Vec3& corner = mesh.positions[t[k]];
+            const Index before = (k + 2) % 3;
+            if (angle_between(mesh.positions[t[(k + 1) % 3]] - corner,
+                              mesh.positions[t[before]] - corner) >= most_angle) {
+                continue;
+            }
+            is_narrow = true;
+            is_acute = is_acute || (is_sharp[3 * f + k] != 0 && is_sharp[3 * f + before] != 0);
+        }
+        if (!is_narrow) continue;
+        ++narrow.count;
+        if (is_acute) {
+            ++narrow.at_acute_corners;
+        } else if (std::any_of(t.begin(), t.end(), [&](Index v) { return walls[v].exists(); })) {
+            ++narrow.at_thin_walls;
+        } else if (std::all_of(t.begin(), t.end(), [&](Index v) { return is_on_crease[v] != 0; })) {
+            ++narrow.between_creases;
+        }
+    }
+}
+
 void judge_components(const MeshView& mesh, const Topology& topology, Verdict& verdict) {
     std::vector<Index> num_vertices(topology.components.size(), 0);
     std::vector<std::uint8_t> is_counted(mesh.positions.size(), 0);
@@ -200,7 +254,9 @@ Verdict judge_result(const MeshView& input, const MeshView& result, const Topolo
     judge_components(result, topology, verdict);
     const ClosestPointTree tree(result, poller.progress());
     const std::vector<VertexShape> shapes = vertex_shapes(result);
-    judge_walls(result, shapes, find_walls(result, tree, shapes, num_threads, poller), verdict);
+    const std::vector<Wall> walls = find_walls(result, tree, shapes, num_threads, poller);
+    judge_walls(result, shapes, walls, verdict);
+    judge_narrow_faces(result, walls, poller, verdict.narrow);
     judge_distance(input, tree, num_threads, poller, verdict);
     return verdict;
 }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
+#include <utility>
 
 #include "support/parts.h"
 #include "support/shapes.h"
@@ -134,6 +135,51 @@ TEST(Verdict, FacesWithoutAreaAreCounted) {
     result.positions[1] = (result.positions[0] + result.positions[2]) / 2;
     result.positions[6] = result.positions[1] + agvd::Vec3(1e-13, 0, 0);
     EXPECT_GT(judge(shapes::grid(8), result).faces_without_area, 0U);
+}
+
+TEST(Verdict, NarrowFacesAtTheEndsOfTheSurfaceAreForced) {
+    // Triangles by themselves, with smallest angles of 11, 56 and 27 degrees.
+    TriangleMesh result;
+    for (const Vec3& apex : {Vec3(0.5, 0.1, 0), Vec3(0.5, 0.9, 0), Vec3(1, 0.5, 0)}) {
+        TriangleMesh one{{{0, 0, 0}, {1, 0, 0}, apex}, {{0, 1, 2}}};
+        result = shapes::join(shapes::moved(std::move(result), {3, 0, 0}), one);
+    }
+    const remesh::NarrowFaces narrow = judge(result).narrow;
+    EXPECT_EQ(narrow.count, 2u);
+    EXPECT_EQ(narrow.at_acute_corners, 2u);
+    EXPECT_EQ(narrow.at_thin_walls, 0u);
+}
+
+TEST(Verdict, NarrowFacesOfAFlatSurfaceAreNotForced) {
+    TriangleMesh mesh = shapes::grid(4);
+    for (Vec3& p : mesh.positions) p.x() /= 2;  // Angles of 26.6 degrees, beside a diagonal.
+    const remesh::NarrowFaces narrow = judge(mesh).narrow;
+    EXPECT_EQ(narrow.count, 32u);
+    EXPECT_EQ(narrow.at_acute_corners, 0u);
+    EXPECT_EQ(narrow.at_thin_walls, 0u);
+    EXPECT_EQ(narrow.between_creases, 2u);  // At two corners of the square.
+}
+
+TEST(Verdict, NarrowFacesOfAPlateThinnerThanItsEdgesAreForced) {
+    TriangleMesh mesh = plate(10, 0.02);
+    for (Vec3& p : mesh.positions) p.x() *= 0.4;
+    const remesh::NarrowFaces narrow = judge(mesh).narrow;
+    EXPECT_EQ(narrow.count, 1200u);  // All: 200 on each side of the box.
+    EXPECT_EQ(narrow.at_acute_corners, 0u);
+    EXPECT_GE(narrow.at_thin_walls, 400u);
+}
+
+TEST(Verdict, NarrowFacesOfAStripAreBetweenCreases) {
+    // One column of the grid is narrower, with folds on both sides; the one beside it gets wide.
+    TriangleMesh mesh = shapes::grid(4);
+    for (Vec3& p : mesh.positions) p.x() = p.x() == 0.25 ? 0.4 : p.x();
+    for (Vec3& p : mesh.positions)
+        p.z() = p.x() < 0.4 ? 0.4 - p.x() : p.x() > 0.5 ? p.x() - 0.5 : 0;
+    const remesh::NarrowFaces narrow = judge(mesh).narrow;
+    EXPECT_EQ(narrow.count, 16u);
+    EXPECT_EQ(narrow.at_acute_corners, 0u);
+    EXPECT_EQ(narrow.at_thin_walls, 0u);
+    EXPECT_EQ(narrow.between_creases, 16u);
 }
 
 TEST(Verdict, ThreadsDoNotChangeIt) {
