@@ -69,7 +69,7 @@ std::vector<SurfacePoint> flat_corners(const BuiltMesh& built) {
 }  // namespace
 
 AttemptEnd run_attempt(const CleanedInput& cleaned, const FoundCurves& found,
-                       const KeptCurves& kept, const SizeField* sizes,
+                       const KeptCurves& kept, const SizeField* sizes, InputCrossings& of_input,
                        const StageContext& context) {
     const auto& [options, result] = context;
     const double spacing = spacing_for(cleaned, options);
@@ -84,7 +84,7 @@ AttemptEnd run_attempt(const CleanedInput& cleaned, const FoundCurves& found,
         return {.num_needed = plan->network.sites_for_boundary};
     Domain domain = prepare_domain(cleaned, std::move(plan), spacing, sizes, context);
     PlacedSites sites = place_sites(domain, context);
-    BuiltMesh built = build_mesh(domain, sites, context);
+    BuiltMesh built = build_mesh(domain, sites, of_input, context);
     if (built.mesh.triangles.empty() || !check_mesh(cleaned, domain, sites.chain, built, context)) {
         return {.num_needed = built.num_vertices};
     }

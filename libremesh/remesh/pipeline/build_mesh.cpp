@@ -31,9 +31,11 @@ void drop_points(Diagram& diagram) {
 
 class MeshBuilder {
 public:
-    MeshBuilder(Domain& domain, const PlacedSites& placed, const StageContext& context)
+    MeshBuilder(Domain& domain, const PlacedSites& placed, InputCrossings& of_input,
+                const StageContext& context)
         : domain_(domain),
           placed_(placed),
+          of_input_(of_input),
           context_(context),
           on_base_(domain.prepared.base.to_intrinsic(placed.sites)) {
         domain.prepared.pieces.reset();  // Not needed until vertices are placed.
@@ -150,7 +152,7 @@ private:
     void place() {
         PlacedDual placed =
             place_dual(domain_, placed_.curves, dual_, points_of_vertices(), context_);
-        CrossingFinder finder(domain_, context_);
+        CrossingFinder finder(domain_, of_input_, context_);
         const std::optional<CrossingFaces> crossings =
             unfit_crossings(finder, placed_.curves, placed, context_.result);
         take_mesh(placed);
@@ -202,6 +204,7 @@ private:
 
     Domain& domain_;
     const PlacedSites& placed_;
+    InputCrossings& of_input_;
     const StageContext& context_;
     const std::vector<SurfacePoint> on_base_;  // The sites.
     ValidDual dual_;
@@ -211,8 +214,9 @@ private:
 
 }  // namespace
 
-BuiltMesh build_mesh(Domain& domain, const PlacedSites& sites, const StageContext& context) {
-    return MeshBuilder(domain, sites, context).run();
+BuiltMesh build_mesh(Domain& domain, const PlacedSites& sites, InputCrossings& of_input,
+                     const StageContext& context) {
+    return MeshBuilder(domain, sites, of_input, context).run();
 }
 
 }  // namespace remesh::detail

@@ -7,6 +7,7 @@
 namespace remesh::detail {
 
 struct Domain;
+struct InputCrossings;
 struct PlacedSites;
 struct StageContext;
 
@@ -22,9 +23,10 @@ struct BuiltMesh {
 };
 
 //! Builds the mesh of the sites and improves its narrow triangles.
-//! \param domain  its layout is consumed.
+//! \param domain    its layout is consumed.
+//! \param of_input  searched if the result intersects itself.
 //! Cost: a propagation and a diagram, and those of placement.
 [[nodiscard]] BuiltMesh build_mesh(Domain& domain, const PlacedSites& sites,
-                                   const StageContext& context);
+                                   InputCrossings& of_input, const StageContext& context);
 
 }  // namespace remesh::detail

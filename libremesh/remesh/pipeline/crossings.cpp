@@ -98,7 +98,12 @@ std::optional<FacePairs> CrossingFinder::find(const PlacedDual& placed) {
     const StageClock clock(Stage::Check, context_.result);
     poll(progress_of(Stage::Check, context_.options), 0);
     std::optional<FacePairs> all = find_in(welded_mesh(domain_, placed), context_.options);
-    if (all && !all->empty() && !has_searched_input_) find_in_input();
+    if (all && !all->empty()) {
+        if (!of_input_.is_searched || of_input_.is_welded != domain_.has_junctions()) {
+            find_in_input();
+        }
+        context_.result.input_self_intersections = of_input_.num_pairs;
+    }
     return all;
 }
 
@@ -106,9 +111,9 @@ CrossingFaces CrossingFinder::tell_added(const PlacedDual& placed, FacePairs all
     const StageClock clock(Stage::Check, context_.result);
     CrossingFaces found{std::move(all), {}};
     if (found.all.size() <= context_.result.input_self_intersections) return found;
-    found.added = input_crossings_
-                      ? pairs_elsewhere(*input_crossings_, welded_mesh(domain_, placed), found.all)
-                      : found.all;
+    const auto& triangles = of_input_.triangles;
+    found.added = triangles ? pairs_elsewhere(*triangles, welded_mesh(domain_, placed), found.all)
+                            : found.all;
     return found;
 }
 
@@ -123,12 +128,14 @@ void CrossingFinder::find_in_input() {
     }
     const MeshView mesh{input.positions, welded.empty() ? input.triangles : welded};
     const FacePairs pairs = find_in(mesh, context_.options).value();
+    of_input_ = {.is_searched = true,
+                 .is_welded = domain_.has_junctions(),
+                 .num_pairs = static_cast<Index>(pairs.size()),
+                 .triangles = {}};
     if (!pairs.empty()) {
-        input_crossings_.emplace(crossing_triangles(mesh, pairs),
-                                 progress_of(Stage::Check, context_.options));
+        of_input_.triangles.emplace(crossing_triangles(mesh, pairs),
+                                    progress_of(Stage::Check, context_.options));
     }
-    context_.result.input_self_intersections = static_cast<Index>(pairs.size());
-    has_searched_input_ = true;
 }
 
 bool is_hopeless(std::size_t num_pairs, const StageContext& context) {

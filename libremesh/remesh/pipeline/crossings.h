@@ -53,12 +53,20 @@ void for_each_corner(const FacePairs& pairs, const std::vector<Triangle>& triang
 [[nodiscard]] FacePairs pairs_elsewhere(const ClosestPointTree& triangles, const MeshView& mesh,
                                         const FacePairs& pairs);
 
+//! Self-intersections of the cleaned input. All attempts of a run share them.
+struct InputCrossings {
+    bool is_searched = false;
+    bool is_welded = false;  //!< Sheets that meet at junctions did not count.
+    Index num_pairs = 0;
+    std::optional<ClosestPointTree> triangles;  //!< See crossing_triangles; unset: there are none.
+};
+
 //! Finds self-intersections, and those of the input as soon as a result has any.
 class CrossingFinder {
 public:
-    //! \param domain, context  outlive this.
-    CrossingFinder(const Domain& domain, const StageContext& context)
-        : domain_(domain), context_(context) {}
+    //! \param domain, of_input, context  outlive this.
+    CrossingFinder(const Domain& domain, InputCrossings& of_input, const StageContext& context)
+        : domain_(domain), of_input_(of_input), context_(context) {}
 
     //! Intersecting faces of placed.mesh. Sheets that meet at a junction do not count.
     //! \return unset without CGAL.
@@ -71,9 +79,8 @@ private:
     void find_in_input();
 
     const Domain& domain_;
+    InputCrossings& of_input_;
     const StageContext& context_;
-    bool has_searched_input_ = false;
-    std::optional<ClosestPointTree> input_crossings_;  // Unset: there are none.
 };
 
 //! Whether a result has so many more intersecting pairs of faces than the input that more sites

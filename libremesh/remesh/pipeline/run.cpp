@@ -163,7 +163,7 @@ private:
     bool try_curves(const KeptCurves& kept, BadPoints& bad) {
         RemeshResult result = first_;
         AttemptEnd end =
-            run_attempt(cleaned_, found_, kept, sizes_.field.get(), {options_, result});
+            run_attempt(cleaned_, found_, kept, sizes_.field.get(), of_input_, {options_, result});
         first_.seconds = result.seconds;
         samples_for_all_ = std::max(samples_for_all_, result.features.samples_for_all);
         const bool is_bare = !has_more_to_drop(kept, result.features);
@@ -217,7 +217,8 @@ private:
         const StageContext context{options, again};
         const RunSizes sizes = find_sizes(cleaned_, found_, spacing_for(cleaned_, options_), {},
                                           narrow_points_, points, context);
-        AttemptEnd end = run_attempt(cleaned_, found_, kept_, sizes.field.get(), context);
+        AttemptEnd end =
+            run_attempt(cleaned_, found_, kept_, sizes.field.get(), of_input_, context);
         first_.seconds = again.seconds;
         const Index crossings = num_more_crossings(again), before = num_more_crossings(*best_);
         const bool is_nearer = again.verdict.largest_distance < best_->verdict.largest_distance;
@@ -233,6 +234,7 @@ private:
     RemeshResult first_;  // Of cleaning and what was found here; its times include all attempts.
     FoundCurves found_;
     RunSizes sizes_;
+    InputCrossings of_input_;
     // Strips between close creases. With a mean edge given the others would be longer.
     bool refines_ =
         may_shorten(options_) && !std::holds_alternative<MeanEdge>(options_.sizing.count);
@@ -269,6 +271,7 @@ EnoughSamples find_enough(const CleanedInput& cleaned, const RemeshResult& after
     if (reached > std::max(most_tried, options.num_samples)) return {.count = reached};
     RemeshOptions more = options;
     more.sites.reset();
+    InputCrossings of_input;
     for (int tries = 0; tries < max_tries; ++tries) {
         more.num_samples = reached;
         RemeshResult result = after_cleaning;
@@ -276,7 +279,8 @@ EnoughSamples find_enough(const CleanedInput& cleaned, const RemeshResult& after
         if (!cleaned.locked.empty()) {
             sizes = find_sizes(cleaned, {}, spacing_for(cleaned, more), {}, {}, {}, {more, result});
         }
-        const AttemptEnd end = run_attempt(cleaned, {}, {}, sizes.field.get(), {more, result});
+        const AttemptEnd end =
+            run_attempt(cleaned, {}, {}, sizes.field.get(), of_input, {more, result});
         if (end.has_mesh) return {.count = reached, .is_tried = true};
         reached = end.num_needed > reached ? end.num_needed : reached + reached / 4 + 1;
     }

@@ -8,6 +8,7 @@
 namespace remesh::detail {
 
 struct FoundCurves;
+struct InputCrossings;
 struct KeptCurves;
 
 //! \param options  checked.
@@ -31,10 +32,11 @@ struct AttemptEnd {
 //! Runs all stages after cleaning, with some of the curves, and sets what they give in the result
 //! of the context. Checks that the mesh has the topology of the input, and the vertex count that
 //! was asked for.
-//! \param sizes  target lengths; null: all equal.
+//! \param sizes     target lengths; null: all equal.
+//! \param of_input  of the cleaned input; searched if the result intersects itself.
 [[nodiscard]] AttemptEnd run_attempt(const CleanedInput& cleaned, const FoundCurves& found,
                                      const KeptCurves& kept, const SizeField* sizes,
-                                     const StageContext& context);
+                                     InputCrossings& of_input, const StageContext& context);
 
 //! The mean distance of the sites that the options ask for, mesh units.
 [[nodiscard]] inline double spacing_for(const CleanedInput& cleaned, const RemeshOptions& options) {

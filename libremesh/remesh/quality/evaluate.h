@@ -174,7 +174,7 @@ struct Evaluation {
 //! Faces with an angle below pi / 6, and how many of them the input forces. An edge is sharp if two
 //! faces meet there at more than 40 degrees, or if it has not two.
 struct NarrowFaces {
-    Index count = 0;
+    Index count = 0;             //!< Of all.
     Index at_acute_corners = 0;  //!< That angle lies between two sharp edges.
     //! Of the others: with a vertex on a wall that is thinner than the edges there are long.
     Index at_thin_walls = 0;
