@@ -222,10 +222,4 @@ std::vector<Component> find_components(const Surface& surface, const Progress& p
     return components;
 }
 
-double euler_of(const Surface& surface) {
-    double euler = static_cast<double>(surface.num_faces()) - surface.num_edges();
-    for (const Index h : surface.outgoing) euler += h != no_index ? 1 : 0;
-    return euler;
-}
-
 }  // namespace agvd

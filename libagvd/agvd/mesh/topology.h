@@ -76,7 +76,4 @@ struct Component {
 [[nodiscard]] std::vector<Component> find_components(const Surface& surface,
                                                      const Progress& progress = {});
 
-//! V - E + F of the whole surface; isolated vertices do not count. Cost: O(#V).
-[[nodiscard]] double euler_of(const Surface& surface);
-
 }  // namespace agvd

@@ -25,6 +25,9 @@ using detail::Relaxation;
 
 // Least number of inner sites of a coarse start.
 constexpr double least_coarse_inner_sites = 32;
+// Least number of coarse sites for each unit that Euler characteristics lie below 0. With fewer,
+// they have more than 8 neighbours on average, and their triangles do not resemble the surface.
+constexpr double least_sites_for_euler = 3;
 // Least distance of inner sites from curves, in spacings.
 constexpr double least_distance = 0.4;
 
@@ -332,12 +335,18 @@ private:
             curve_sites_at(plan_.network, plan_.cut,
                            even_positions(plan_.cut.surface(), plan_.network, plan_.spacing,
                                           intervals, length_function(options_.sizes)));
-        const double euler = euler_of(plan_.cut.surface());
+        double euler = 0, handles = 0;
+        for (const Component& component : find_components(plan_.cut.surface())) {
+            euler += component.euler;
+            handles += std::max(-component.euler, 0);
+        }
         const double wanted =
             (num_inner_ - static_cast<double>(coarse.sites.size()) + 3 * euler) / 4 + 1;
         if (wanted < least_coarse_inner_sites) return nullptr;
         const auto num_inner = static_cast<Index>(wanted);
-        if (!detail::gives_neighbours(surface_.base.surface(), coarse.sites.size() + num_inner)) {
+        const std::size_t num_sites = coarse.sites.size() + num_inner;
+        if (!detail::gives_neighbours(surface_.base.surface(), num_sites) ||
+            static_cast<double>(num_sites) < least_sites_for_euler * handles) {
             return nullptr;
         }
         const auto first = start(coarse, sample(coarse, num_inner, 2 * plan_.spacing));
