@@ -18,15 +18,14 @@ template <typename Values>
 class DiagramReader {
 public:
     DiagramReader(const SourceFile& file, const PlyHeader& header, DiagramFile& out)
-        : file_(file), ticker_(file.ticker), values_(file, header), out_(out) {
-        for (const PlyElement& element : header.elements) {
+        : file_(file), header_(header), ticker_(file.ticker), values_(file, header), out_(out) {}
+
+    void read() {
+        for (const PlyElement& element : header_.elements) {
             // Without properties it has no bytes, so that its count may be anything.
             if (!element.properties.empty()) count_.try_emplace(element.name, element.count);
         }
-        count_["face"] = out.mesh.triangles.size();  // Other polygons were dropped.
-    }
-
-    void read(const PlyHeader& header) {
+        count_["face"] = out_.mesh.triangles.size();  // Other polygons were dropped.
         for (const char* name : {"site", "curve_point", "voronoi_edge", "voronoi_vertex"}) {
             if (!count_.contains(name)) {
                 file_.fail_malformed(0, "the file has no element ", name,
@@ -37,7 +36,7 @@ public:
         }
         out_.diagram.edge_points = out_.diagram.vertex_offsets = {0};
         std::set<std::string> names;
-        for (const PlyElement& element : header.elements) {
+        for (const PlyElement& element : header_.elements) {
             if (element.properties.empty()) continue;
             const bool is_first = names.insert(element.name).second;
             for (std::uint64_t i = 0; i < element.count; ++i) {
@@ -188,6 +187,7 @@ private:
     }
 
     const SourceFile& file_;
+    const PlyHeader& header_;
     Ticker ticker_;
     Values values_;
     DiagramFile& out_;
@@ -272,10 +272,7 @@ std::vector<std::int32_t> sides_of_cells(const DrawnDiagram& drawn, SiteId Voron
 std::string format_vtp_diagram(const DrawnDiagram& drawn, Ticker ticker) {
     const Index first_site = drawn.surface.num_vertices(), num_sites = drawn.diagram.num_sites;
     const LabelledPoints points = labelled_points(drawn, ticker);
-    VtpWriter writer({.points = points.positions.size(),
-                      .verts = num_sites,
-                      .lines = drawn.diagram.edges.size(),
-                      .polys = drawn.surface.num_faces()});
+    VtpWriter writer;
     const auto add_numbers = [&]<typename T>(const char* name, const char* type,
                                              const std::vector<T>& numbers) {
         writer.add_array<T>(name, type, 1, numbers.size(), ticker,
@@ -289,10 +286,7 @@ std::string format_vtp_diagram(const DrawnDiagram& drawn, Ticker ticker) {
     add_numbers("site_left", "Int32", sides_of_cells(drawn, &VoronoiEdge::left));
     add_numbers("site_right", "Int32", sides_of_cells(drawn, &VoronoiEdge::right));
     writer.end_section();
-    writer.begin_section("Points");
-    writer.add_array<double>("Points", "Float64", 3, points.positions.size(), ticker,
-                             [&](std::size_t p) { return points.positions[p]; });
-    writer.end_section();
+    writer.add_points(points.positions, ticker);
     writer.add_cells("Verts", num_sites, ticker,
                      [&](std::size_t s) { return std::array{first_site + s}; });
     writer.add_cells("Lines", drawn.diagram.edges.size(), ticker, [&](std::size_t e) {
@@ -319,16 +313,13 @@ std::string format_obj_lines(const DrawnDiagram& drawn, Ticker ticker) {
     return bytes;
 }
 
-// The vertices' labels and distances.
-MeshAttributes labels_of(const Diagram& diagram) {
-    Attribute site{.name = "site", .type = NumberType::Int32};
-    for (const SiteId s : diagram.nearest_site) site.values.push_back(site_number(s));
-    return {
-        .of_vertices = {std::move(site), {.name = "distance", .values = diagram.nearest_distance}}};
-}
-
+// With the vertices' labels and distances.
 std::string format_ply_mesh(const DrawnDiagram& drawn, Ticker ticker) {
-    return format_ply(drawn.surface.mesh.view(), labels_of(drawn.diagram), ticker);
+    Attribute site{.name = "site", .type = NumberType::Int32};
+    for (const SiteId s : drawn.diagram.nearest_site) site.values.push_back(site_number(s));
+    const Attribute distance{.name = "distance", .values = drawn.diagram.nearest_distance};
+    return format_ply(drawn.surface.mesh.view(), {.of_vertices = {std::move(site), distance}},
+                      ticker);
 }
 
 void append_point(std::string& bytes, const SurfacePoint& point) {
@@ -428,9 +419,9 @@ DiagramFile read_diagram(const std::filesystem::path& path, const Progress& prog
     const PlyHeader header = read_ply_header(file);
     file.is_binary = header.byte_order.has_value();
     if (file.is_binary) {
-        DiagramReader<BinaryValues>(file, header, result).read(header);
+        DiagramReader<BinaryValues>(file, header, result).read();
     } else {
-        DiagramReader<AsciiValues>(file, header, result).read(header);
+        DiagramReader<AsciiValues>(file, header, result).read();
     }
     return result;
 }

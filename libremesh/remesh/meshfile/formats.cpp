@@ -91,9 +91,7 @@ const MeshFormat* find_format(const MeshPath& path) {
     else if (is_packed)
         name.resize(name.size() - compressed.size());
     if (name.starts_with('.')) name.erase(0, 1);
-    const auto* const found =
-        std::find_if(std::begin(formats), std::end(formats),
-                     [&](const MeshFormat& known) { return name == known.name; });
+    const auto* const found = std::ranges::find(formats, name, &MeshFormat::name);
     return found == std::end(formats) ? nullptr : found;
 }
 
@@ -128,8 +126,7 @@ MeshFile read_mesh(const std::filesystem::path& path, const Progress& progress) 
 }
 
 const Attribute* find_attribute(const std::vector<Attribute>& attributes, std::string_view name) {
-    const auto found = std::find_if(attributes.begin(), attributes.end(),
-                                    [&](const Attribute& known) { return known.name == name; });
+    const auto found = std::ranges::find(attributes, name, &Attribute::name);
     return found == attributes.end() ? nullptr : &*found;
 }
 

@@ -11,24 +11,17 @@ constexpr std::size_t glb_chunk_header_size = 8;
 constexpr std::uint32_t json_chunk = 0x4E4F534A, bin_chunk = 0x004E4942;
 constexpr int max_depth = 64;
 
-template <typename T>
-double load_component(const char* bytes) {
-    return static_cast<double>(load<T>(bytes));
-}
+struct GltfComponent {
+    std::uint64_t number;  // That of glTF.
+    NumberType type;
+    double largest;  // See GltfArray.
+};
+constexpr GltfComponent component_types[] = {
+    {5120, NumberType::Int8, 127},    {5121, NumberType::UInt8, 255},
+    {5122, NumberType::Int16, 32767}, {5123, NumberType::UInt16, 65535},
+    {5125, NumberType::UInt32, 0},    {5126, NumberType::Float32, 0}};
 
-constexpr std::array component_types = {
-    GltfComponent{5120, 1, 127, load_component<std::int8_t>},
-    GltfComponent{5121, 1, 255, load_component<std::uint8_t>},
-    GltfComponent{5122, 2, 32767, load_component<std::int16_t>},
-    GltfComponent{5123, 2, 65535, load_component<std::uint16_t>},
-    GltfComponent{5125, 4, 0, load_component<std::uint32_t>},
-    GltfComponent{5126, 4, 0, load_component<float>}};
-
-std::size_t columns_of(const std::string& type) {
-    constexpr std::array names = {"SCALAR", "VEC2", "VEC3", "VEC4"};
-    const auto found = std::find(names.begin(), names.end(), type);
-    return found == names.end() ? 0 : static_cast<std::size_t>(found - names.begin()) + 1;
-}
+constexpr std::array gltf_shapes = {"SCALAR", "VEC2", "VEC3", "VEC4"};
 
 // Extensions that do not change positions and corners.
 bool is_harmless(const std::string& extension) {
@@ -57,9 +50,7 @@ GltfDocument::GltfDocument(SourceFile& file) : file_(file), file_size_(file.byte
             "this is not a glTF file, as it neither begins with 'glTF' nor is a JSON object; check "
             "its extension");
     }
-    const auto asset = json_.find("asset");
-    if (!has_chunks && (asset == json_.end() || !asset->is_object() ||
-                        asset->value("version", nlohmann::json()) != "2.0")) {
+    if (!has_chunks && text(member(json_, "asset"), "version") != "2.0") {
         fail("the file does not say that it is glTF of version 2.0");
     }
     for (const nlohmann::json& extension : list(json_, "extensionsRequired")) {
@@ -103,12 +94,11 @@ void GltfDocument::read_chunks() {
 
 void GltfDocument::read_buffers() {
     for (const nlohmann::json& buffer : list(json_, "buffers")) {
-        const auto uri = buffer.is_object() ? buffer.find("uri") : buffer.end();
-        if (uri == buffer.end()) {
+        if (!buffer.contains("uri")) {
             buffers_.push_back(buffers_.empty() ? bin_ : Range{});
             continue;
         }
-        const std::string bytes = resource(uri->is_string() ? uri->get<std::string>() : "");
+        const std::string bytes = resource(text(buffer, "uri"));
         buffers_.push_back({file_.bytes.size(), bytes.size()});
         file_.bytes += bytes;
     }
@@ -141,8 +131,7 @@ std::string GltfDocument::resource(const std::string& uri) const {
 }
 
 std::string GltfDocument::image(const nlohmann::json& properties) const {
-    const auto uri = properties.find("uri");
-    if (uri != properties.end() && uri->is_string()) return resource(uri->get<std::string>());
+    if (member(properties, "uri").is_string()) return resource(text(properties, "uri"));
     const auto view = number(properties, "bufferView");
     if (!view) return {};
     const Range range = range_of_view(at("bufferViews", *view), "an image");
@@ -175,34 +164,40 @@ const nlohmann::json& GltfDocument::at(const char* list_name, std::uint64_t inde
     return all[index];
 }
 
+const nlohmann::json& GltfDocument::member(const nlohmann::json& object, const char* key) {
+    static const nlohmann::json none;
+    const auto found = object.find(key);
+    return found == object.end() ? none : *found;
+}
+
+std::string GltfDocument::text(const nlohmann::json& object, const char* key) {
+    const nlohmann::json& found = member(object, key);
+    return found.is_string() ? found.get<std::string>() : "";
+}
+
 const nlohmann::json& GltfDocument::list(const nlohmann::json& object, const char* key) const {
     static const nlohmann::json empty = nlohmann::json::array();
-    const auto found = object.find(key);
-    if (found == object.end()) return empty;
-    if (!found->is_array()) fail(key, " is not a list");
-    return *found;
+    if (!object.contains(key)) return empty;
+    if (!object[key].is_array()) fail(key, " is not a list");
+    return object[key];
 }
 
 std::optional<std::uint64_t> GltfDocument::number(const nlohmann::json& object,
                                                   const char* key) const {
-    const auto found = object.find(key);
-    if (found == object.end()) return std::nullopt;
-    if (!found->is_number_unsigned()) fail(key, " is not a whole number from 0");
-    return found->get<std::uint64_t>();
+    if (!object.contains(key)) return std::nullopt;
+    if (!object[key].is_number_unsigned()) fail(key, " is not a whole number from 0");
+    return object[key].get<std::uint64_t>();
 }
 
 std::optional<std::vector<double>> GltfDocument::numbers(const nlohmann::json& object,
                                                          const char* key, std::size_t count) const {
-    if (object.find(key) == object.end()) return std::nullopt;
-    const nlohmann::json& all = list(object, key);
+    if (!object.contains(key)) return std::nullopt;
     std::vector<double> values;
-    for (const nlohmann::json& value : all) {
+    for (const nlohmann::json& value : list(object, key)) {
         values.push_back(value.is_number() ? value.get<double>() : std::nan(""));
         if (!std::isfinite(values.back())) fail(key, " has a value that is not a number");
     }
-    if (values.size() != count) {
-        fail(key, " does not have ", count, " numbers");
-    }
+    if (values.size() != count) fail(key, " does not have ", count, " numbers");
     return values;
 }
 
@@ -214,20 +209,16 @@ GltfArray GltfDocument::array(std::uint64_t index) const {
     }
     const nlohmann::json& view = at("bufferViews", *number(accessor, "bufferView"));
     const std::uint64_t type = number(accessor, "componentType").value_or(0);
-    const auto component =
-        std::find_if(component_types.begin(), component_types.end(),
-                     [&](const GltfComponent& known) { return known.number == type; });
-    const auto shape = accessor.find("type");
-    const std::size_t num_columns =
-        shape != accessor.end() && shape->is_string() ? columns_of(shape->get<std::string>()) : 0;
-    if (component == component_types.end() || num_columns == 0) fail(name, " has an unknown type");
-    const std::size_t row_size = component->size * num_columns;
-    const auto normalized = accessor.find("normalized");
+    const auto* const component = std::ranges::find(component_types, type, &GltfComponent::number);
+    const auto* const shape = std::ranges::find(gltf_shapes, text(accessor, "type"));
+    if (component == std::end(component_types) || shape == gltf_shapes.end()) {
+        fail(name, " has an unknown type");
+    }
     GltfArray array{.num_rows = number(accessor, "count").value_or(0),
-                    .num_columns = num_columns,
-                    .is_normalized = normalized != accessor.end() && *normalized == true &&
-                                     component->largest > 0,
-                    .component = &*component};
+                    .num_columns = static_cast<std::size_t>(shape - gltf_shapes.begin()) + 1,
+                    .type = component->type};
+    if (member(accessor, "normalized") == true) array.largest = component->largest;
+    const std::size_t row_size = size_of(array.type) * array.num_columns;
     array.stride = number(view, "byteStride").value_or(row_size);
     const Range range = range_of_view(view, name);
     const std::uint64_t begin = number(accessor, "byteOffset").value_or(0);
@@ -242,10 +233,9 @@ GltfArray GltfDocument::array(std::uint64_t index) const {
 }
 
 double GltfDocument::value(const GltfArray& array, std::uint64_t row, std::size_t column) const {
-    const GltfComponent& type = *array.component;
-    const double number =
-        type.load(file_.bytes.data() + array.offset + row * array.stride + column * type.size);
-    return array.is_normalized ? std::max(number / type.largest, -1.0) : number;
+    const char* const bytes = file_.bytes.data() + array.offset + row * array.stride;
+    const double number = load_number(bytes + column * size_of(array.type), array.type);
+    return array.largest > 0 ? std::max(number / array.largest, -1.0) : number;
 }
 
 }  // namespace remesh

@@ -6,24 +6,17 @@
 #include <optional>
 #include <vector>
 
+#include "remesh/meshfile/mesh_file.h"
 #include "remesh/meshfile/source_file.h"
 
 namespace remesh {
-
-//! A type of numbers.
-struct GltfComponent {
-    std::uint64_t number;  //!< That of glTF.
-    std::size_t size;
-    double largest;  //!< That of the type, for numbers that are normalized.
-    double (*load)(const char* bytes);
-};
 
 //! Rows of an array of glTF, which lie in the document's bytes.
 struct GltfArray {
     std::uint64_t num_rows = 0;
     std::size_t num_columns = 0;
-    bool is_normalized = false;  //!< Integers stand for numbers up to 1.
-    const GltfComponent* component = nullptr;
+    NumberType type = NumberType::Float32;
+    double largest = 0;      //!< Integer that stands for 1; 0: numbers stand for themselves.
     std::size_t offset = 0;  //!< Of the first row, in the document's bytes.
     std::size_t stride = 0;  //!< From row to row, in bytes.
 };
@@ -41,6 +34,11 @@ public:
 
     //! Element `index` of the root's list, an object.
     [[nodiscard]] const nlohmann::json& at(const char* list, std::uint64_t index) const;
+    //! The member; null if it is missing, or if this is no object.
+    [[nodiscard]] static const nlohmann::json& member(const nlohmann::json& object,
+                                                      const char* key);
+    //! The member, a text; empty if it is none.
+    [[nodiscard]] static std::string text(const nlohmann::json& object, const char* key);
     //! The member, a list; an empty one if it is missing.
     [[nodiscard]] const nlohmann::json& list(const nlohmann::json& object, const char* key) const;
     //! The member, a whole number from 0; nothing if it is missing.
@@ -53,7 +51,7 @@ public:
 
     //! An accessor whose rows all lie in the file.
     [[nodiscard]] GltfArray array(std::uint64_t accessor) const;
-    //! A number of it; with is_normalized from -1 to 1.
+    //! A number of it.
     [[nodiscard]] double value(const GltfArray& array, std::uint64_t row, std::size_t column) const;
 
     //! What a row's errors name: its place in the file, or the file's begin if it lies elsewhere.

@@ -91,6 +91,14 @@ double intensity(const Attribute& part, std::size_t element) {
                                              : value;
 }
 
+std::array<float, 4> intensities(const std::vector<const Attribute*>& colors, std::size_t element) {
+    std::array<float, 4> color{0, 0, 0, 1};
+    for (std::size_t k = 0; k < colors.size(); ++k) {
+        color[k] = static_cast<float>(intensity(*colors[k], element));
+    }
+    return color;
+}
+
 std::string one_line(std::string name) {
     std::erase_if(name, [](char c) { return (c >= 0 && c < ' ') || c == '\\'; });
     return name;

@@ -36,6 +36,11 @@ private:
 //! A part of a colour from 0 to 1.
 [[nodiscard]] double intensity(const Attribute& part, std::size_t element);
 
+//! The colour of an element as text formats write it, with alpha 1 if there is none.
+//! \param colors  see colors_of; not empty.
+[[nodiscard]] std::array<float, 4> intensities(const std::vector<const Attribute*>& colors,
+                                               std::size_t element);
+
 //! The name without what text formats cannot hold: they have it on one line, and a backslash would
 //! join that with the next one.
 [[nodiscard]] std::string one_line(std::string name);

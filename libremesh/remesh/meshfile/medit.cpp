@@ -19,20 +19,34 @@ constexpr const char* ref_name = "ref";
 
 // A list of the file. Those that are skipped have some numbers for each element.
 struct MeditList {
-    enum class Kind { Vertices, Faces, Volumes, PassedOver };
+    enum class Kind {
+        Vertices,
+        Faces,
+        Volumes,
+        Edges,
+        Ridges,  // They are among the edges.
+        RequiredEdges,
+        RequiredVertices,
+        PassedOver
+    };
     std::string_view keyword;
     Kind kind;
-    std::size_t size;  // Corners or numbers of an element.
+    std::size_t size = 0;  // Corners or numbers of an element.
     VolumeCell cell = {};
 };
 constexpr MeditList medit_lists[] = {
-    {"Vertices", MeditList::Kind::Vertices, 1},
+    {"Vertices", MeditList::Kind::Vertices},
     {"Triangles", MeditList::Kind::Faces, 3},
     {"Quadrilaterals", MeditList::Kind::Faces, 4},
     {"Tetrahedra", MeditList::Kind::Volumes, 4, VolumeCell::Tetrahedron},
     {"Hexahedra", MeditList::Kind::Volumes, 8, VolumeCell::Hexahedron},
     {"Prisms", MeditList::Kind::Volumes, 6, VolumeCell::Wedge},
     {"Pyramids", MeditList::Kind::Volumes, 5, VolumeCell::Pyramid},
+    {"Edges", MeditList::Kind::Edges},
+    {"Ridges", MeditList::Kind::Ridges},
+    {"RequiredEdges", MeditList::Kind::RequiredEdges},
+    {"RequiredVertices", MeditList::Kind::RequiredVertices},
+    {"Corners", MeditList::Kind::RequiredVertices},
     {"RequiredTriangles", MeditList::Kind::PassedOver, 1},
     {"RequiredQuadrilaterals", MeditList::Kind::PassedOver, 1},
     {"RequiredTetrahedra", MeditList::Kind::PassedOver, 1},
@@ -43,12 +57,6 @@ constexpr MeditList medit_lists[] = {
     {"Tangents", MeditList::Kind::PassedOver, 3},
     {"TangentAtVertices", MeditList::Kind::PassedOver, 2},
     {"TangentAtEdges", MeditList::Kind::PassedOver, 3}};
-
-// What is to be kept, with the file's numbers from 1.
-struct MeditKept {
-    std::vector<std::array<std::int64_t, 2>> edges;
-    std::vector<std::int64_t> required_edges, required_vertices;
-};
 
 using Edge = std::array<Index, 2>;
 
@@ -125,69 +133,52 @@ private:
     }
 
     void read_list(std::string_view keyword) {
-        if (read_kept(keyword)) return;
-        const auto* const list =
-            std::find_if(std::begin(medit_lists), std::end(medit_lists),
-                         [&](const MeditList& known) { return keyword == known.keyword; });
+        const auto* const list = std::ranges::find(medit_lists, keyword, &MeditList::keyword);
         if (list == std::end(medit_lists)) {
             file_.fail_malformed(
                 start_, "unknown keyword ", in_quotes(keyword),
                 "; save the file with vertices, triangles and quadrilaterals only");
         }
-        const std::uint64_t count = read_count();
-        if (keyword.starts_with("Required") && count > 0) {
+        next();
+        const std::uint64_t count = scan_.count("the number of elements");
+        if (list->kind == MeditList::Kind::PassedOver && keyword.starts_with("Required") &&
+            count > 0) {
             warnings_.push_back(std::string(keyword) + " are skipped");
         }
         for (std::uint64_t i = 0; i < count; ++i) {
-            switch (list->kind) {
-                case MeditList::Kind::Vertices:
-                    read_vertex();
-                    break;
-                case MeditList::Kind::Faces:
-                    for (std::size_t k = 0; k < list->size; ++k) soup_.add_corner(corner(), start_);
-                    soup_.end_polygon();
-                    read_ref(face_refs_);
-                    break;
-                case MeditList::Kind::Volumes:
-                    soup_.ticker.tick(4);
-                    for (std::size_t k = 0; k < list->size; ++k)
-                        volumes_.add_corner(corner(), start_);
-                    volumes_.end_cell(list->cell);
-                    read_ref(volume_refs_);
-                    break;
-                case MeditList::Kind::PassedOver:
-                    skip(list->size);
-            }
+            soup_.ticker.tick(2);
+            read_element(*list);
         }
     }
 
-    std::uint64_t read_count() {
-        next();
-        return scan_.count("the number of elements");
-    }
-
-    // \return false: the list is another one.
-    bool read_kept(std::string_view keyword) {
-        const bool is_vertices = keyword == "RequiredVertices" || keyword == "Corners";
-        const bool is_ridges = keyword == "Ridges";  // They are among the edges.
-        if (keyword != "Edges" && keyword != "RequiredEdges" && !is_vertices && !is_ridges) {
-            return false;
+    void read_element(const MeditList& list) {
+        switch (list.kind) {
+            case MeditList::Kind::Vertices:
+                return read_vertex();
+            case MeditList::Kind::Faces:
+                for (std::size_t k = 0; k < list.size; ++k) soup_.add_corner(corner(), start_);
+                soup_.end_polygon();
+                return read_ref(face_refs_);
+            case MeditList::Kind::Volumes:
+                for (std::size_t k = 0; k < list.size; ++k) volumes_.add_corner(corner(), start_);
+                volumes_.end_cell(list.cell);
+                return read_ref(volume_refs_);
+            case MeditList::Kind::Edges:
+                edges_.push_back({integer("a number from 1"), integer("a vertex")});
+                return skip(1);
+            case MeditList::Kind::Ridges:
+                integer("a number from 1");
+                return;
+            case MeditList::Kind::RequiredEdges:
+                return required_edges_.push_back(integer("a number from 1"));
+            case MeditList::Kind::RequiredVertices:
+                return required_vertices_.push_back(integer("a number from 1"));
+            case MeditList::Kind::PassedOver:
+                return skip(list.size);
         }
-        for (std::uint64_t left = read_count(); left > 0; --left) {
-            soup_.ticker.tick();
-            const std::int64_t number = integer("a number from 1");
-            if (keyword == "Edges") {
-                kept_.edges.push_back({number, integer("a vertex")});
-                skip(1);
-            } else if (!is_ridges) {
-                (is_vertices ? kept_.required_vertices : kept_.required_edges).push_back(number);
-            }
-        }
-        return true;
     }
 
     void read_vertex() {
-        soup_.ticker.tick(2);
         Vec3 p;
         for (int k = 0; k < 3; ++k) {
             next();
@@ -221,7 +212,6 @@ private:
 
     void skip(std::size_t count) {
         for (; count > 0; --count) {
-            soup_.ticker.tick();
             next();
             static_cast<void>(scan_.number("a number"));
         }
@@ -229,7 +219,7 @@ private:
 
     // References that are all 0 say nothing.
     static void add(std::vector<double> refs, std::vector<Attribute>& attributes) {
-        if (std::all_of(refs.begin(), refs.end(), [](double ref) { return ref == 0; })) return;
+        if (std::ranges::count(refs, 0) == std::ssize(refs)) return;
         attributes.push_back(
             {.name = ref_name, .type = NumberType::Int32, .values = std::move(refs)});
     }
@@ -238,12 +228,11 @@ private:
     // all those of the mesh: these say nothing.
     void finish_kept(MeshFile& result) {
         std::size_t num_missing = 0;
-        const std::vector<Edge> all =
-            kept_.edges.empty() ? std::vector<Edge>() : edges_of(result.mesh);
+        const std::vector<Edge> all = edges_.empty() ? std::vector<Edge>() : edges_of(result.mesh);
         const auto add = [&](std::int64_t number, std::vector<Edge>& edges) {
             Edge edge{no_index, no_index};
-            if (number >= 1 && number <= static_cast<std::int64_t>(kept_.edges.size())) {
-                const auto [a, b] = kept_.edges[static_cast<std::size_t>(number - 1)];
+            if (number >= 1 && number <= static_cast<std::int64_t>(edges_.size())) {
+                const auto [a, b] = edges_[static_cast<std::size_t>(number - 1)];
                 if (std::min(a, b) >= 1 && std::max(a, b) < no_index) {
                     edge = in_order(static_cast<Index>(a - 1), static_cast<Index>(b - 1));
                 }
@@ -254,12 +243,11 @@ private:
                 ++num_missing;
             }
         };
-        for (std::size_t i = 1; i <= kept_.edges.size(); ++i) {
+        for (std::size_t i = 1; i <= edges_.size(); ++i) {
             add(static_cast<std::int64_t>(i), result.feature_edges);
         }
-        for (const std::int64_t number : kept_.required_edges) add(number, result.locked_edges);
-        const std::set<std::int64_t> wanted(kept_.required_vertices.begin(),
-                                            kept_.required_vertices.end());
+        for (const std::int64_t number : required_edges_) add(number, result.locked_edges);
+        const std::set<std::int64_t> wanted(required_vertices_.begin(), required_vertices_.end());
         std::set<Index> locked;
         for (const Triangle& t : result.mesh.triangles) {
             for (const Index v : t) {
@@ -303,7 +291,9 @@ private:
     VolumeSurface volumes_;
     std::size_t start_ = 0;  // Of the word that is being read.
     std::vector<double> vertex_refs_, face_refs_, volume_refs_;
-    MeditKept kept_;
+    // What is to be kept, with the file's numbers from 1.
+    std::vector<std::array<std::int64_t, 2>> edges_;
+    std::vector<std::int64_t> required_edges_, required_vertices_;
     std::vector<std::string> warnings_;
 };
 
@@ -315,7 +305,7 @@ bool is_reference(const Attribute& attribute) {
 const Attribute* references_of(const std::vector<Attribute>& attributes) {
     const Attribute* const named = find_attribute(attributes, ref_name);
     if (named != nullptr && is_reference(*named)) return named;
-    const auto found = std::find_if(attributes.begin(), attributes.end(), is_reference);
+    const auto found = std::ranges::find_if(attributes, is_reference);
     return found == attributes.end() ? nullptr : &*found;
 }
 
@@ -343,8 +333,7 @@ std::string format_medit(const MeshView& mesh, const MeshAttributes& attributes,
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
         ticker.tick(4);
         append_line(bytes, "", mesh.positions[v]);
-        bytes.back() = ' ';
-        append_line(bytes, "", std::array{reference(vertex_refs, v)});
+        append_to_line(bytes, std::array{reference(vertex_refs, v)});
     }
     bytes += "Triangles\n" + std::to_string(mesh.triangles.size()) + '\n';
     for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {

@@ -59,6 +59,18 @@ template <typename Call>
     return call(double{});
 }
 
+//! The bytes that a number takes.
+[[nodiscard]] inline std::size_t size_of(NumberType type) {
+    return with_type(type, [](auto zero) { return sizeof zero; });
+}
+
+//! The number of a type stored at `bytes`.
+[[nodiscard]] inline double load_number(const char* bytes, NumberType type,
+                                        std::endian order = std::endian::little) {
+    return with_type(type,
+                     [&]<typename T>(T) { return static_cast<double>(load<T>(bytes, order)); });
+}
+
 //! Appends a value in a type; integers are rounded and kept in the range of the type, NaN becomes
 //! 0.
 inline void append_number(std::string& bytes, NumberType type, double value,

@@ -37,34 +37,23 @@ public:
 
     // The words behind a vertex's coordinates: three are a colour, one is a weight.
     void take_color(std::size_t vertex, TextScanner& scan) {
-        std::array<double, 4> numbers{};
-        std::size_t count = 0;
-        while (scan.has_word()) {  // Over joined lines too.
-            if (!is_wanted_ || count == numbers.size()) {
-                scan.word();
-                continue;
-            }
-            const std::optional<double> number = scan.number_or_other("a number");
-            if (!number) colors_.spoil();
-            numbers[count++] = number.value_or(0);
+        if (is_wanted_) {
+            const TextScanner::Numbers numbers = scan.numbers(4);
+            if (numbers.is_broken) colors_.spoil();
+            const std::span color = std::span(numbers.values).first(numbers.count);
+            if (color.size() > 1) colors_.take(vertex, color);
         }
-        if (count > 1) colors_.take(vertex, std::span(numbers).first(count));
+        while (scan.has_word()) scan.word();  // Over joined lines too.
     }
 
     // The coordinates behind vt: a second one may be missing, a third one does not count.
     void take_texture(TextScanner& scan, SoupTexture& texture) const {
-        std::array<double, 2> numbers{};
-        bool is_broken = false;
-        for (double& number : numbers) {
-            if (!scan.has_word()) break;  // Joined lines are skipped, wanted or not.
-            const std::optional<double> read = scan.number_or_other("a number");
-            is_broken = is_broken || !read;
-            number = read.value_or(0);
-        }
+        // Joined lines are skipped, wanted or not.
+        const TextScanner::Numbers numbers = scan.numbers(2);
         if (!is_wanted_) return;
         texture.name = "vt";
-        texture.is_broken = texture.is_broken || is_broken;
-        texture.add(numbers[0], numbers[1]);
+        texture.is_broken = texture.is_broken || numbers.is_broken;
+        texture.add(numbers.values[0], numbers.values[1]);
     }
 
     // Any other statement than v, vt and f.
@@ -158,18 +147,6 @@ void take_coordinates(std::string_view rest, PolygonSoup& soup) {
     texture.set_corner(soup.num_corners(), static_cast<Index>(number - 1));
 }
 
-void append_vertex(std::string& bytes, const Vec3& p, std::size_t vertex,
-                   const std::vector<const Attribute*>& colors) {
-    append_line(bytes, "v ", p);
-    if (colors.empty()) return;
-    bytes.pop_back();
-    std::array<float, 3> color{};
-    for (std::size_t k = 0; k < 3; ++k) {
-        color[k] = static_cast<float>(intensity(*colors[k], vertex));
-    }
-    append_line(bytes, " ", color);
-}
-
 // Statements for the labels that differ from those of the face before: object, group, material.
 void append_labels(std::string& bytes, const std::vector<Attribute>& of_faces, std::size_t face) {
     for (std::size_t i = label_statements.size(); i-- > 0;) {
@@ -255,9 +232,9 @@ MeshFile read_obj(SourceFile file) {
         }
         scan.skip_line();
     }
-    const std::size_t num_vertices = soup.positions.size(), num_polygons = soup.num_polygons();
+    const std::size_t num_polygons = soup.num_polygons();
     MeshFile result = std::move(soup).finish();
-    attach(std::move(attributes).finish(num_vertices, num_polygons), result);
+    attach(std::move(attributes).finish(result.mesh.positions.size(), num_polygons), result);
     if (num_coordinates == 2) {
         add_warning(result, file.path.string(),
                     ": the vertices have two coordinates; z = 0 is taken");
@@ -271,8 +248,8 @@ bool obj_holds(const Attribute& attribute, ElementKind kind, const MeshAttribute
                !colors_of(all.of_vertices).empty();
     }
     return !attribute.names.empty() &&
-           std::any_of(label_statements.begin(), label_statements.end(),
-                       [&](const auto& known) { return attribute.name == known.attribute; });
+           std::ranges::find(label_statements, attribute.name, &LabelStatement::attribute) !=
+               label_statements.end();
 }
 
 std::string format_obj(const MeshView& mesh, const MeshAttributes& attributes, Ticker ticker) {
@@ -281,7 +258,9 @@ std::string format_obj(const MeshView& mesh, const MeshAttributes& attributes, T
     const std::vector<const Attribute*> colors = colors_of(attributes.of_vertices);
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
         ticker.tick(4);
-        append_vertex(bytes, mesh.positions[v], v, colors);
+        append_line(bytes, "v ", mesh.positions[v]);
+        if (colors.empty()) continue;
+        append_to_line(bytes, std::span<const float>(intensities(colors, v)).first(3));
     }
     if (attributes.normals) {
         for (const Vec3& normal : vertex_normals(mesh)) {

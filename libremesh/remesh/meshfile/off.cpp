@@ -83,21 +83,17 @@ MeshFile read_binary_off(SourceFile& file, std::size_t at, const Extras& extras)
 // \param texture  gets the last two; null: there are none.
 void take_color(TextScanner& scan, std::size_t index, const Extras& extras, TextColors& colors,
                 SoupTexture* texture = nullptr) {
-    std::array<double, 9> numbers{};
-    std::size_t count = 0;
-    for (; scan.has_word() && count < numbers.size(); ++count) {
-        const std::optional<double> number = scan.number_or_other("a number");
-        if (!number && extras.color) colors.spoil();
-        numbers[count] = number.value_or(0);
-        if (texture != nullptr) texture->is_broken = texture->is_broken || !number;
-    }
+    const TextScanner::Numbers numbers = scan.numbers(9);
+    const std::size_t count = numbers.count;
     const std::size_t before = extras.normal ? 3 : 0, after = extras.texture ? 2 : 0;
+    if (extras.color && numbers.is_broken) colors.spoil();
     if (extras.color && count > before + after) {
-        colors.take(index, std::span(numbers).subspan(before, count - before - after));
+        colors.take(index, std::span(numbers.values).subspan(before, count - before - after));
     }
     if (texture == nullptr) return;
-    texture->is_broken = texture->is_broken || count < before + after || scan.has_word();
-    if (!texture->is_broken) texture->add(numbers[count - 2], numbers[count - 1]);
+    texture->is_broken =
+        texture->is_broken || numbers.is_broken || count < before + after || scan.has_word();
+    if (!texture->is_broken) texture->add(numbers.values[count - 2], numbers.values[count - 1]);
 }
 
 void find_element(TextScanner& scan, const char* kind, std::uint64_t index, std::uint64_t count) {
@@ -107,26 +103,14 @@ void find_element(TextScanner& scan, const char* kind, std::uint64_t index, std:
         "; it is truncated, or has several elements on a line: export the file again");
 }
 
-// In place of the line end.
-template <typename Row>
-void append_to_line(std::string& bytes, const Row& row) {
-    bytes.pop_back();
-    append_line(bytes, " ", row);
-}
-
 void append_color(std::string& bytes, const std::vector<const Attribute*>& colors, std::size_t i) {
     if (colors.empty()) return;
-    if (colors.front()->type == NumberType::UInt8) {
-        std::array<int, 4> color{0, 0, 0, 255};
-        for (std::size_t k = 0; k < colors.size(); ++k) {
-            color[k] = static_cast<int>(colors[k]->values[i]);
-        }
-        append_to_line(bytes, color);
-        return;
+    if (colors.front()->type != NumberType::UInt8) {
+        return append_to_line(bytes, intensities(colors, i));
     }
-    std::array<float, 4> color{0, 0, 0, 1};
+    std::array<int, 4> color{0, 0, 0, 255};
     for (std::size_t k = 0; k < colors.size(); ++k) {
-        color[k] = static_cast<float>(intensity(*colors[k], i));
+        color[k] = static_cast<int>(colors[k]->values[i]);
     }
     append_to_line(bytes, color);
 }

@@ -16,15 +16,16 @@ namespace {
 
 bool is_normal(const std::string& name) { return name == "nx" || name == "ny" || name == "nz"; }
 
-// Why a property is not carried over; empty: it is. Normals are computed anew, and other lists have
+// Why a property is not carried over; null: it is. Normals are computed anew, and other lists have
 // no single value.
-std::string reason_against(const PlyProperty& property, const PlyElement& element,
+const char* reason_against(const PlyProperty& property, const PlyElement& element,
                            ElementKind kind) {
     if (property.size_type) return "lists are not carried over";
     if (kind == ElementKind::Face && is_normal(property.name)) {
         return "normals of faces are not carried over";
     }
-    return element.find(property.name) == &property ? "" : "another property has the same name";
+    return element.find(property.name) == &property ? nullptr
+                                                    : "another property has the same name";
 }
 
 // Takes the values of an element's other properties, one element after the other.
@@ -45,8 +46,7 @@ public:
         for (std::size_t i = 0; i < element.properties.size(); ++i) {
             const PlyProperty& property = element.properties[i];
             if (std::find(used.begin(), used.end(), &property) != used.end()) continue;
-            const std::string reason = reason_against(property, element, kind);
-            if (!reason.empty()) {
+            if (const char* const reason = reason_against(property, element, kind)) {
                 attributes.declined.push_back({element.name + " " + property.name, reason});
             } else if (kind == ElementKind::Vertex && is_normal(property.name)) {
                 attributes.normals = property.type;
@@ -120,11 +120,7 @@ void read_strips(Values& values, const PlyElement& element, const SourceFile& fi
                 const std::size_t start = values.offset();
                 const std::int64_t vertex = values.integer(property.type);
                 soup.ticker.tick();
-                if (vertex == -1) {
-                    strip.end();
-                } else {
-                    strip.add(vertex, start);
-                }
+                vertex == -1 ? strip.end() : strip.add(vertex, start);
             }
             strip.end();
         }
@@ -176,12 +172,19 @@ std::array<const PlyProperty*, 2> find_texture(const PlyElement& vertices, const
     const auto has_own = [](const PlyElement& element) {
         return element.name == "face" && texture_list(element) != nullptr;
     };
-    if (std::none_of(header.elements.begin(), header.elements.end(), has_own)) return pair;
+    if (std::ranges::none_of(header.elements, has_own)) return pair;
     for (const PlyProperty* one : pair) {
         attributes.declined.push_back(
             {"vertex " + one->name, "the faces have texture coordinates of their own"});
     }
     return {nullptr, nullptr};
+}
+
+template <typename Values>
+double read_coordinate(Values& values, NumberType type, SoupTexture& texture) {
+    const std::optional<double> number = values.attribute(type);
+    texture.is_broken = texture.is_broken || !number;
+    return number.value_or(0);
 }
 
 template <typename Values>
@@ -218,9 +221,8 @@ void read_vertices(Values& values, const PlyElement& element, const PlyHeader& h
             if (axis_of[i] < 3) {
                 p[axis_of[i]] = values.real(element.properties[i].type);
             } else if (axis_of[i] < 5) {
-                const std::optional<double> number = values.attribute(element.properties[i].type);
-                soup.texture.is_broken = soup.texture.is_broken || !number;
-                coordinates[axis_of[i] - 3] = number.value_or(0);
+                coordinates[axis_of[i] - 3] =
+                    read_coordinate(values, element.properties[i].type, soup.texture);
             } else {
                 others.take(values, i);
             }
@@ -256,21 +258,17 @@ void read_faces(Values& values, const PlyElement& element, const SourceFile& fil
             if (&property == texture) {
                 coordinates.clear();
                 for (std::int64_t k = read_length(values, property, file); k > 0; --k) {
-                    const std::optional<double> number = values.attribute(property.type);
-                    soup.texture.is_broken = soup.texture.is_broken || !number;
-                    coordinates.push_back(number.value_or(0));
+                    coordinates.push_back(read_coordinate(values, property.type, soup.texture));
                 }
-                continue;
-            }
-            if (&property != &corners) {
+            } else if (&property == &corners) {
+                for (std::int64_t k = read_length(values, property, file); k > 0; --k) {
+                    const std::size_t start = values.offset();
+                    soup.add_corner(values.integer(property.type), start);
+                }
+                soup.end_polygon();
+            } else {
                 others.take(values, i);
-                continue;
             }
-            for (std::int64_t k = read_length(values, property, file); k > 0; --k) {
-                const std::size_t start = values.offset();
-                soup.add_corner(values.integer(property.type), start);
-            }
-            soup.end_polygon();
         }
         if (texture != nullptr) {
             set_texture(coordinates, soup.num_corners() - num_before, soup);
@@ -285,7 +283,7 @@ void read_faces(Values& values, const PlyElement& element, const SourceFile& fil
 bool looks_misread(const MeshFile& file) {
     constexpr double least = std::numeric_limits<float>::min();
     return file.dropped_polygons > 0 ||
-           std::any_of(file.mesh.positions.begin(), file.mesh.positions.end(), [&](const Vec3& p) {
+           std::ranges::any_of(file.mesh.positions, [&](const Vec3& p) {
                return (p.array() != 0 && p.array().abs() < least).any();
            });
 }

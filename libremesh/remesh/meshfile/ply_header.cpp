@@ -3,16 +3,15 @@
 namespace remesh {
 namespace {
 
-constexpr struct {
-    const char* name;
-    PlyType type;
-} type_names[] = {
-    {"char", PlyType::Int8},      {"int8", PlyType::Int8},       {"uchar", PlyType::UInt8},
-    {"uint8", PlyType::UInt8},    {"short", PlyType::Int16},     {"int16", PlyType::Int16},
-    {"ushort", PlyType::UInt16},  {"uint16", PlyType::UInt16},   {"int", PlyType::Int32},
-    {"int32", PlyType::Int32},    {"uint", PlyType::UInt32},     {"uint32", PlyType::UInt32},
-    {"float", PlyType::Float32},  {"float32", PlyType::Float32}, {"double", PlyType::Float64},
-    {"float64", PlyType::Float64}};
+// By NumberType: both names of each.
+constexpr std::array<std::array<const char*, 2>, 8> type_names = {{{"char", "int8"},
+                                                                   {"uchar", "uint8"},
+                                                                   {"short", "int16"},
+                                                                   {"ushort", "uint16"},
+                                                                   {"int", "int32"},
+                                                                   {"uint", "uint32"},
+                                                                   {"float", "float32"},
+                                                                   {"double", "float64"}}};
 
 std::string read_name(TextScanner& scan, const char* what) {
     if (!scan.has_word()) scan.fail_expecting(what);
@@ -22,14 +21,12 @@ std::string read_name(TextScanner& scan, const char* what) {
 PlyType read_type(TextScanner& scan, const SourceFile& file) {
     const std::size_t start = scan.offset();
     const std::string name = read_name(scan, "a type");
-    const auto* const found = std::find_if(std::begin(type_names), std::end(type_names),
-                                           [&](const auto& known) { return name == known.name; });
-    if (found == std::end(type_names)) {
-        file.fail_malformed(start, "unknown property type ", in_quotes(name),
-                            "; PLY has char, uchar, short, ushort, int, uint, float and double; "
-                            "export the file with these");
+    for (std::size_t type = 0; type < type_names.size(); ++type) {
+        if (name == type_names[type][0] || name == type_names[type][1]) return PlyType(type);
     }
-    return found->type;
+    file.fail_malformed(start, "unknown property type ", in_quotes(name),
+                        "; PLY has char, uchar, short, ushort, int, uint, float and double; "
+                        "export the file with these");
 }
 
 PlyProperty read_property(TextScanner& scan, const SourceFile& file) {
@@ -69,16 +66,10 @@ std::size_t end_of_header(const SourceFile& file, std::size_t offset) {
 
 }  // namespace
 
-const char* name_of(PlyType type) {
-    return std::find_if(std::begin(type_names), std::end(type_names),
-                        [&](const auto& known) { return known.type == type; })
-        ->name;
-}
+const char* name_of(PlyType type) { return type_names[static_cast<std::size_t>(type)][0]; }
 
 const PlyProperty* PlyElement::find(std::string_view property) const {
-    const auto found =
-        std::find_if(properties.begin(), properties.end(),
-                     [&](const PlyProperty& known) { return known.name == property; });
+    const auto found = std::ranges::find(properties, property, &PlyProperty::name);
     return found == properties.end() ? nullptr : &*found;
 }
 

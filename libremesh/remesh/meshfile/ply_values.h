@@ -61,7 +61,8 @@ public:
     double real(PlyType) { return scan_.number("a number"); }
     //! None if the word is no value of the type.
     std::optional<double> attribute(PlyType type) {
-        const std::optional<double> value = scan_.number_or_other("a number");
+        if (!scan_.has_word()) scan_.fail_expecting("a number");
+        const std::optional<double> value = as_number(scan_.rest_of_word());
         return value && is_value_of(type, *value) ? value : std::nullopt;
     }
     std::int64_t integer(PlyType) { return scan_.integer("a whole number"); }
@@ -109,8 +110,7 @@ public:
     std::int64_t integer(PlyType type) { return next<std::int64_t>(type); }
     void skip(PlyType type, std::int64_t count) {
         // A length has 32 bits at most: the product cannot overflow.
-        take(with_type(type, [](auto zero) { return sizeof zero; }) *
-             static_cast<std::size_t>(count));
+        take(size_of(type) * static_cast<std::size_t>(count));
     }
     void end() {}
     [[nodiscard]] std::size_t offset() const { return at_; }

@@ -4,7 +4,6 @@
 // Properties Extension" 1.2, "Production Extension" 1.1).
 
 #include <algorithm>
-#include <memory>
 
 #include "remesh/meshfile/formats.h"
 #include "remesh/meshfile/materials.h"
@@ -21,8 +20,7 @@ struct Placement3mf {
     std::string part;  // That holds the object; empty: the one where this stands.
     std::uint64_t object = 0;
     Eigen::Affine3d transform = Eigen::Affine3d::Identity();
-    bool is_moved = false;  // Else the transform changes nothing.
-    std::size_t tag = 0;    // In the text of the part.
+    std::size_t tag = 0;  // In the text of the part.
 };
 
 struct Object3mf {
@@ -30,20 +28,26 @@ struct Object3mf {
     bool is_surface = true;  // Else it supports others while they are printed, or the like.
     std::vector<Vec3> vertices;
     std::vector<Triangle> triangles;    // Their corners are in range.
-    std::vector<Index> materials = {};  // By triangle, with attributes: of Model3mf::names.
+    std::vector<Index> materials = {};  // By triangle, with attributes: of Model3mf::materials.
     std::vector<Placement3mf> components = {};
 };
+
+// Its name, and its colour as in the file: #RRGGBB or #RRGGBBAA.
+using Material3mf = std::pair<std::string, std::string>;
 
 // A model part of the file, before its objects are put together.
 struct Model3mf {
     std::map<std::uint64_t, Object3mf> objects;
     std::vector<Placement3mf> items;
     std::string unit = "millimeter";
-    std::vector<std::string> names = {""};   // Of materials; the first: none.
-    std::vector<std::string> colors = {""};  // Of each, as in the file: #RRGGBB or #RRGGBBAA.
-    bool has_lattice = false;                // Beams, which are not read.
-    bool has_texture = false;                // Properties of triangles that are not read.
-    bool has_gradients = false;              // Triangles whose corners have different colours.
+    std::vector<Material3mf> materials = {{}};  // The first: none.
+};
+
+// What the parts have and is not read.
+struct Skipped3mf {
+    bool lattice = false;    // Beams.
+    bool texture = false;    // Properties of triangles.
+    bool gradients = false;  // Triangles whose corners have different colours.
 };
 
 constexpr std::string_view core_space = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02",
@@ -72,37 +76,35 @@ std::string_view next_word(std::string_view& text) {
 
 class ModelParser3mf : public XmlVisitor {
 public:
-    explicit ModelParser3mf(const SourceFile& part) : part_(part) {}
+    ModelParser3mf(const SourceFile& part, Skipped3mf& skipped) : part_(part), skipped_(skipped) {}
 
     void declare(std::string_view prefix, std::string_view uri) override {
         spaces_[std::string(prefix)] = uri;
     }
 
     bool begin(const XmlTag& tag) override {
-        const std::size_t depth = depth_++;
-        if (depth == 0) {
+        if (tag.depth == 0) {
             read_root(tag);
         } else if (tag.space == core_space) {
-            read_core(tag, depth);
+            read_core(tag);
         } else if (tag.space == material_space) {
-            if (tag.name == "colorgroup") open_group(tag, depth, true);
+            if (tag.name == "colorgroup") open_group(tag, true);
             if (tag.name == "color") add_material(tag, "color", "color");
         } else if (tag.name == "beamlattice") {
-            model_.has_lattice = true;
+            skipped_.lattice = true;
         }
         return true;
     }
 
-    void end(std::size_t /*at*/, std::size_t /*behind*/) override {
-        --depth_;
-        if (depth_ == object_depth_) object_ = nullptr;
-        if (depth_ == group_depth_) group_ = nullptr;
+    void end(std::size_t depth, std::size_t /*at*/, std::size_t /*behind*/) override {
+        if (depth == object_depth_) object_ = nullptr;
+        if (depth == group_depth_) group_ = nullptr;
     }
 
     Model3mf finish() && { return std::move(model_); }
 
 private:
-    // Materials or colours: these names of the model.
+    // Materials or colours: these of the model.
     struct Group {
         std::size_t first = 0, count = 0;
         bool is_color = false;
@@ -138,31 +140,31 @@ private:
         }
     }
 
-    void read_core(const XmlTag& tag, std::size_t depth) {
+    void read_core(const XmlTag& tag) {
         if (tag.name == "vertex") {
             read_vertex(tag);
         } else if (tag.name == "triangle") {
             read_triangle(tag);
         } else if (tag.name == "object") {
-            read_object(tag, depth);
+            read_object(tag);
         } else if (tag.name == "component") {
             open_object(tag).components.push_back(placement(tag));
         } else if (tag.name == "item") {
             model_.items.push_back(placement(tag));
         } else if (tag.name == "basematerials") {
-            open_group(tag, depth, false);
+            open_group(tag, false);
         } else if (tag.name == "base") {
             add_material(tag, "name", "displaycolor");
         }
     }
 
-    void read_object(const XmlTag& tag, std::size_t depth) {
+    void read_object(const XmlTag& tag) {
         if (object_ != nullptr) fail(tag, "there is an object inside of another");
         const std::uint64_t id = required_number(tag, "id");
         const auto [entry, is_new] = model_.objects.try_emplace(id);
         if (!is_new) fail(tag, "there are two objects with the id ", id);
         object_ = &entry->second;
-        object_depth_ = depth;
+        object_depth_ = tag.depth;
         const std::string_view type = tag.find("type").value_or("model");
         object_->is_surface = type == "model" || type == "surface";
         object_->name = tag.find("name").value_or("");
@@ -180,7 +182,12 @@ private:
         Object3mf& object = open_object(tag);
         Vec3 p;
         constexpr std::array names = {"x", "y", "z"};
-        for (int k = 0; k < 3; ++k) p[k] = coordinate(tag, names[static_cast<std::size_t>(k)]);
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::string_view text = trimmed(tag.find(names[k]).value_or(""));
+            const auto value = as_number(text);
+            if (!value) fail(tag, names[k], " of a vertex is ", in_quotes(text), " and no number");
+            p.data()[k] = *value;
+        }
         if (!p.allFinite()) {
             part_.fail_unusable(
                 tag.begin, "vertex ", object.vertices.size(), " of object ", in_quotes(object.name),
@@ -217,7 +224,7 @@ private:
         if (!group || !property) return 0;
         const auto found = groups_.find(*group);
         if (found == groups_.end()) {
-            model_.has_texture = true;
+            skipped_.texture = true;
             return 0;
         }
         const Group& names = found->second;
@@ -227,23 +234,22 @@ private:
         }
         for (const char* other : {"p2", "p3"}) {
             if (names.is_color && number(tag, other).value_or(*property) != *property) {
-                model_.has_gradients = true;
+                skipped_.gradients = true;
             }
         }
         return static_cast<Index>(names.first + *property);
     }
 
-    void open_group(const XmlTag& tag, std::size_t depth, bool is_color) {
+    void open_group(const XmlTag& tag, bool is_color) {
         group_ = &groups_[required_number(tag, "id")];
-        group_depth_ = depth;
-        *group_ = {.first = model_.names.size(), .count = 0, .is_color = is_color};
+        group_depth_ = tag.depth;
+        *group_ = {.first = model_.materials.size(), .count = 0, .is_color = is_color};
     }
 
     void add_material(const XmlTag& tag, const char* name, const char* color) {
         if (group_ == nullptr) return;
         ++group_->count;
-        model_.names.emplace_back(tag.find(name).value_or(""));
-        model_.colors.emplace_back(tag.find(color).value_or(""));
+        model_.materials.emplace_back(tag.find(name).value_or(""), tag.find(color).value_or(""));
     }
 
     [[nodiscard]] Placement3mf placement(const XmlTag& tag) const {
@@ -253,7 +259,6 @@ private:
             .tag = tag.begin};
         const auto text = tag.find("transform");
         if (!text) return result;
-        result.is_moved = true;
         // Rows of four by three: the last one is the translation.
         std::string_view left = *text;
         for (int i = 0; i < 12; ++i) {
@@ -280,23 +285,14 @@ private:
         return *value;
     }
 
-    [[nodiscard]] double coordinate(const XmlTag& tag, const char* name) const {
-        const std::string_view text = trimmed(tag.find(name).value_or(""));
-        const auto value = as_number(text);
-        if (!value) {
-            fail(tag, name, " of a vertex is ", in_quotes(text), " and no number");
-        }
-        return *value;
-    }
-
     static constexpr std::size_t no_depth = SIZE_MAX;
 
     const SourceFile& part_;
+    Skipped3mf& skipped_;
     Model3mf model_;
     std::map<std::string, std::string> spaces_;  // By prefix.
     std::map<std::uint64_t, Group> groups_;      // By id.
-    std::size_t depth_ = 0;
-    Object3mf* object_ = nullptr;  // That is open.
+    Object3mf* object_ = nullptr;                // That is open.
     Group* group_ = nullptr;
     std::size_t object_depth_ = no_depth, group_depth_ = no_depth;
     std::optional<std::uint64_t> object_group_, object_property_;
@@ -313,7 +309,6 @@ public:
         if (is_model) target = tag.find("Target").value_or("");
         return !is_model;
     }
-    void end(std::size_t /*at*/, std::size_t /*behind*/) override {}
 
     std::string target;
 };
@@ -335,7 +330,7 @@ public:
                                        "the model has no item to build; export it with one");
         }
         for (const Placement3mf& item : part.model.items) {
-            place(item, part, Eigen::Affine3d::Identity(), false);
+            place(item, part, Eigen::Affine3d::Identity());
             place_components();
         }
         MeshFile result = std::move(soup_).finish();
@@ -347,7 +342,7 @@ public:
                         " objects that are not surfaces of the model (such as supports) are passed "
                         "over");
         }
-        if (has_lattice_) add_warning(result, begin, "beams of lattices are skipped");
+        if (skipped_.lattice) add_warning(result, begin, "beams of lattices are skipped");
         return result;
     }
 
@@ -361,7 +356,6 @@ private:
         const Part* part;
         const Object3mf* object;
         Eigen::Affine3d transform;
-        bool is_moved;
         std::size_t next = 0;  // Of its components.
     };
 
@@ -376,23 +370,20 @@ private:
     }
 
     const Part& load(const std::string& name) {
-        std::unique_ptr<Part>& part = parts_[in_lower_case(name)];
-        if (part == nullptr) {
-            SourceFile source = zip_.read(name);
-            ModelParser3mf parser(source);
-            read_xml(source, parser);
-            part = std::make_unique<Part>(Part{std::move(source), std::move(parser).finish()});
-            has_lattice_ = has_lattice_ || part->model.has_lattice;
-            has_texture_ = has_texture_ || part->model.has_texture;
-            has_gradients_ = has_gradients_ || part->model.has_gradients;
+        const auto [entry, is_new] = parts_.try_emplace(in_lower_case(name));
+        Part& part = entry->second;
+        if (is_new) {
+            part.source = zip_.read(name);
+            ModelParser3mf parser(part.source, skipped_);
+            read_xml(part.source, parser);
+            part.model = std::move(parser).finish();
         }
-        return *part;
+        return part;
     }
 
     // Adds the object's mesh, and opens it if it has components.
     // \param home  the part where the placement stands.
-    void place(const Placement3mf& placement, const Part& home, const Eigen::Affine3d& parent,
-               bool is_parent_moved) {
+    void place(const Placement3mf& placement, const Part& home, const Eigen::Affine3d& parent) {
         const SourceFile& source = home.source;
         if (++num_placements_ > most_placements) {
             source.fail_malformed(placement.tag, "the model places more than ", most_placements,
@@ -413,13 +404,11 @@ private:
             source.fail_damaged(placement.tag, "object ", in_quotes(object.name),
                                 " is a component of itself");
         }
-        const bool is_moved = placement.is_moved || is_parent_moved;
-        const Eigen::Affine3d transform =
-            placement.is_moved ? Eigen::Affine3d(parent * placement.transform) : parent;
-        add_mesh(part.model, object, transform, is_moved);
+        const Eigen::Affine3d transform = parent * placement.transform;
+        add_mesh(part.model, object, transform);
         if (object.components.empty()) return;
         open_objects_.insert(&object);
-        open_.push_back({&part, &object, transform, is_moved});
+        open_.push_back({&part, &object, transform});
     }
 
     void place_components() {
@@ -432,12 +421,14 @@ private:
             }
             const Placement3mf& component = last.object->components[last.next++];
             const Eigen::Affine3d transform = last.transform;  // Opening another moves `last`.
-            place(component, *last.part, transform, last.is_moved);
+            place(component, *last.part, transform);
         }
     }
 
-    void add_mesh(const Model3mf& model, const Object3mf& object, const Eigen::Affine3d& transform,
-                  bool is_moved) {
+    void add_mesh(const Model3mf& model, const Object3mf& object,
+                  const Eigen::Affine3d& transform) {
+        // Otherwise all numbers stay as they are, -0 too.
+        const bool is_moved = transform.matrix() != Eigen::Matrix4d::Identity();
         const std::size_t first = soup_.positions.size();
         if (first + object.vertices.size() >= no_index) {
             throw InvalidInput(joined(
@@ -468,20 +459,20 @@ private:
         std::size_t label = 0;
         for (const Index material : object.materials) {
             soup_.ticker.tick();
-            if (material != last) label = label_of(model, material);
+            if (material != last) label = label_of(model.materials[material]);
             last = material;
             materials_.add(label, 1);
         }
     }
 
     // Materials of one name and different colours are different ones.
-    std::size_t label_of(const Model3mf& model, Index material) {
-        const std::pair key(model.names[material], model.colors[material]);
-        const auto [entry, is_new] = material_label_.try_emplace(key, 0);
+    std::size_t label_of(const Material3mf& material) {
+        const auto [entry, is_new] = material_label_.try_emplace(material, 0);
         if (!is_new) return entry->second;
-        std::string name = key.first.empty() ? key.second : key.first;
+        const auto& [own_name, color] = material;
+        std::string name = own_name.empty() ? color : own_name;
         if (!name.empty()) name = unique_name(name, material_names_);
-        if (!key.second.empty()) colors_[name] = key.second;
+        if (!color.empty()) colors_[name] = color;
         return entry->second = materials_.number_of(name);
     }
 
@@ -494,12 +485,12 @@ private:
         if (objects_.num_labels() > 1) {
             attributes.of_faces.push_back(std::move(objects_).finish("object"));
         }
-        if (has_texture_) {
+        if (skipped_.texture) {
             attributes.declined.push_back(
                 {"properties of triangles",
                  "only materials and colours are carried over, no texture or mixture"});
         }
-        if (has_gradients_) {
+        if (skipped_.gradients) {
             attributes.declined.push_back(
                 {"colours of corners", "a triangle gets that of its first corner"});
         }
@@ -509,15 +500,15 @@ private:
     SourceFile& file_;
     ZipArchive zip_;
     PolygonSoup soup_;
-    std::map<std::string, std::unique_ptr<Part>> parts_;  // By name in lower case.
+    std::map<std::string, Part> parts_;  // By name in lower case.
     std::vector<Open> open_;
     std::set<const Object3mf*> open_objects_;
     std::size_t num_placements_ = 0, num_others_ = 0;
-    bool has_lattice_ = false, has_texture_ = false, has_gradients_ = false;
+    Skipped3mf skipped_;
     FaceLabels materials_, objects_;
     std::set<std::string> material_names_, object_names_;
-    std::map<std::pair<std::string, std::string>, std::size_t> material_label_;  // By name, colour.
-    std::map<std::string, std::string> colors_;                                  // By name.
+    std::map<Material3mf, std::size_t> material_label_;
+    std::map<std::string, std::string> colors_;  // By name.
 };
 
 }  // namespace

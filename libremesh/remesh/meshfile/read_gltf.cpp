@@ -31,9 +31,10 @@ public:
         } else {
             read_nodes(gltf_.at("scenes", gltf_.number(gltf_.root(), "scene").value_or(0)));
         }
-        const std::size_t num_vertices = soup_.positions.size();
         MeshFile result = std::move(soup_).finish();
-        if (file_.with_attributes) attach(finish_attributes(num_vertices), result);
+        if (file_.with_attributes) {
+            attach(finish_attributes(result.mesh.positions.size()), result);
+        }
         result.attributes.unit = "meter";
         if (num_others_ > 0) {
             add_warning(result, file_.path.string(), ": ", num_others_,
@@ -53,8 +54,9 @@ private:
         std::vector<bool> is_seen(gltf_.list(gltf_.root(), "nodes").size(), false);
         const auto push = [&](const nlohmann::json& nodes, const Transform& parent) {
             for (std::size_t i = nodes.size(); i-- > 0;) {
-                if (!nodes[i].is_number_unsigned())
+                if (!nodes[i].is_number_unsigned()) {
                     gltf_.fail("a node is not a whole number from 0");
+                }
                 open.push_back({nodes[i].get<std::uint64_t>(), parent});
             }
         };
@@ -102,21 +104,19 @@ private:
                 ++num_others_;
                 continue;
             }
-            const auto attributes = primitive.find("attributes");
-            if (attributes == primitive.end() || !attributes->is_object()) {
-                gltf_.fail("a primitive has no attributes");
-            }
-            const auto positions = gltf_.number(*attributes, "POSITION");
+            const nlohmann::json& attributes = GltfDocument::member(primitive, "attributes");
+            if (!attributes.is_object()) gltf_.fail("a primitive has no attributes");
+            const auto positions = gltf_.number(attributes, "POSITION");
             if (!positions) gltf_.fail("a primitive has no positions");
             const auto [entry, is_new] =
                 first_vertex.try_emplace(*positions, soup_.positions.size());
-            if (is_new) read_vertices(*positions, *attributes, transform);
+            if (is_new) read_vertices(*positions, attributes, transform);
             const std::uint64_t count = gltf_.array(*positions).num_rows;
             const std::size_t num_before = soup_.num_polygons(), num_corners = soup_.num_corners();
             read_faces(primitive, mode, entry->second, count, transform.linear().determinant() < 0);
             add_materials(primitive, soup_.num_polygons() - num_before);
             if (!file_.with_attributes) continue;
-            if (const auto texture = gltf_.number(*attributes, texture_name)) {
+            if (const auto texture = gltf_.number(attributes, texture_name)) {
                 const auto [coordinates, is_first] =
                     first_coordinates.try_emplace(*texture, soup_.texture.values.size());
                 if (is_first) read_texture(gltf_.array(*texture));
@@ -193,6 +193,7 @@ private:
         }
     }
 
+    // Corners are checked here, so that the soup needs no place for errors.
     // \param first   the vertex that the primitive calls 0, of `count`.
     // \param turned  the transform is a reflection.
     void read_faces(const nlohmann::json& primitive, std::uint64_t mode, std::size_t first,
@@ -204,42 +205,32 @@ private:
             if (indices.num_columns != 1) gltf_.fail("indices have several columns");
         }
         const auto corner = [&](std::uint64_t i) {
-            if (!accessor) return Corner{static_cast<std::int64_t>(first + i), 0};
-            const std::size_t offset = gltf_.place(indices, i);
-            const double index = gltf_.value(indices, i, 0);
+            const double index = accessor ? gltf_.value(indices, i, 0) : static_cast<double>(i);
             if (index >= 0 && index < static_cast<double>(count) && index == std::floor(index)) {
-                return Corner{static_cast<std::int64_t>(first) + static_cast<std::int64_t>(index),
-                              offset};
+                return static_cast<std::int64_t>(first) + static_cast<std::int64_t>(index);
             }
-            file_.fail_unusable(offset, "a face names vertex ", index, " of a primitive with ",
-                                count, " vertices, counted from 0; export the file again");
+            file_.fail_unusable(gltf_.place(indices, i), "a face names vertex ", index,
+                                " of a primitive with ", count,
+                                " vertices, counted from 0; export the file again");
         };
         if (mode == mode_strip) {
             StripTriangles strip(soup_);
-            if (turned && indices.num_rows > 0) add(strip, corner(0));
-            for (std::uint64_t i = 0; i < indices.num_rows; ++i) add(strip, corner(i));
-            strip.end();
-            return;
+            if (turned && indices.num_rows > 0) strip.add(corner(0), 0);
+            for (std::uint64_t i = 0; i < indices.num_rows; ++i) strip.add(corner(i), 0);
+            return strip.end();
         }
         if (mode == mode_triangles && indices.num_rows % 3 != 0) {
             gltf_.fail("the number of corners of a primitive is not a multiple of three");
         }
+        // The second corner of each triangle; the first one of a fan is that of all.
         const bool is_fan = mode == mode_fan;
-        for (std::uint64_t i = is_fan ? 1 : 0; i + (is_fan ? 1 : 2) < indices.num_rows;
-             i += is_fan ? 1 : 3) {
-            std::array<Corner, 3> corners = {corner(is_fan ? 0 : i), corner(is_fan ? i : i + 1),
-                                             corner(is_fan ? i + 1 : i + 2)};
+        for (std::uint64_t i = 1; i + 1 < indices.num_rows; i += is_fan ? 1 : 3) {
+            std::array corners = {corner(is_fan ? 0 : i - 1), corner(i), corner(i + 1)};
             if (turned) std::swap(corners[1], corners[2]);
-            for (const Corner& c : corners) soup_.add_corner(c.vertex, c.offset);
+            for (const std::int64_t c : corners) soup_.add_corner(c, 0);
             soup_.end_polygon();
         }
     }
-
-    struct Corner {
-        std::int64_t vertex;
-        std::size_t offset;
-    };
-    static void add(StripTriangles& strip, const Corner& c) { strip.add(c.vertex, c.offset); }
 
     void add_materials(const nlohmann::json& primitive, std::size_t num_faces) {
         if (!file_.with_attributes) return;
@@ -256,10 +247,7 @@ private:
     void name_materials() {
         std::set<std::string> taken = {""};
         for (std::size_t m = 0; m < gltf_.list(gltf_.root(), "materials").size(); ++m) {
-            const nlohmann::json& properties = gltf_.at("materials", m);
-            const auto found = properties.find("name");
-            const bool is_named = found != properties.end() && found->is_string();
-            const std::string name = is_named ? one_line(found->get<std::string>()) : "";
+            const std::string name = one_line(GltfDocument::text(gltf_.at("materials", m), "name"));
             material_names_.push_back(
                 unique_name(name.empty() ? "material_" + std::to_string(m) : name, taken));
         }

@@ -28,15 +28,6 @@ Place place_of(const MeshView& mesh, const SurfacePoint& point) {
     return place;
 }
 
-double area_of(const MeshView& mesh) {
-    double area = 0;
-    for (const auto& [a, b, c] : mesh.triangles) {
-        const Vec3& p = mesh.positions[a];
-        area += (mesh.positions[b] - p).cross(mesh.positions[c] - p).norm() / 2;
-    }
-    return area;
-}
-
 // #V: the lowest corner, 3 f + k, at each vertex; no_index: it is in no face.
 std::vector<Index> lowest_corners(const MeshView& mesh) {
     std::vector<Index> corners(mesh.positions.size(), no_index);
@@ -97,7 +88,11 @@ private:
 
     void judge_distances(SitesFile& result) const {
         if (shifts_.empty()) return;
-        const double spacing = std::sqrt(area_of(mesh_) / static_cast<double>(result.sites.size()));
+        double area = 0;
+        for (const Triangle& t : mesh_.triangles) {
+            area += doubled_normal(mesh_.positions, t).norm() / 2;
+        }
+        const double spacing = std::sqrt(area / static_cast<double>(result.sites.size()));
         const auto is_nearer = [](const Shift& a, const Shift& b) {
             return a.distance < b.distance;
         };

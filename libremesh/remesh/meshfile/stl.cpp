@@ -168,11 +168,10 @@ std::string format_stl(const MeshView& mesh, const MeshAttributes&, Ticker ticke
     const auto append_vector = [&](const Vec3& v) {
         for (const double x : v) append(bytes, static_cast<float>(x));
     };
-    for (const auto& [a, b, c] : mesh.triangles) {
+    for (const Triangle& t : mesh.triangles) {
         ticker.tick();
-        const Vec3 &p = mesh.positions[a], &q = mesh.positions[b], &r = mesh.positions[c];
-        append_vector((q - p).cross(r - p).stableNormalized());
-        for (const Vec3& corner : {p, q, r}) append_vector(corner);
+        append_vector(doubled_normal(mesh.positions, t).stableNormalized());
+        for (const Index v : t) append_vector(mesh.positions[v]);
         append(bytes, std::uint16_t{0});
     }
     return bytes;

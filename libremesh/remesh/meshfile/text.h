@@ -81,4 +81,11 @@ void append_line(std::string& bytes, const char* prefix, const Row& row) {
     bytes.back() = '\n';
 }
 
+//! Likewise, behind a blank in place of the line end that is there.
+template <typename Row>
+void append_to_line(std::string& bytes, const Row& row) {
+    bytes.pop_back();
+    append_line(bytes, " ", row);
+}
+
 }  // namespace remesh

@@ -5,6 +5,7 @@
 
 #include <fast_float/fast_float.h>
 
+#include <array>
 #include <optional>
 
 #include "agvd/core/types.h"
@@ -122,10 +123,21 @@ public:
         return value;
     }
 
-    //! The next word of this line as a number; none if it is something else.
-    std::optional<double> number_or_other(const char* what) {
-        if (!has_word()) fail_expecting(what);
-        return as_number(rest_of_word());
+    //! The words on the rest of this line as numbers.
+    struct Numbers {
+        std::array<double, 9> values{};
+        std::size_t count = 0;   //!< Values behind these are 0.
+        bool is_broken = false;  //!< Some word is no number; its value is 0.
+    };
+    //! \param most  words that are read, up to 9.
+    Numbers numbers(std::size_t most) {
+        Numbers result;
+        for (; result.count < most && has_word(); ++result.count) {
+            const std::optional<double> value = as_number(rest_of_word());
+            result.is_broken = result.is_broken || !value;
+            result.values[result.count] = value.value_or(0);
+        }
+        return result;
     }
 
     //! The next whole number of this line.

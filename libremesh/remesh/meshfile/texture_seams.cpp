@@ -32,9 +32,8 @@ std::vector<std::array<Index, 2>> find_texture_seams(const MeshView& mesh,
                                    "; give three for each"));
     }
     const CornerAgreement agree(values);
-    const std::vector<Index> point = first_at_position(mesh.positions, ticker);
-    std::vector<Triangle> faces(mesh.triangles.begin(), mesh.triangles.end());
-    for (Triangle& t : faces) t = {point[t[0]], point[t[1]], point[t[2]]};
+    const std::vector<Triangle> faces =
+        rename_vertices(mesh.triangles, first_at_position(mesh.positions, ticker));
     std::vector<std::array<Index, 2>> seams;
     for_each_edge(sorted_edge_sides(faces, ticker), [&](std::span<const EdgeSide> edge) {
         ticker.tick(edge.size());

@@ -11,7 +11,8 @@
 namespace remesh {
 namespace {
 
-// A kd-tree of fixed points, some of which are marked; each node stores their number.
+// A kd-tree of fixed points, some of which are marked; each node stores their number. Below node i
+// are the nodes 2 i and 2 i + 1; the first one is 1, and the last half of all are leaves.
 class CornerTree {
 public:
     // None is marked. Cost: O(n log n).
@@ -21,14 +22,16 @@ public:
           leaf_(points.size()),
           is_marked_(points.size(), 0) {
         std::iota(order_.begin(), order_.end(), std::size_t{0});
-        build(0, points.size(), no_parent);
+        while (num_leaves_ * most_in_leaf < points.size()) num_leaves_ *= 2;
+        nodes_.resize(2 * num_leaves_);
+        build(1, 0, points.size());
     }
 
     // Cost: O(log n).
     void mark(std::size_t point, bool is_marked) {
         if ((is_marked_[point] != 0) == is_marked) return;
         is_marked_[point] = is_marked ? 1 : 0;
-        for (std::size_t i = leaf_[point]; i != no_parent; i = nodes_[i].parent) {
+        for (std::size_t i = leaf_[point]; i > 0; i /= 2) {
             is_marked ? ++nodes_[i].num_marked : --nodes_[i].num_marked;
         }
     }
@@ -37,14 +40,14 @@ public:
     // Cost: O(sqrt n + points in the box).
     template <typename Test>
     [[nodiscard]] bool any_in(const Vec2& low, const Vec2& high, const Test& test,
-                              std::size_t index = 0) const {
+                              std::size_t index = 1) const {
         const auto is_apart = [&](const Vec2& least, const Vec2& most) {
             return (least.array() > high.array()).any() || (most.array() < low.array()).any();
         };
         const Node& node = nodes_[index];
         if (node.num_marked == 0 || is_apart(node.low, node.high)) return false;
-        if (node.left != 0) {
-            return any_in(low, high, test, node.left) || any_in(low, high, test, node.right);
+        if (index < num_leaves_) {
+            return any_in(low, high, test, 2 * index) || any_in(low, high, test, 2 * index + 1);
         }
         for (std::size_t i = node.begin; i < node.end; ++i) {
             const std::size_t point = order_[i];
@@ -55,24 +58,21 @@ public:
     }
 
 private:
-    static constexpr std::size_t most_in_leaf = 16, no_parent = ~std::size_t{0};
+    static constexpr std::size_t most_in_leaf = 16;
     struct Node {
-        std::size_t begin, end;  // Of order_.
-        std::size_t parent;
-        std::size_t left = 0, right = 0;  // 0: a leaf.
+        std::size_t begin = 0, end = 0;  // Of order_.
         std::size_t num_marked = 0;
         Vec2 low, high;
     };
 
-    void build(std::size_t begin, std::size_t end, std::size_t parent) {
-        const std::size_t index = nodes_.size();
-        Node node{begin, end, parent, 0, 0, 0, points_[order_[begin]], points_[order_[begin]]};
+    void build(std::size_t index, std::size_t begin, std::size_t end) {
+        Node node{begin, end, 0, points_[order_[begin]], points_[order_[begin]]};
         for (std::size_t i = begin; i < end; ++i) {
             node.low = node.low.cwiseMin(points_[order_[i]]);
             node.high = node.high.cwiseMax(points_[order_[i]]);
         }
-        nodes_.push_back(node);
-        if (end - begin <= most_in_leaf) {
+        nodes_[index] = node;
+        if (index >= num_leaves_) {
             for (std::size_t i = begin; i < end; ++i) leaf_[order_[i]] = index;
             return;
         }
@@ -85,17 +85,16 @@ private:
         std::nth_element(at(begin), at(middle), at(end), [&](std::size_t a, std::size_t b) {
             return points_[a][axis] < points_[b][axis];
         });
-        nodes_[index].left = nodes_.size();
-        build(begin, middle, index);
-        nodes_[index].right = nodes_.size();
-        build(middle, end, index);
+        build(2 * index, begin, middle);
+        build(2 * index + 1, middle, end);
     }
 
     std::vector<Vec2> points_;
     std::vector<std::size_t> order_;  // Points by leaf.
     std::vector<std::size_t> leaf_;   // By point.
     std::vector<std::uint8_t> is_marked_;
-    std::vector<Node> nodes_;  // Depth first.
+    std::size_t num_leaves_ = 1;
+    std::vector<Node> nodes_;
 };
 
 // Newell's normal, twice the area long; relative to the first corner to keep digits.

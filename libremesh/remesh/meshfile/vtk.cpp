@@ -75,7 +75,7 @@ private:
 
     void read_section(const std::string& keyword) {
         constexpr std::array groups = {"vertices", "lines", "polygons", "triangle_strips", "cells"};
-        const auto* const group = std::find(groups.begin(), groups.end(), keyword);
+        const auto* const group = std::ranges::find(groups, keyword);
         if (keyword == "points") {
             const std::uint64_t count = number_of("points");
             data_.points = array("points", type_name(), count, 3);
@@ -103,19 +103,23 @@ private:
             {"vectors", 3},      {"normals", 3},
             {"tensors", 9},      {"global_ids", 1},
             {"pedigree_ids", 1}};
-        const auto* const known = std::find_if(std::begin(widths), std::end(widths),
-                                               [&](auto& one) { return keyword == one.first; });
+        const auto* const known =
+            std::ranges::find(widths, keyword, &std::pair<const char*, std::uint64_t>::first);
         if (known == std::end(widths)) fail("unknown keyword ", in_quotes(keyword));
         const std::string title = name("a name");
         std::uint64_t components = known->second;
-        if (keyword == "lookup_table" || keyword == "color_scalars") {
-            const VtkType& type = *find_vtk_type(file_.is_binary ? "unsigned_char" : "float");
-            if (keyword == "lookup_table") {
-                array("", type, number_of("colours"), components);
-                return;
+        // Colours of text are numbers from 0 to 1.
+        const VtkType& color_type = *find_vtk_type(file_.is_binary ? "unsigned_char" : "float");
+        if (keyword == "lookup_table") {
+            array("", color_type, number_of("colours"), components);
+            return;
+        }
+        if (keyword == "color_scalars") {
+            VtkArray colors = array(title, color_type, num_elements_, number_of("components"));
+            if (!file_.is_binary) {
+                for (double& value : colors.values) value = std::round(255 * value);
+                colors.type = find_vtk_type("unsigned_char");
             }
-            VtkArray colors = array(title, type, num_elements_, number_of("components"));
-            to_bytes(colors);
             return keep(std::move(colors));
         }
         if (keyword == "texture_coordinates") components = number_of("components");
@@ -164,20 +168,9 @@ private:
         }
     }
 
-    // Colours of text are numbers from 0 to 1.
-    void to_bytes(VtkArray& colors) const {
-        if (file_.is_binary) return;
-        for (double& value : colors.values) value = std::round(255 * value);
-        colors.type = find_vtk_type("unsigned_char");
-    }
-
     void keep(VtkArray values) {
-        if (of_ == Of::Points)
-            data_.of_points.push_back(std::move(values));
-        else if (of_ == Of::Cells)
-            data_.of_cells.push_back(std::move(values));
-        else
-            fail("an array comes before POINT_DATA or CELL_DATA");
+        if (of_ == Of::Nothing) fail("an array comes before POINT_DATA or CELL_DATA");
+        (of_ == Of::Points ? data_.of_points : data_.of_cells).push_back(std::move(values));
     }
     void decline(const std::string& title, const char* reason) {
         data_.declined.push_back({(of_ == Of::Points ? "vertex " : "face ") + title, reason});
@@ -225,14 +218,17 @@ private:
     void read_offset_cells(std::uint64_t count, std::uint64_t size, VtkCells& cells) {
         expect("offsets");
         const VtkType& offset_type = type_name();
-        const VtkArray offsets = array("OFFSETS", offset_type, count, 1);
+        VtkArray offsets = array("OFFSETS", offset_type, count, 1);
         expect("connectivity");
         const VtkType& type = type_name();
         cells.corners = array("CONNECTIVITY", type, size, 1);
-        if (!offsets.values.empty() && offsets.values[0] != 0) {
-            fail("the offset of the first cell is not 0, so that they are not in order");
+        if (count > 0) {
+            if (offsets.values[0] != 0) {
+                fail("the offset of the first cell is not 0, so that they are not in order");
+            }
+            offsets.values.erase(offsets.values.begin());
         }
-        cells.ends = ends_of_cells(offsets, 1, cells.corners.values.size(), file_);
+        cells.ends = ends_of_cells(offsets, cells.corners.values.size(), file_);
     }
 
     // Gives the cells of a grid their types, wherever these stand in the file.
@@ -271,29 +267,21 @@ private:
                         .type = &type,
                         .num_components = static_cast<std::size_t>(components),
                         .offset = scan_.offset()};
-        const std::size_t left = file_.bytes.size() - scan_.offset();
-        // Neither an element nor a number takes less than a byte; a text has blanks between them.
-        const std::size_t size = file_.is_binary ? type.size : 2;
-        if (count != 0 && components > (left + 1) / size / count) {
+        const std::string_view left = std::string_view(file_.bytes).substr(scan_.offset());
+        // A number of a text takes a byte, and there are blanks between them.
+        const std::size_t room = file_.is_binary ? left.size() / type.size : (left.size() + 1) / 2;
+        if (count != 0 && components > room / count) {
             file_.fail_malformed(start_, "the file ends before the ", count, " elements of ",
                                  in_quotes(result.name),
                                  "; it is truncated: export the file again");
         }
         const std::size_t total = static_cast<std::size_t>(count * components);
-        if (file_.is_binary && total * type.size > left) {
-            file_.fail_malformed(start_, "the file ends within ", in_quotes(result.name),
-                                 "; it is truncated: export the file again");
-        }
-        result.values.reserve(total);
         if (file_.is_binary) {
-            const char* at = file_.bytes.data() + scan_.offset();
-            for (std::size_t i = 0; i < total; ++i, at += type.size) {
-                ticker_.tick();
-                result.values.push_back(type.load(at, std::endian::big));
-            }
+            result.read(left.substr(0, total * type.size), std::endian::big, ticker_);
             scan_.go_to(scan_.offset() + total * type.size);
             return result;
         }
+        result.values.reserve(total);
         for (std::size_t i = 0; i < total; ++i) {
             ticker_.tick(2);
             if (!scan_.find_word()) {
@@ -324,8 +312,6 @@ private:
 
 constexpr std::endian vtk_order = std::endian::big;
 
-const char* vtk_name_of(NumberType type) { return vtk_type_of(type).name; }
-
 // A blank would end a name.
 std::string encoded(const std::string& name) {
     constexpr std::string_view digits = "0123456789ABCDEF";
@@ -341,12 +327,6 @@ std::string encoded(const std::string& name) {
     return text;
 }
 
-std::string array_head(const std::string& name, std::size_t num_components, std::size_t count,
-                       NumberType type) {
-    return encoded(name) + ' ' + std::to_string(num_components) + ' ' + std::to_string(count) +
-           ' ' + vtk_name_of(type) + '\n';
-}
-
 void append_attributes(const char* section, const std::vector<Attribute>& attributes,
                        std::size_t count, Ticker& ticker, std::string& bytes) {
     const std::vector<VtkOutputArray> arrays = arrays_of(attributes);
@@ -354,7 +334,8 @@ void append_attributes(const char* section, const std::vector<Attribute>& attrib
     bytes += section;
     bytes += "FIELD FieldData " + std::to_string(arrays.size()) + '\n';
     for (const VtkOutputArray& array : arrays) {
-        bytes += array_head(array.name, array.parts.size(), count, array.type);
+        bytes += joined(encoded(array.name), " ", array.parts.size(), " ", count, " ",
+                        vtk_type_of(array.type).name, "\n");
         append_values(array, count, vtk_order, ticker, bytes);
         bytes += '\n';
     }
@@ -399,7 +380,7 @@ std::string format_vtk(const MeshView& mesh, const MeshAttributes& attributes, T
                                     ? NumberType::Float32
                                     : NumberType::Float64;
         bytes += of_points + "TEXTURE_COORDINATES " + TextureCoordinates::name + " 2 " +
-                 vtk_name_of(type) + '\n';
+                 vtk_type_of(type).name + '\n';
         of_points.clear();
         for (const Vec2& p : texture) {
             for (const double x : p) append_number(bytes, type, x, vtk_order);

@@ -29,10 +29,10 @@ constexpr std::array vtk_types = {
     VtkType{"float", "Float32", 4, NumberType::Float32, load_as<float>},
     VtkType{"double", "Float64", 8, NumberType::Float64, load_as<double>}};
 
-// The first type for which the test is true.
-template <typename Test>
-const VtkType* find_type(const Test& test) {
-    const auto found = std::find_if(vtk_types.begin(), vtk_types.end(), test);
+// The first type whose member has the value, or nullptr.
+template <typename Value>
+const VtkType* find_type(const Value& value, const auto VtkType::*member) {
+    const auto found = std::ranges::find(vtk_types, value, member);
     return found == vtk_types.end() ? nullptr : found;
 }
 
@@ -52,6 +52,11 @@ void add_points(const VtkArray& points, const SourceFile& file, PolygonSoup& sou
         soup.positions.push_back(p);
     }
 }
+
+// From VtkCell::Tetrahedron on.
+constexpr std::array volume_cells = {VolumeCell::Tetrahedron, VolumeCell::Hexahedron,
+                                     VolumeCell::Hexahedron, VolumeCell::Wedge,
+                                     VolumeCell::Pyramid};
 
 // Adds cells to a soup and knows which cell each polygon came from.
 class CellReader {
@@ -84,56 +89,48 @@ public:
                     "cells) are skipped");
     }
 
-    [[nodiscard]] const std::vector<std::size_t>& cell_of_polygon() const {
-        return cell_of_polygon_;
-    }
-    [[nodiscard]] std::size_t num_cells() const { return num_cells_; }
+    [[nodiscard]] const std::vector<Index>& cell_of_polygon() const { return cell_of_polygon_; }
+    [[nodiscard]] Index num_cells() const { return num_cells_; }
 
 private:
     void add_cell(VtkCell type, std::size_t begin, std::size_t end) {
         constexpr std::array by_row = {0u, 1u, 3u, 2u, 4u, 5u, 7u, 6u};
+        const bool is_by_row = type == VtkCell::Pixel || type == VtkCell::Voxel;
+        const auto corner = [&](std::size_t k) {
+            return vertex(begin + (is_by_row ? by_row[k] : k));
+        };
+        const std::size_t count = end - begin;
         soup_.ticker.tick();
         switch (type) {
             case VtkCell::Triangle:
             case VtkCell::Quad:
             case VtkCell::Pixel:
-                require_corners(end - begin, type == VtkCell::Triangle ? 3 : 4);
+                require_corners(count, type == VtkCell::Triangle ? 3 : 4);
                 [[fallthrough]];
             case VtkCell::Polygon:
-                for (std::size_t k = 0; k < end - begin; ++k) {
-                    soup_.add_corner(vertex(begin + (type == VtkCell::Pixel ? by_row[k] : k)),
-                                     offset());
-                }
+                for (std::size_t k = 0; k < count; ++k) soup_.add_corner(corner(k), offset());
                 return soup_.end_polygon();
             case VtkCell::Strip: {
                 StripTriangles strip(soup_);
-                for (std::size_t k = begin; k < end; ++k) strip.add(vertex(k), offset());
+                for (std::size_t k = 0; k < count; ++k) strip.add(corner(k), offset());
                 return strip.end();
             }
             case VtkCell::Tetrahedron:
-                return add_volume(VolumeCell::Tetrahedron, begin, end);
             case VtkCell::Voxel:
-                return add_volume(VolumeCell::Hexahedron, begin, end, by_row.data());
             case VtkCell::Hexahedron:
-                return add_volume(VolumeCell::Hexahedron, begin, end);
             case VtkCell::Wedge:
-                return add_volume(VolumeCell::Wedge, begin, end);
-            case VtkCell::Pyramid:
-                return add_volume(VolumeCell::Pyramid, begin, end);
+            case VtkCell::Pyramid: {
+                const VolumeCell kind =
+                    volume_cells[static_cast<std::size_t>(type) -
+                                 static_cast<std::size_t>(VtkCell::Tetrahedron)];
+                require_corners(count, num_corners(kind));
+                for (std::size_t k = 0; k < count; ++k) volumes_.add_corner(corner(k), offset());
+                volumes_.end_cell(kind);
+                return cell_of_volume_.push_back(num_cells_);
+            }
             default:
                 ++num_others_;
         }
-    }
-
-    // \param order  of the corners; null: that of the file.
-    void add_volume(VolumeCell kind, std::size_t begin, std::size_t end,
-                    const unsigned* order = nullptr) {
-        require_corners(end - begin, num_corners(kind));
-        for (std::size_t k = 0; k < end - begin; ++k) {
-            volumes_.add_corner(vertex(begin + (order == nullptr ? k : order[k])), offset());
-        }
-        volumes_.end_cell(kind);
-        cell_of_volume_.push_back(num_cells_);
     }
 
     void require_corners(std::size_t found, std::size_t needed) const {
@@ -156,8 +153,9 @@ private:
     PolygonSoup& soup_;
     VolumeSurface volumes_;
     const VtkCells* cells_ = nullptr;
-    std::size_t num_cells_ = 0, num_others_ = 0, num_surface_faces_ = 0;
-    std::vector<std::size_t> cell_of_polygon_, cell_of_volume_;
+    Index num_cells_ = 0;
+    std::size_t num_others_ = 0, num_surface_faces_ = 0;
+    std::vector<Index> cell_of_polygon_, cell_of_volume_;
 };
 
 // A name that is one word, as PLY wants it.
@@ -169,18 +167,14 @@ std::string as_word(const std::string& name) {
     return word;
 }
 
-NumberType type_of(const VtkArray& array) {
-    if (array.type->size < 8 || !is_integer(array.type->type)) return array.type->type;
-    const bool fits = std::all_of(array.values.begin(), array.values.end(), [&](double value) {
-        return is_value_of(array.type->type, value);
-    });
-    return fits ? array.type->type : NumberType::Float64;
+// Text files may hold words for integers that are none.
+bool has_values_of(NumberType type, const VtkArray& array) {
+    return std::ranges::all_of(array.values, [&](double v) { return is_value_of(type, v); });
 }
 
-// Text files may hold words for integers that are none.
-bool has_wrong_values(const VtkArray& array, NumberType type) {
-    return is_integer(type) && !std::all_of(array.values.begin(), array.values.end(),
-                                            [&](double v) { return is_value_of(type, v); });
+NumberType type_of(const VtkArray& array) {
+    if (array.type->size < 8 || !is_integer(array.type->type)) return array.type->type;
+    return has_values_of(array.type->type, array) ? array.type->type : NumberType::Float64;
 }
 
 void require_numbers(const VtkArray& array, std::size_t num_elements, const SourceFile& file) {
@@ -203,108 +197,84 @@ void add_texture(const VtkArray& array, const SourceFile& file, PolygonSoup& sou
     }
 }
 
-// Turns arrays into attributes.
-class ArrayReader {
-public:
-    ArrayReader(ElementKind kind, std::size_t num_elements, const SourceFile& file,
-                MeshAttributes& attributes)
-        : kind_(kind),
-          num_elements_(num_elements),
-          file_(file),
-          attributes_(attributes),
-          target_(kind == ElementKind::Vertex ? attributes.of_vertices : attributes.of_faces) {}
-
-    void take(const VtkArray& array) {
-        require_numbers(array, num_elements_, file_);
-        const NumberType type = type_of(array);
-        const std::size_t width = array.num_components;
-        const bool is_color = type == NumberType::UInt8 && (width == 3 || width == 4) &&
-                              find_attribute(target_, "red") == nullptr;
-        if (has_wrong_values(array, type)) {
-            decline(array.name, "some of its values are not of its type");
-            return;
-        }
-        if (!is_color && (width == 0 || width > most_vtk_components)) {
-            decline(array.name, "arrays of so many numbers for an element are not carried over");
-            return;
-        }
-        for (std::size_t k = 0; k < width; ++k) {
-            add(is_color     ? color_names[k]
-                : width == 1 ? as_word(array.name)
-                             : as_word(array.name) + '_' + std::to_string(k),
-                type, array, k);
-        }
+// Turns an array into attributes, one for each component.
+void add_components(const VtkArray& array, ElementKind kind, std::size_t num_elements,
+                    const SourceFile& file, MeshAttributes& attributes) {
+    const bool is_vertex = kind == ElementKind::Vertex;
+    std::vector<Attribute>& target = is_vertex ? attributes.of_vertices : attributes.of_faces;
+    const auto decline = [&](const std::string& name, const char* reason) {
+        attributes.declined.push_back({(is_vertex ? "vertex " : "face ") + name, reason});
+    };
+    require_numbers(array, num_elements, file);
+    const NumberType type = type_of(array);
+    const std::size_t width = array.num_components;
+    const bool is_color = type == NumberType::UInt8 && (width == 3 || width == 4) &&
+                          find_attribute(target, "red") == nullptr;
+    if (!has_values_of(type, array)) {
+        return decline(array.name, "some of its values are not of its type");
     }
-
-private:
-    void add(const std::string& name, NumberType type, const VtkArray& array,
-             std::size_t component) {
-        const bool is_reserved =
-            std::find(reserved_names.begin(), reserved_names.end(), name) != reserved_names.end();
-        if (is_reserved || find_attribute(target_, name) != nullptr) {
-            return decline(name, "another property has the same name");
-        }
-        std::vector<double> values;
-        values.reserve(num_elements_);
-        for (std::size_t i = component; i < array.values.size(); i += array.num_components) {
-            values.push_back(array.values[i]);
-        }
-        target_.push_back({.name = name, .type = type, .values = std::move(values)});
+    if (!is_color && (width == 0 || width > most_vtk_components)) {
+        return decline(array.name, "arrays of so many numbers for an element are not carried over");
     }
-    void decline(const std::string& name, const char* reason) {
-        attributes_.declined.push_back(
-            {(kind_ == ElementKind::Vertex ? "vertex " : "face ") + name, reason});
+    for (std::size_t k = 0; k < width; ++k) {
+        const std::string name = is_color     ? color_names[k]
+                                 : width == 1 ? as_word(array.name)
+                                              : as_word(array.name) + '_' + std::to_string(k);
+        if (std::ranges::find(reserved_names, name) != reserved_names.end() ||
+            find_attribute(target, name) != nullptr) {
+            decline(name, "another property has the same name");
+            continue;
+        }
+        Attribute part{.name = name, .type = type};
+        part.values.reserve(num_elements);
+        for (std::size_t i = k; i < array.values.size(); i += width) {
+            part.values.push_back(array.values[i]);
+        }
+        target.push_back(std::move(part));
     }
-
-    ElementKind kind_;
-    std::size_t num_elements_;
-    const SourceFile& file_;
-    MeshAttributes& attributes_;
-    std::vector<Attribute>& target_;
-};
+}
 
 MeshAttributes read_attributes(VtkData& data, const CellReader& cells, std::size_t num_points,
                                const SourceFile& file) {
     MeshAttributes attributes{.normals = data.normals, .declined = std::move(data.declined)};
-    ArrayReader of_points(ElementKind::Vertex, num_points, file, attributes);
-    for (const VtkArray& array : data.of_points) of_points.take(array);
-    ArrayReader of_cells(ElementKind::Face, cells.num_cells(), file, attributes);
-    for (const VtkArray& array : data.of_cells) of_cells.take(array);
-    for (Attribute& attribute : attributes.of_faces) {
-        std::vector<double> of_polygons;
-        of_polygons.reserve(cells.cell_of_polygon().size());
-        for (const std::size_t cell : cells.cell_of_polygon()) {
-            of_polygons.push_back(attribute.values[cell]);
-        }
-        attribute.values = std::move(of_polygons);
+    for (const VtkArray& array : data.of_points) {
+        add_components(array, ElementKind::Vertex, num_points, file, attributes);
     }
+    for (const VtkArray& array : data.of_cells) {
+        add_components(array, ElementKind::Face, cells.num_cells(), file, attributes);
+    }
+    spread_to_triangles(cells.cell_of_polygon(), attributes.of_faces);
     return attributes;
 }
 
 }  // namespace
 
-const VtkType* find_vtk_type(std::string_view name) {
-    return find_type([&](const VtkType& type) { return name == type.name; });
-}
+const VtkType* find_vtk_type(std::string_view name) { return find_type(name, &VtkType::name); }
 
 const VtkType* find_vtk_xml_type(std::string_view name) {
-    return find_type([&](const VtkType& type) { return !name.empty() && name == type.xml_name; });
+    return name.empty() ? nullptr : find_type(name, &VtkType::xml_name);
 }
 
-const VtkType& vtk_type_of(NumberType number) {
-    return *find_type([&](const VtkType& type) { return number == type.type; });
+const VtkType& vtk_type_of(NumberType number) { return *find_type(number, &VtkType::type); }
+
+void VtkArray::read(std::string_view bytes, std::endian order, Ticker& ticker) {
+    values.reserve(bytes.size() / type->size);
+    for (; !bytes.empty(); bytes.remove_prefix(type->size)) {
+        ticker.tick();
+        values.push_back(type->load(bytes.data(), order));
+    }
 }
 
-std::vector<std::size_t> ends_of_cells(const VtkArray& offsets, std::size_t first,
-                                       std::size_t num_corners, const SourceFile& file) {
+std::vector<std::size_t> ends_of_cells(const VtkArray& offsets, std::size_t num_corners,
+                                       const SourceFile& file) {
     std::vector<std::size_t> ends;
     Ticker ticker = file.ticker;
     double last = 0;
-    for (std::size_t i = first; i < offsets.values.size(); ++i) {
+    for (const double end : offsets.values) {
         ticker.tick();
-        const double end = offsets.values[i];
         if (!(end >= last && end <= static_cast<double>(num_corners) && end == std::floor(end))) {
-            file.fail_damaged(offsets.offset, "the offset of cell ", i - first, " is not in order");
+            file.fail_damaged(offsets.offset, "the offset of cell ", ends.size(),
+                              " is not in order");
         }
         ends.push_back(static_cast<std::size_t>(end));
         last = end;
@@ -331,10 +301,9 @@ MeshFile make_mesh(VtkData data, const SourceFile& file) {
     CellReader cells(file, soup);
     for (const VtkCells& group : data.cells) cells.add(group);
     cells.add_surface();
-    const std::size_t num_points = soup.positions.size();
     MeshAttributes attributes;
     if (file.with_attributes) {
-        attributes = read_attributes(data, cells, num_points, file);
+        attributes = read_attributes(data, cells, soup.positions.size(), file);
         if (data.texture) add_texture(*data.texture, file, soup);
     }
     MeshFile result = std::move(soup).finish();

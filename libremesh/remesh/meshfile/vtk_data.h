@@ -32,6 +32,9 @@ struct VtkArray {
     std::size_t num_components = 1;
     std::vector<double> values = {};  //!< All components of an element next to each other.
     std::size_t offset = 0;           //!< Where it begins in the file.
+
+    //! Takes the numbers of its type that these bytes are.
+    void read(std::string_view bytes, std::endian order, Ticker& ticker);
 };
 
 //! Types of cells by VTK's numbers; all others are skipped.
@@ -58,9 +61,8 @@ struct VtkCells {
 };
 
 //! Where each cell ends in an array of corners.
-//! \param first  the offset that belongs to the first cell.
 //! \throw IoError  they are not in order, or do not end with the corners.
-[[nodiscard]] std::vector<std::size_t> ends_of_cells(const VtkArray& offsets, std::size_t first,
+[[nodiscard]] std::vector<std::size_t> ends_of_cells(const VtkArray& offsets,
                                                      std::size_t num_corners,
                                                      const SourceFile& file);
 

@@ -49,7 +49,7 @@ void add_attributes(const std::vector<Attribute>& attributes, std::size_t count,
 std::string format_vtk_xml(const MeshView& mesh, const MeshAttributes& attributes, bool is_grid,
                            Ticker ticker) {
     const std::size_t num_points = mesh.positions.size(), num_faces = mesh.triangles.size();
-    VtpWriter writer({.points = num_points, .polys = num_faces}, is_grid);
+    VtpWriter writer(is_grid);
     writer.begin_section("PointData", attributes.normals ? " Normals=\"Normals\"" : "");
     if (attributes.normals) {
         const std::vector<Vec3> normals = vertex_normals(mesh);
@@ -61,10 +61,7 @@ std::string format_vtk_xml(const MeshView& mesh, const MeshAttributes& attribute
     writer.begin_section("CellData");
     add_attributes(attributes.of_faces, num_faces, ticker, writer);
     writer.end_section();
-    writer.begin_section("Points");
-    writer.add_array<double>("Points", "Float64", 3, num_points, ticker,
-                             [&](std::size_t v) { return mesh.positions[v]; });
-    writer.end_section();
+    writer.add_points(mesh.positions, ticker);
     writer.add_cells(is_grid ? "Cells" : "Polys", num_faces, ticker,
                      [&](std::size_t f) { return mesh.triangles[f]; });
     return std::move(writer).finish();
@@ -119,19 +116,6 @@ std::string xml_escaped(std::string_view text) {
     return escaped;
 }
 
-VtpWriter::VtpWriter(const Counts& counts, bool is_grid)
-    : is_grid_(is_grid),
-      kind_(is_grid ? "UnstructuredGrid" : "PolyData"),
-      xml_(std::string("<?xml version=\"1.0\"?>\n<VTKFile type=\"") + kind_ +
-           "\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<" + kind_ +
-           ">\n<Piece NumberOfPoints=\"" + std::to_string(counts.points)) {
-    const std::string polys = std::to_string(counts.polys);
-    xml_ += is_grid ? "\" NumberOfCells=\"" + polys + "\">\n"
-                    : "\" NumberOfVerts=\"" + std::to_string(counts.verts) + "\" NumberOfLines=\"" +
-                          std::to_string(counts.lines) +
-                          "\" NumberOfStrips=\"0\" NumberOfPolys=\"" + polys + "\">\n";
-}
-
 void VtpWriter::begin_section(const char* name, const std::string& attributes) {
     section_ = name;
     xml_ += '<' + section_ + attributes + ">\n";
@@ -156,9 +140,20 @@ void VtpWriter::end_array() {
 }
 
 std::string VtpWriter::finish() && {
-    xml_ += std::string("</Piece>\n</") + kind_ + ">\n<AppendedData encoding=\"raw\">\n_";
-    xml_ += data_;
-    return std::move(xml_) + "\n</AppendedData>\n</VTKFile>\n";
+    const std::string kind = is_grid_ ? "UnstructuredGrid" : "PolyData";
+    std::string bytes =
+        joined("<?xml version=\"1.0\"?>\n<VTKFile type=\"", kind,
+               "\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<", kind,
+               ">\n<Piece NumberOfPoints=\"", num_points_, "\"");
+    using Names = std::vector<const char*>;
+    for (const char* section :
+         is_grid_ ? Names{"Cells"} : Names{"Verts", "Lines", "Strips", "Polys"}) {
+        bytes += joined(" NumberOf", section, "=\"", num_cells_[section], "\"");
+    }
+    bytes += ">\n" + xml_ + "</Piece>\n</" + kind + ">\n<AppendedData encoding=\"raw\">\n_";
+    bytes += data_;
+    bytes += "\n</AppendedData>\n</VTKFile>\n";
+    return bytes;
 }
 
 std::string format_vtp(const MeshView& mesh, const MeshAttributes& attributes, Ticker ticker) {

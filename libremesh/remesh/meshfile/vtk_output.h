@@ -2,6 +2,9 @@
 //! What both formats of VTK share, and VTK's XML. Private to the writers of meshes and diagrams.
 #pragma once
 
+#include <map>
+#include <span>
+
 #include "remesh/meshfile/numbers.h"
 #include "remesh/meshfile/vtk_data.h"
 
@@ -29,12 +32,8 @@ void append_values(const VtkOutputArray& array, std::size_t num_elements, std::e
 //! One piece, little endian; arrays are appended as they are ("raw"), not compressed.
 class VtpWriter {
 public:
-    struct Counts {
-        std::size_t points = 0, verts = 0, lines = 0, polys = 0;
-    };
-    //! \param is_grid  UnstructuredGrid, whose cells are the polys, all of them triangles; else
-    //!        PolyData.
-    explicit VtpWriter(const Counts& counts, bool is_grid = false);
+    //! \param is_grid  UnstructuredGrid, whose Cells are triangles; else PolyData.
+    explicit VtpWriter(bool is_grid = false) : is_grid_(is_grid) {}
 
     //! A section, such as Points, and its attributes with a blank before each.
     void begin_section(const char* name, const std::string& attributes = {});
@@ -57,12 +56,22 @@ public:
         end_array();
     }
 
+    //! The section of points.
+    void add_points(std::span<const Vec3> points, Ticker& ticker) {
+        num_points_ = points.size();
+        begin_section("Points");
+        add_array<double>("Points", "Float64", 3, points.size(), ticker,
+                          [&](std::size_t p) { return points[p]; });
+        end_section();
+    }
+
     //! A section of cells, such as Polys; corners_of(i) gives the points of cell i.
     template <typename CornersOf>
     void add_cells(const char* section, std::size_t num_cells, Ticker& ticker,
                    const CornersOf& corners_of) {
         std::vector<std::size_t> ends;
         ends.reserve(num_cells);
+        num_cells_[section] = num_cells;
         begin_section(section);
         add_array<std::int64_t>("connectivity", "Int64", 1, num_cells, ticker, [&](std::size_t i) {
             const auto corners = corners_of(i);
@@ -83,10 +92,11 @@ public:
 
 private:
     bool is_grid_;
-    const char* kind_;  // Of data.
-    std::string xml_;
-    std::string data_;             // Behind the '_' of AppendedData.
-    std::string section_;          // That is open.
+    std::size_t num_points_ = 0;
+    std::map<std::string_view, std::size_t> num_cells_;  // By section.
+    std::string xml_;                                    // Of the sections.
+    std::string data_;                                   // Behind the '_' of AppendedData.
+    std::string section_;                                // That is open.
     std::size_t array_begin_ = 0;  // In the data, of the one that is open: its size comes first.
 };
 

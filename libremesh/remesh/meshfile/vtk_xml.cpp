@@ -65,7 +65,7 @@ public:
     explicit VtkXmlParser(const SourceFile& file) : file_(file) {}
 
     bool begin(const XmlTag& tag) override {
-        const std::size_t depth = depth_++;
+        const std::size_t depth = tag.depth;
         if (depth == 0) {
             read_root(tag);
         } else if (depth == 1) {
@@ -87,11 +87,10 @@ public:
         return true;
     }
 
-    void end(std::size_t at, std::size_t behind) override {
-        --depth_;
+    void end(std::size_t depth, std::size_t at, std::size_t behind) override {
         if (!is_in_mesh_ || !is_in_piece_) return;
-        if (depth_ == 4) end_text(at);
-        if (depth_ == 5) skip_key(behind);
+        if (depth == 4) end_text(at);
+        if (depth == 5) skip_key(behind);
     }
 
     VtkXmlFile finish() && {
@@ -154,7 +153,6 @@ private:
     const SourceFile& file_;
     VtkXmlFile result_;
     std::string kind_, section_;
-    std::size_t depth_ = 0;  // Of the element that is open.
     bool is_in_mesh_ = false, is_in_piece_ = false;
 };
 
@@ -187,8 +185,7 @@ public:
             ByteSource source(
                 std::string_view(file_.bytes).substr(array.begin, array.end - array.begin), true);
             // Some writers leave out the count of an empty array.
-            if (source.is_at_end()) return result;
-            read_bytes(array, source, result);
+            if (!source.is_at_end()) read_bytes(array, source, result);
         } else if (format == "appended") {
             ByteSource source = appended(array);
             read_bytes(array, source, result);
@@ -200,7 +197,7 @@ public:
 
     // A count that an attribute gives; nothing if it is empty.
     std::optional<std::uint64_t> count(const VtkXmlElement& element, const std::string& name,
-                                       const char* what) const {
+                                       const std::string& what) const {
         const std::string text = element[name];
         if (text.empty()) return std::nullopt;
         if (const auto value = as_whole<std::uint64_t>(text)) return value;
@@ -245,26 +242,16 @@ private:
     // The first count is that of bytes, or of compressed blocks.
     void read_bytes(const VtkXmlArray& array, ByteSource& source, VtkArray& result) {
         const std::uint64_t first = take_count(array, source);
-        std::string unpacked;
-        std::string_view bytes;
-        if (xml_.compressor.empty()) {
-            bytes = take(array, source, first);
-        } else {
-            unpacked = unpack(array, source, first);
-            bytes = unpacked;
-        }
+        const bool is_packed = !xml_.compressor.empty();
+        const std::string unpacked = is_packed ? unpack(array, source, first) : "";
+        const std::string_view bytes = is_packed ? unpacked : take(array, source, first);
         if (array["format"] == "binary" && !source.is_at_end()) {
             fail(array, "it has more data than it announces");
         }
-        const std::size_t size = result.type->size;
-        if (bytes.size() % size != 0) {
+        if (bytes.size() % result.type->size != 0) {
             fail(array, "its ", bytes.size(), " bytes are not a whole number of ", array["type"]);
         }
-        result.values.reserve(bytes.size() / size);
-        for (std::size_t at = 0; at < bytes.size(); at += size) {
-            ticker_.tick();
-            result.values.push_back(result.type->load(bytes.data() + at, xml_.order));
-        }
+        result.read(bytes, xml_.order, ticker_);
     }
 
     // Blocks of one size, but for a last one that may be smaller (0: it is not), and before them
@@ -306,41 +293,6 @@ private:
     std::string buffer_;
 };
 
-// Arrays of points or cells, piece after piece. What not all pieces have is declined.
-class PieceArrays {
-public:
-    void take(std::vector<VtkArray> arrays, std::vector<DeclinedAttribute>& declined,
-              const char* kind) {
-        std::map<std::string, std::size_t> of_name;
-        for (std::size_t i = 0; i < arrays.size(); ++i) of_name.try_emplace(arrays[i].name, i);
-        if (std::exchange(is_first_, false)) {
-            arrays_ = std::move(arrays);
-            return;
-        }
-        std::erase_if(arrays_, [&](VtkArray& whole) {
-            const auto found = of_name.find(whole.name);
-            if (found != of_name.end()) {
-                const VtkArray part = std::move(arrays[found->second]);
-                of_name.erase(found);
-                if (part.type == whole.type && part.num_components == whole.num_components) {
-                    whole.values.insert(whole.values.end(), part.values.begin(), part.values.end());
-                    return false;
-                }
-            }
-            declined.push_back({kind + whole.name, "not all pieces have it"});
-            return true;
-        });
-        for (const auto& [name, array] : of_name) {
-            declined.push_back({kind + name, "not all pieces have it"});
-        }
-    }
-    std::vector<VtkArray> finish() && { return std::move(arrays_); }
-
-private:
-    std::vector<VtkArray> arrays_;
-    bool is_first_ = true;
-};
-
 class VtpReader {
 public:
     explicit VtpReader(const SourceFile& file)
@@ -348,9 +300,6 @@ public:
 
     VtkData read() {
         for (const VtkXmlPiece& piece : xml_.pieces) read_piece(piece);
-        data_.points = std::move(points_);
-        data_.of_points = std::move(of_points_).finish();
-        data_.of_cells = std::move(of_cells_).finish();
         return std::move(data_);
     }
 
@@ -379,17 +328,17 @@ private:
         }
         num_points_ += num_points;
         if (!file_.with_attributes || (num_points == 0 && num_cells == 0)) return;
-        of_points_.take(read_data(piece, "PointData", num_points), data_.declined, "vertex ");
-        of_cells_.take(read_data(piece, "CellData", num_cells), data_.declined, "face ");
+        add_data(read_data(piece, "PointData", num_points), "vertex ", data_.of_points);
+        add_data(read_data(piece, "CellData", num_cells), "face ", data_.of_cells);
+        has_data_ = true;
     }
 
     static const VtkXmlArray* find(const VtkXmlPiece& piece, std::string_view section,
                                    std::string_view name) {
-        const auto found =
-            std::find_if(piece.arrays.begin(), piece.arrays.end(), [&](const VtkXmlArray& array) {
-                return array.section == section && (name.empty() || array.name() == name);
-            });
-        return found == piece.arrays.end() ? nullptr : &*found;
+        for (const VtkXmlArray& array : piece.arrays) {
+            if (array.section == section && (name.empty() || array.name() == name)) return &array;
+        }
+        return nullptr;
     }
 
     // \return how many points the piece has.
@@ -405,11 +354,10 @@ private:
         if (points.num_components != 3) arrays_.fail(*found, "it has not three coordinates each");
         require_count(*found, points, announced);
         const std::uint64_t count = points.values.size() / 3;
-        if (!points_) {
-            points_ = std::move(points);
+        if (data_.points) {
+            append(points, *data_.points);
         } else {
-            points_->values.insert(points_->values.end(), points.values.begin(),
-                                   points.values.end());
+            data_.points = std::move(points);
         }
         return count;
     }
@@ -426,7 +374,7 @@ private:
     // \return how many cells the section has.
     std::uint64_t read_cells(const VtkXmlPiece& piece, const std::string& section, VtkCell type,
                              std::uint64_t num_points) {
-        const Count announced = arrays_.count(piece, "NumberOf" + section, section.c_str());
+        const Count announced = arrays_.count(piece, "NumberOf" + section, section);
         const VtkXmlArray* const corners = find(piece, section, "connectivity");
         const VtkXmlArray* const ends = find(piece, section, "offsets");
         const VtkXmlArray* const types = xml_.is_grid ? find(piece, section, "types") : nullptr;
@@ -438,7 +386,7 @@ private:
         VtkCells cells{.corners = arrays_.read(*corners), .ends = {}, .types = {type}};
         const VtkArray offsets = arrays_.read(*ends);
         require_count(*ends, offsets, announced);
-        cells.ends = ends_of_cells(offsets, 0, cells.corners.values.size(), file_);
+        cells.ends = ends_of_cells(offsets, cells.corners.values.size(), file_);
         if (types != nullptr) {
             const VtkArray numbers = arrays_.read(*types);
             require_count(*types, numbers, cells.ends.size());
@@ -455,17 +403,14 @@ private:
         for (double& corner : corners.values) {
             arrays_.ticker().tick();
             if (!(corner >= 0 && corner < static_cast<double>(num_points))) {
+                const std::string number = std::to_string(corner);
                 file_.fail_unusable(
-                    found.tag, "array ", in_quotes(found.name()), " of ", found.section,
-                    " names point ", shown(corner), ", but the piece has only ", num_points,
+                    found.tag, found.shown(), " names point ", number.substr(0, number.find('.')),
+                    ", but the piece has only ", num_points,
                     " points, counted from 0; correct the cell, or export the file again");
             }
             corner += static_cast<double>(num_points_);
         }
-    }
-    static std::string shown(double number) {
-        std::string text = std::to_string(number);
-        return text.substr(0, text.find('.'));
     }
 
     std::vector<VtkArray> read_data(const VtkXmlPiece& piece, std::string_view section,
@@ -496,9 +441,37 @@ private:
         return result;
     }
 
+    // Appends the arrays of a further piece. What not all pieces have is declined.
+    void add_data(std::vector<VtkArray> arrays, const std::string& kind,
+                  std::vector<VtkArray>& whole) {
+        if (!has_data_) {
+            whole = std::move(arrays);
+            return;
+        }
+        constexpr const char* reason = "not all pieces have it";
+        std::map<std::string, VtkArray> of_name;
+        for (VtkArray& array : arrays) of_name.try_emplace(array.name, std::move(array));
+        std::erase_if(whole, [&](VtkArray& array) {
+            const auto part = of_name.extract(array.name);
+            const bool is_same = !part.empty() && part.mapped().type == array.type &&
+                                 part.mapped().num_components == array.num_components;
+            if (is_same) {
+                append(part.mapped(), array);
+            } else {
+                decline(kind + array.name, reason);
+            }
+            return !is_same;
+        });
+        for (const auto& [name, array] : of_name) decline(kind + name, reason);
+    }
+
+    static void append(const VtkArray& part, VtkArray& whole) {
+        whole.values.insert(whole.values.end(), part.values.begin(), part.values.end());
+    }
+
     void decline(const std::string& name, const char* reason) {
-        const auto is_same = [&](const DeclinedAttribute& one) { return one.name == name; };
-        if (std::none_of(data_.declined.begin(), data_.declined.end(), is_same)) {
+        if (std::ranges::find(data_.declined, name, &DeclinedAttribute::name) ==
+            data_.declined.end()) {
             data_.declined.push_back({name, reason});
         }
     }
@@ -507,9 +480,8 @@ private:
     VtkXmlFile xml_;
     VtkXmlArrays arrays_;
     VtkData data_;
-    std::optional<VtkArray> points_;
-    PieceArrays of_points_, of_cells_;
     std::uint64_t num_points_ = 0;  // Of the pieces before.
+    bool has_data_ = false;         // Of points and cells, likewise.
 };
 
 }  // namespace

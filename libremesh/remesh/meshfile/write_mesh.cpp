@@ -3,7 +3,6 @@
 #include "remesh/meshfile/mesh_file.h"
 
 #include <algorithm>
-#include <cstdio>
 
 #include "agvd/mesh/scale.h"
 #include "remesh/meshfile/atomic_file.h"
@@ -14,57 +13,45 @@
 namespace remesh {
 namespace {
 
+template <typename... Parts>
+[[noreturn]] void refuse(const std::filesystem::path& path, Parts... parts) {
+    throw InvalidInput(joined(path.string(), ": cannot be written: ", parts...));
+}
+
 void check(const std::filesystem::path& path, const MeshFormat& format, const MeshView& mesh) {
-    const auto fail = [&](const char* kind, std::size_t index, const std::string& text) {
-        throw InvalidInput(
-            joined(path.string(), ": cannot be written: ", kind, " ", index, " ", text));
-    };
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
         if (!mesh.positions[v].allFinite()) {
-            fail("vertex", v, "has a coordinate that is not finite; correct or delete the vertex");
+            refuse(path, "vertex ", v,
+                   " has a coordinate that is not finite; correct or delete the vertex");
         }
         if ((mesh.positions[v].array().abs() > format.largest).any()) {
-            fail("vertex", v,
-                 "is too large for single precision, in which this format stores it; write .ply, "
-                 ".obj or "
-                 ".off");
+            refuse(
+                path, "vertex ", v,
+                " is too large for single precision, in which this format stores it; write .ply, "
+                ".obj or .off");
         }
     }
     for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
         const Index highest = std::ranges::max(mesh.triangles[f]);
-        if (highest >= mesh.positions.size()) {
-            fail("face", f,
-                 "names vertex " + std::to_string(highest) + ", but the mesh has only " +
-                     std::to_string(mesh.positions.size()) +
-                     " vertices, counted from 0; correct or delete the face");
-        }
+        if (highest < mesh.positions.size()) continue;
+        refuse(path, "face ", f, " names vertex ", highest, ", but the mesh has only ",
+               mesh.positions.size(), " vertices, counted from 0; correct or delete the face");
     }
 }
 
 void check(const std::filesystem::path& path, const std::vector<Attribute>& attributes,
            std::size_t count) {
     for (const Attribute& attribute : attributes) {
-        const std::string begin =
-            path.string() + ": cannot be written: attribute " + attribute.name;
         if (attribute.values.size() != count) {
-            throw InvalidInput(joined(begin, " has ", attribute.values.size(),
-                                      " values instead of ", count, "; give one for each element"));
+            refuse(path, "attribute ", attribute.name, " has ", attribute.values.size(),
+                   " values instead of ", count, "; give one for each element");
         }
         const auto num_names = static_cast<double>(attribute.names.size());
         const auto has_name = [&](double value) { return value >= 0 && value < num_names; };
-        if (num_names > 0 &&
-            !std::all_of(attribute.values.begin(), attribute.values.end(), has_name)) {
-            throw InvalidInput(joined(begin, " has a value without a name; add the name"));
+        if (num_names > 0 && !std::ranges::all_of(attribute.values, has_name)) {
+            refuse(path, "attribute ", attribute.name, " has a value without a name; add the name");
         }
     }
-}
-
-void check(const std::filesystem::path& path, const TextureCoordinates& texture,
-           std::size_t num_faces) {
-    if (texture.empty() || texture.corners.size() == num_faces) return;
-    throw InvalidInput(
-        joined(path.string(), ": cannot be written: there are texture coordinates for ",
-               texture.corners.size(), " faces instead of ", num_faces, "; give three for each"));
 }
 
 // Names and types.
@@ -114,12 +101,7 @@ double shortest_edge(const MeshView& mesh, Ticker& ticker) {
     return shortest < std::numeric_limits<double>::infinity() ? shortest : 0;
 }
 
-// Three digits.
-std::string short_number(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g", value);
-    return text;
-}
+std::string short_number(double value) { return detail::written(value, 3, std::defaultfloat); }
 
 }  // namespace
 
@@ -130,7 +112,11 @@ std::string format_mesh(const MeshPath& path, const MeshView& mesh,
     check(path.path, format, mesh);
     check(path.path, attributes.of_vertices, mesh.positions.size());
     check(path.path, attributes.of_faces, mesh.triangles.size());
-    check(path.path, attributes.texture, mesh.triangles.size());
+    if (const TextureCoordinates& texture = attributes.texture;
+        !texture.empty() && texture.corners.size() != mesh.triangles.size()) {
+        refuse(path.path, "there are texture coordinates for ", texture.corners.size(),
+               " faces instead of ", mesh.triangles.size(), "; give three for each");
+    }
     std::string bytes = format.format(mesh, attributes, Ticker(poller));
     return is_compressed(path) ? pack_gzip(bytes, Ticker(poller)) : bytes;
 }

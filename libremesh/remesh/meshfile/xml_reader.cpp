@@ -95,7 +95,7 @@ private:
     }
     static void on_end(void* data, const XML_Char* /*name*/) {
         ExpatReader& self = reader(data);
-        self.guard([&] { self.visitor_.end(self.place(), self.place_behind()); });
+        self.guard([&] { self.visitor_.end(--self.depth_, self.place(), self.place_behind()); });
     }
     static void on_declaration(void* data, const XML_Char* prefix, const XML_Char* uri) {
         reader(data).guard([&] {
@@ -127,6 +127,7 @@ private:
             split(attributes[0], attribute.space, attribute.name);
             attribute.value = attributes[1];
         }
+        tag_.depth = depth_++;
         tag_.begin = place();
         tag_.end = place_behind();
         is_done_ = !visitor_.begin(tag_);
@@ -138,6 +139,7 @@ private:
     std::unique_ptr<XML_ParserStruct, void (*)(XML_Parser)> parser_;
     std::exception_ptr thrown_;
     bool is_done_ = false;
+    std::size_t depth_ = 0;  // Of elements that are open.
     XmlTag tag_;
 };
 

@@ -20,6 +20,7 @@ struct XmlTag {
     std::string_view space;  //!< The URI of its namespace; empty: none.
     std::string_view name;   //!< Without a prefix.
     std::vector<XmlAttribute> attributes;
+    std::size_t depth = 0;           //!< How many elements it is in.
     std::size_t begin = 0, end = 0;  //!< Its place in the text: its '<', behind its '>'.
 
     [[nodiscard]] std::optional<std::string_view> find(std::string_view attribute,
@@ -38,7 +39,7 @@ public:
     virtual bool begin(const XmlTag& tag) = 0;
     //! The end of the element that began last and has not ended.
     //! \param at, behind  of its closing tag; both the end of an empty element's only tag.
-    virtual void end(std::size_t at, std::size_t behind) = 0;
+    virtual void end(std::size_t /*depth*/, std::size_t /*at*/, std::size_t /*behind*/) {}
     //! A prefix of a namespace, before the tag that declares it.
     virtual void declare(std::string_view /*prefix*/, std::string_view /*uri*/) {}
 

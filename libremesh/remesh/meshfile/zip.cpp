@@ -13,11 +13,10 @@ constexpr std::string_view local_mark = "PK\3\4", entry_mark = "PK\1\2", end_mar
 constexpr std::size_t local_size = 30, entry_size = 46, end_size = 22, large_place_size = 20,
                       large_end_size = 56, longest_comment = 65535;
 constexpr std::uint64_t in_large_numbers = 0xFFFFFFFF;  // The number has eight bytes elsewhere.
-constexpr std::uint64_t encrypted = 1, stored = 0, deflated = 8;
+constexpr std::uint16_t encrypted = 1, stored = 0, deflated = 8;
 constexpr const char* zip_again = "; save the file again";
 
-constexpr std::uint16_t zip_version = 20;  // That of deflated parts.
-constexpr std::uint16_t zip_deflated = 8;
+constexpr std::uint16_t zip_version = 20;      // That of deflated parts.
 constexpr std::uint16_t first_of_1980 = 0x21;  // Times would make different bytes in each run.
 
 }  // namespace
@@ -168,7 +167,7 @@ std::string pack_zip(const std::vector<std::pair<std::string, std::string>>& par
         require_size(bytes.size() + packed.size());
         // The same in both places; no flags, at midnight, no further fields.
         std::string fields;
-        append_all(fields, zip_version, none, zip_deflated, none, first_of_1980, crc32_of(content),
+        append_all(fields, zip_version, none, deflated, none, first_of_1980, crc32_of(content),
                    static_cast<std::uint32_t>(packed.size()),
                    static_cast<std::uint32_t>(content.size()),
                    static_cast<std::uint16_t>(name.size()), none);
