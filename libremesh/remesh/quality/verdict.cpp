@@ -224,10 +224,16 @@ void judge_distance(const MeshView& input, const ClosestPointTree& tree, int num
     parallel_chunks(
         count, query_grain, num_threads,
         [&](Index chunk, Index begin, Index end) {
+            Farthest& farthest = of_chunk[chunk];
             for (Index i = begin; i < end; ++i) {
-                const Index v = chosen(i);
-                const double distance_sq = tree.query(input.positions[v]).distance_sq;
-                if (distance_sq > of_chunk[chunk].distance_sq) of_chunk[chunk] = {distance_sq, v};
+                const Vec3& point = input.positions[chosen(i)];
+                // Nearly all are nearer than the farthest so far, which is quick to see.
+                if (farthest.distance_sq > 0 &&
+                    tree.is_within(point, std::sqrt(farthest.distance_sq))) {
+                    continue;
+                }
+                const double distance_sq = tree.query(point).distance_sq;
+                if (distance_sq > farthest.distance_sq) farthest = {distance_sq, chosen(i)};
             }
         },
         poller);

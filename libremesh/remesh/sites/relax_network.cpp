@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <map>
 #include <memory>
+#include <numeric>
 #include <set>
 
+#include "agvd/mesh/any_mesh.h"
 #include "agvd/mesh/closest_point.h"
 #include "agvd/mesh/surface_points.h"
 #include "agvd/mesh/topology.h"
@@ -17,6 +19,7 @@
 #include "remesh/sites/levels.h"
 #include "remesh/sites/sampling.h"
 #include "remesh/sites/site_dual.h"
+#include "remesh/sites/site_order.h"
 
 namespace remesh {
 namespace {
@@ -297,8 +300,35 @@ private:
         std::vector<SurfacePoint> sites = curves.sites;
         const auto inner =
             sample_inner_sites(plan_.cut.surface(), curves.sites, num_inner, spacing, sampling_);
-        sites.insert(sites.end(), inner.begin(), inner.end());
+        for (const Index i : order_of(inner)) sites.push_back(inner[i]);
         return sites;
+    }
+
+    // Sorts the inner sites, which follow those of curves, in space, and the triangles by their
+    // sites.
+    void sort_in_space(std::size_t num_copies, detail::TriangulatedSites& level) const {
+        std::vector<Index> order(num_copies);
+        std::iota(order.begin(), order.end(), Index{0});
+        for (const Index i : order_of(std::span(level.sites).subspan(num_copies))) {
+            order.push_back(static_cast<Index>(num_copies) + i);
+        }
+        level.sites = take(level.sites, order);
+        level.weights = take(level.weights, order);
+        std::vector<Index> number(order.size());
+        for (Index i = 0; i < order.size(); ++i) number[order[i]] = i;
+        level.triangles = rename_vertices(level.triangles, number);
+        std::ranges::sort(level.triangles, {}, [](const Triangle& t) {
+            return std::pair(std::min({t[0], t[1], t[2]}), t);
+        });
+    }
+    // Steps take half the time that way with 60 000 sites.
+    [[nodiscard]] std::vector<Index> order_of(std::span<const SurfacePoint> sites) const {
+        std::vector<Vec3> positions;
+        positions.reserve(sites.size());
+        for (const SurfacePoint& site : sites) {
+            positions.push_back(position(plan_.cut.surface().mesh.view(), site));
+        }
+        return detail::order_in_space(positions);
     }
 
     std::unique_ptr<Relaxation> make_relaxation(detail::TriangulatedSites sites,
@@ -390,6 +420,7 @@ private:
         std::optional<detail::TriangulatedSites> divided = detail::subdivide(
             plan_.cut.surface(), sites, weights, dual, count, lengths_at(options_.sizes, sites));
         if (!divided) return nullptr;
+        sort_in_space(fine_.sites.size(), *divided);
         return make_relaxation(*std::move(divided), fine_);
     }
 
