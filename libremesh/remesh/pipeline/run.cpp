@@ -57,7 +57,7 @@ bool has_more_to_drop(const KeptCurves& kept, const FeatureCounts& features) {
     return features.curves > 0 && (kept.has_seams || features.length > 0);
 }
 
-// A run after cleaning. Tries all curves, then those without strips, then all creases. Changes
+// A run after cleaning. Tries all curves, the same with other sites, then without strips. Changes
 // creases where faces intersect that do not in the input, and at last leaves out all, until a mesh
 // has no such faces. If none of these gives a mesh, tries the same without junctions.
 class Attempts {
@@ -105,6 +105,10 @@ private:
         for (int num_changes = 0;;) {
             BadPoints bad;
             if (try_curves(kept, bad)) return;
+            if (!options_.sites && !std::exchange(has_other_seed_, true)) {
+                ++options_.seed;
+                continue;
+            }
             if (!found_.strips.empty()) {  // The same without them.
                 refines_ = false;
                 find_lengths({});
@@ -235,6 +239,7 @@ private:
     FoundCurves found_;
     RunSizes sizes_;
     InputCrossings of_input_;
+    bool has_other_seed_ = false;  // Than what was asked for: the first attempt failed.
     // Strips between close creases. With a mean edge given the others would be longer.
     bool refines_ =
         may_shorten(options_) && !std::holds_alternative<MeanEdge>(options_.sizing.count);
