@@ -10,4 +10,5 @@
 #include "agvd/mesh/mesh.h"
 #include "agvd/mesh/surface.h"
 #include "agvd/paths/geodesic_path.h"
+#include "agvd/paths/isolines.h"
 #include "agvd/propagation/propagate.h"

@@ -17,7 +17,9 @@ from . import examples
 from ._diagrams import Voronoi, geodesic_distance, voronoi
 from ._evaluation import evaluate
 from ._files import read, write
+from ._isolines import Isolines, isolines
 from ._mesh import Mesh
+from ._paths import Paths, paths
 from ._remesh import (
     Cancelled,
     ConstraintUnmet,
@@ -41,8 +43,10 @@ __all__ = [
     "InvalidInput",
     "InvalidOption",
     "InvalidSites",
+    "Isolines",
     "Mesh",
     "OutOfMemory",
+    "Paths",
     "Relaxed",
     "Result",
     "Sites",
@@ -52,6 +56,8 @@ __all__ = [
     "evaluate",
     "examples",
     "geodesic_distance",
+    "isolines",
+    "paths",
     "read",
     "relax_sites",
     "remesh",
