@@ -222,7 +222,7 @@ int main(int argc, char** argv) {
     cli::QueryArguments for_diagram;
     CompareArguments for_compare;
     const CLI::App* diagram = add_diagram(app, for_diagram);
-    const std::array queries{cli::add_path(app), cli::add_isolines(app)};
+    const std::array queries{cli::add_distance(app), cli::add_path(app), cli::add_isolines(app)};
     add_compare(app, for_compare);
     return cli::run(app, argc, argv, [&] {
         for (const cli::Query& query : queries) {

@@ -24,6 +24,8 @@ struct Query {
     std::function<void()> run;
 };
 
+//! `agvd distance`.
+[[nodiscard]] Query add_distance(CLI::App& app);
 //! `agvd path`.
 [[nodiscard]] Query add_path(CLI::App& app);
 //! `agvd isolines`.

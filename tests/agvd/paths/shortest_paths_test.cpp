@@ -6,6 +6,7 @@
 
 #include "agvd/core/error.h"
 #include "agvd/mesh/surface_points.h"
+#include "agvd/paths/distances.h"
 #include "support/geodesics.h"
 #include "support/points.h"
 #include "support/shapes.h"
@@ -125,6 +126,22 @@ TEST(ShortestPaths, HaveTheDistancesThatAreExact) {
             SCOPED_TRACE(3 * i);
             EXPECT_EQ(paths[i].site, propagation.vertex_site[3 * i]);
             expect_shortest(surface, paths[i].path, distance);
+        }
+    }
+}
+
+// In a cell the path crosses faces that have relays of other sites too; sites lie inside faces.
+TEST(ShortestPaths, OfManySitesHaveTheDistancesOfTheirPoints) {
+    const Surface surface = build_surface(shapes::jitter(shapes::sphere(4), 0.03, 1).view());
+    for (const Index count : {1u, 30u, 400u}) {
+        const auto sites = uniform_points(surface, count, 3);
+        const auto starts = uniform_points(surface, 400, 6);
+        const auto paths = paths_to_sites(surface, sites, exact_everywhere(surface, sites), starts);
+        const Distances distances = find_distances(surface, sites, starts, {.max_error = 0});
+        for (std::size_t i = 0; i < starts.size(); ++i) {
+            SCOPED_TRACE(i);
+            EXPECT_EQ(paths[i].site, distances.point_site[i]);
+            expect_shortest(surface, paths[i].path, distances.point_distance[i]);
         }
     }
 }

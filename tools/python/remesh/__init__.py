@@ -14,7 +14,7 @@ once, and gives the same bytes for any number of threads. Ctrl-C ends a call in 
 """
 
 from . import examples
-from ._diagrams import Voronoi, geodesic_distance, voronoi
+from ._diagrams import Voronoi, geodesic_distance, nearest_sites, voronoi
 from ._evaluation import evaluate
 from ._files import read, write
 from ._isolines import Isolines, isolines
@@ -57,6 +57,7 @@ __all__ = [
     "examples",
     "geodesic_distance",
     "isolines",
+    "nearest_sites",
     "paths",
     "read",
     "relax_sites",

@@ -79,6 +79,13 @@ def paths_to_sites(positions: _Floats, triangles: _Indices, faces: _Indices,
 def paths_between(positions: _Floats, triangles: _Indices, faces: _Indices, barycentric: _Floats,
                   end_faces: _Indices, end_barycentric: _Floats, max_error: float,
                   keep_slits: bool, num_threads: int, progress: _Progress) -> dict[str, Any]: ...
+def distances_at(positions: _Floats, triangles: _Indices, faces: _Indices, barycentric: _Floats,
+                 target_faces: _Indices, target_barycentric: _Floats, has_targets: bool,
+                 radius: float, max_error: float, keep_slits: bool, num_threads: int,
+                 progress: _Progress) -> _Floats: ...
+def nearest_sites(positions: _Floats, triangles: _Indices, faces: _Indices, barycentric: _Floats,
+                  k: int, max_error: float, keep_slits: bool, num_threads: int,
+                  progress: _Progress) -> tuple[_Numbers, _Floats]: ...
 def isolines(positions: _Floats, triangles: _Indices, faces: _Indices, barycentric: _Floats,
              levels: list[float], step: float, tolerance: float | None, max_error: float,
              keep_slits: bool, num_threads: int, progress: _Progress) -> dict[str, Any]: ...
