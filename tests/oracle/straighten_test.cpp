@@ -3,6 +3,7 @@
 
 #include "agvd/diagram/diagram.h"
 #include "agvd/mesh/surface_points.h"
+#include "agvd/paths/distances.h"
 #include "agvd/paths/geodesic_path.h"
 #include "agvd/paths/isolines.h"
 #include "agvd/propagation/propagate.h"
@@ -111,6 +112,34 @@ TEST(IsolinesAgainstExact, ArePlacesOfTheirDistance) {
         const double level = levels[isolines.lines[line].level];
         for (Index i = drawn.offsets[line]; i < drawn.offsets[line + 1]; ++i) {
             EXPECT_NEAR(exact.distance[i], level, 1e-9 * level);
+        }
+    }
+}
+
+TEST(DistancesAgainstExact, OfPointsAndOfTheKNearestSites) {
+    const Surface surface = build_surface(shapes::jitter(shapes::sphere(3), 0.05, 1).view());
+    const auto sites = points::scattered(surface, 12, 3);
+    const auto targets = points::scattered(surface, 300, 5);
+    const NearestSites exact = exact_nearest_sites(surface, sites, targets);
+    const Distances found = find_distances(surface, sites, targets, {.max_error = 0});
+    EXPECT_EQ(found.point_site, exact.site);
+    for (std::size_t i = 0; i < targets.size(); ++i) {
+        EXPECT_NEAR(found.point_distance[i], exact.distance[i], 1e-12);
+    }
+    std::vector<SurfacePoint> vertices;
+    for (Index v = 0; v < surface.num_vertices(); ++v) vertices.push_back(point_at(surface, v));
+    std::vector<std::vector<double>> alone;
+    for (const SurfacePoint& site : sites)
+        alone.push_back(exact_distances(surface, site, vertices));
+    constexpr Index k = 4;
+    const KNearest ranks = k_nearest_sites(surface, sites, k, {.max_error = 0});
+    for (Index v = 0; v < surface.num_vertices(); ++v) {
+        std::vector<std::pair<double, SiteId>> sorted;
+        for (Index s = 0; s < sites.size(); ++s) sorted.emplace_back(alone[s][v], SiteId(s));
+        std::sort(sorted.begin(), sorted.end());
+        for (Index i = 0; i < k; ++i) {
+            EXPECT_EQ(ranks.site[v * k + i], sorted[i].second) << v << ' ' << i;
+            EXPECT_NEAR(ranks.distance[v * k + i], sorted[i].first, 1e-12);
         }
     }
 }

@@ -1,7 +1,7 @@
 //! \file
 //! Distances from the nearest site at vertices and at any other points, everywhere or within a
 //! radius; and the k nearest sites of each vertex.
-//! Held by Distances and KNearest in tests/agvd/paths.
+//! Held by Distances and KNearest in tests/agvd/paths, and DistancesAgainstExact in tests/oracle.
 #pragma once
 
 #include <span>

@@ -33,7 +33,7 @@ struct Isoline {
 //! Line l has the arcs [line_arcs[l], line_arcs[l + 1]). Lines come by level, open ones first, then
 //! by their first face.
 struct Isolines {
-    std::vector<Isoline> lines;
+    std::vector<Isoline> lines;       //!< Level and kind of each.
     std::vector<Index> line_arcs{0};  //!< #lines + 1 offsets into arcs.
     std::vector<IsolineArc> arcs;     //!< Each begins where the one before ends.
 };
