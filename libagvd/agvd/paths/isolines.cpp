@@ -123,9 +123,10 @@ private:
         return std::nullopt;
     }
 
-    void append_arcs(Index face, std::vector<SurfaceArc>& arcs) const {
+    void append_arcs(Index face, std::vector<SurfaceArc>& arcs) {
         const std::span<const FreeLevel> levels = levels_in(face);
         if (levels.empty()) return;
+        poller_.poll();
         const std::optional<Index> mixed = mixed_index_of(propagation_, face);
         if (!mixed) return;
         std::vector<PlanarRelay> relays;
@@ -156,7 +157,9 @@ private:
         poller_.poll();
         std::sort(ends.begin(), ends.end(),
                   [](const LineEnd& a, const LineEnd& b) { return a.key() < b.key(); });
+        Ticker ticker(poller_);
         for (std::size_t begin = 0; begin < ends.size();) {
+            ticker.tick(4);
             std::size_t end = begin + 1;
             while (end < ends.size() && ends[end].level == ends[begin].level &&
                    ends[end].edge == ends[begin].edge) {
@@ -218,7 +221,9 @@ private:
             return std::tuple(arcs_[a].level, is_entered_[a]) <
                    std::tuple(arcs_[b].level, is_entered_[b]);
         });
+        Ticker ticker(poller_);
         for (const Index first : order) {
+            ticker.tick(4);
             if (is_taken[first]) continue;
             result_.lines.push_back({arcs_[first].level, is_entered_[first]});
             for (Index i = first; i != no_index && !is_taken[i]; i = next_[i]) {

@@ -60,8 +60,13 @@ public:
     explicit Caps(const Surface& surface) : surface_(surface), caps_(surface.num_vertices(), 0) {}
 
     void add(const SurfacePoint& from, double length, Ticker& ticker) {
-        const Vec3 place = position(surface_.mesh.view(), from);
-        const double most = length * (1 + cap_slack);
+        // A face need not lie in space, but its corners do.
+        Index corner = 3 * from.face.value();
+        for (const Index h : {corner + 1, corner + 2}) {
+            if (distance(from, h) < distance(from, corner)) corner = h;
+        }
+        const Vec3& place = surface_.mesh.positions[surface_.tail(corner)];
+        const double most = (length + distance(from, corner)) * (1 + cap_slack);
         for (Index v = 0; v < caps_.size(); ++v) {
             ticker.tick();
             const double cap = most - (surface_.mesh.positions[v] - place).norm();
@@ -71,6 +76,11 @@ public:
     [[nodiscard]] std::span<const float> get() const { return caps_; }
 
 private:
+    // From the tail of a half-edge of the point's face.
+    [[nodiscard]] double distance(const SurfacePoint& point, Index half_edge) const {
+        return face_distance(surface_, point, point_on(half_edge, 0));
+    }
+
     const Surface& surface_;
     std::vector<float> caps_;
 };

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "agvd/core/error.h"
+#include "agvd/intrinsic/intrinsic_triangulation.h"
 #include "agvd/mesh/surface_points.h"
 #include "agvd/paths/distances.h"
 #include "support/geodesics.h"
@@ -159,6 +160,26 @@ TEST(ShortestPaths, BetweenPairsAreThoseToASite) {
         const std::array from{pairs[i].from};
         const auto alone = paths_to_sites(surface, site, exact_everywhere(surface, site), from);
         expect_shortest(surface, paths[i], alone[0].path.length);
+    }
+}
+
+// Its faces do not lie in space.
+TEST(ShortestPaths, OnAnIntrinsicTriangulationAreAsLong) {
+    TriangleMesh mesh = shapes::jitter(shapes::torus(16, 8), 0.1, 2);
+    shapes::add_flat_vertices(mesh, 60, 3);
+    const Surface surface = build_surface(mesh.view());
+    const IntrinsicTriangulation base(surface);
+    const auto ends = points::scattered(surface, 60, 9);
+    const auto on_base = base.to_intrinsic(ends);
+    std::vector<PointPair> pairs, pairs_on_base;
+    for (std::size_t i = 0; i + 1 < ends.size(); i += 2) {
+        pairs.push_back({ends[i], ends[i + 1]});
+        pairs_on_base.push_back({on_base[i], on_base[i + 1]});
+    }
+    const auto paths = shortest_paths(surface, pairs);
+    const auto paths_on_base = shortest_paths(base.surface(), pairs_on_base);
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        EXPECT_NEAR(paths_on_base[i].length, paths[i].length, 1e-9) << i;
     }
 }
 
