@@ -11,6 +11,8 @@ namespace {
 constexpr double equal_reaches = 1e-12;
 // A share of the level: shorter pieces of a circle are rounding.
 constexpr double shortest_piece = 1e-12;
+// A share of a side: farther from the face, a point is outside.
+constexpr double beside_face = 1e-6;
 // Cosine of the longest arc's angle.
 constexpr double longest_arc = -0.5;
 
@@ -108,8 +110,8 @@ private:
         if (!(half_sq >= 0)) return;
         const Vec2 foot = Vec2(along.y(), -along.x()) * height;
         const double half = std::sqrt(half_sq);
-        add_direction(foot + half * along);
-        add_direction(foot - half * along);
+        add_direction(circle, foot + half * along);
+        add_direction(circle, foot - half * along);
     }
     void meet(const LevelCircle& circle, const LevelCircle& other) {
         const Vec2 between = other.centre - circle.centre;
@@ -121,12 +123,18 @@ private:
         const double half_sq = circle.radius * circle.radius / distance_sq - at * at;
         const double half = std::sqrt(std::max(half_sq, 0.0));
         const Vec2 across(-between.y(), between.x());
-        add_direction(at * between + half * across);
-        add_direction(at * between - half * across);
+        add_direction(circle, at * between + half * across);
+        add_direction(circle, at * between - half * across);
     }
-    void add_direction(const Vec2& v) {
+    // Unless the circle is clearly outside the face there: such a change does not matter.
+    void add_direction(const LevelCircle& circle, const Vec2& v) {
         const double length = v.norm();
-        if (length > 0) directions_.push_back(v / length);
+        if (!(length > 0)) return;
+        const Vec2 p = circle.centre + v * (circle.radius / length);
+        for (const SightLine& side : sides_) {
+            if (side.height(p) < -beside_face * side.along.squaredNorm()) return;
+        }
+        directions_.push_back(v / length);
     }
 
     // Cuts a circle at all directions where something may change, and takes the pieces that count.
