@@ -7,18 +7,13 @@
 
 #include "agvd/core/error.h"
 #include "agvd/mesh/surface_points.h"
+#include "support/exact_field.h"
 #include "support/points.h"
 #include "support/shapes.h"
 
 using namespace agvd;
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
-
-Propagation exact_everywhere(const Surface& surface, std::span<const SurfacePoint> sites) {
-    return propagate(surface, sites, {.max_error = 0, .relay_faces = all_faces(surface)});
-}
 
 // Of the arc, in its own direction.
 double angle_of(const IsolineArc& arc) {
@@ -80,10 +75,12 @@ TEST(Isolines, OfOneSiteInASquareAreCircles) {
     const Vec3 centre = position(mesh.view(), sites[0]);
     const double room = std::min({centre.x(), 1 - centre.x(), centre.y(), 1 - centre.y()});
     const std::array levels{0.3 * room, 0.99 * room, 0.001};
-    const Isolines isolines = build_isolines(surface, exact_everywhere(surface, sites), levels);
+    const Isolines isolines =
+        build_isolines(surface, support::exact_everywhere(surface, sites), levels);
     ASSERT_EQ(isolines.lines.size(), 3u);
     expect_chains(surface, isolines, 1);
-    EXPECT_NEAR(length_of(isolines), 2 * pi * (levels[0] + levels[1] + levels[2]), 1e-10);
+    EXPECT_NEAR(length_of(isolines), 2 * std::numbers::pi * (levels[0] + levels[1] + levels[2]),
+                1e-10);
     const DrawnIsolines drawn = draw_isolines(surface, isolines, 1e-5);
     for (std::size_t line = 0; line < 3; ++line) {
         EXPECT_TRUE(isolines.lines[line].is_closed);
@@ -104,7 +101,7 @@ TEST(Isolines, OfManySitesLieAtTheirLevels) {
     const TriangleMesh mesh = moved_square(11);
     const Surface surface = build_surface(mesh.view());
     const auto sites = points::scattered(surface, 7, 2);
-    const Propagation propagation = exact_everywhere(surface, sites);
+    const Propagation propagation = support::exact_everywhere(surface, sites);
     const auto levels = levels_every(propagation, 0.031);
     ASSERT_GT(levels.size(), 5u);
     const Isolines isolines = build_isolines(surface, propagation, levels);
@@ -132,16 +129,18 @@ TEST(Isolines, OnAPrismAreCirclesWhenUnrolled) {
     constexpr Index n = 20;
     const TriangleMesh mesh = shapes::tube(n, 16);
     const Surface surface = build_surface(mesh.view());
-    const double side = 2 * std::sin(pi / n);
+    const double side = 2 * std::sin(std::numbers::pi / n);
     const std::array sites{SurfacePoint{FaceId(300), {0.3, 0.3, 0.4}}};
     const auto unrolled = [&](const Vec3& p) {
-        const double k = std::floor(std::atan2(p.y(), p.x()) / (2 * pi / n));
-        const Vec2 corner(std::cos(k * 2 * pi / n), std::sin(k * 2 * pi / n));
+        const double k = std::floor(std::atan2(p.y(), p.x()) / (2 * std::numbers::pi / n));
+        const Vec2 corner(std::cos(k * 2 * std::numbers::pi / n),
+                          std::sin(k * 2 * std::numbers::pi / n));
         return Vec2(side * k + (Vec2(p.x(), p.y()) - corner).norm(), p.z());
     };
     const Vec2 centre = unrolled(position(mesh.view(), sites[0]));
     const std::array levels{0.4, 2.0, 3.05};
-    const Isolines isolines = build_isolines(surface, exact_everywhere(surface, sites), levels);
+    const Isolines isolines =
+        build_isolines(surface, support::exact_everywhere(surface, sites), levels);
     expect_chains(surface, isolines, 1);
     const DrawnIsolines drawn = draw_isolines(surface, isolines, 1e-4);
     std::array<int, 3> num_points{};
@@ -163,7 +162,7 @@ TEST(Isolines, OfClosedSurfacesAreClosed) {
         const Surface surface = build_surface(mesh.view());
         for (const Index count : {1u, 5u}) {
             const auto sites = points::scattered(surface, count, 4);
-            const Propagation propagation = exact_everywhere(surface, sites);
+            const Propagation propagation = support::exact_everywhere(surface, sites);
             for (const double step : {0.05, 0.1}) {
                 const Isolines isolines =
                     build_isolines(surface, propagation, levels_every(propagation, step));
@@ -180,17 +179,18 @@ TEST(Isolines, MayMeetVertices) {
     const Surface surface = build_surface(shapes::grid(8).view());
     const std::array sites{point_at(surface, 40)};  // In the middle.
     const std::array levels{0.125, 0.25, 0.375, 0.125 * std::sqrt(2)};
-    const Isolines isolines = build_isolines(surface, exact_everywhere(surface, sites), levels);
+    const Isolines isolines =
+        build_isolines(surface, support::exact_everywhere(surface, sites), levels);
     expect_chains(surface, isolines, 1);
     EXPECT_EQ(isolines.lines.size(), 4u);
     for (const Isoline& line : isolines.lines) EXPECT_TRUE(line.is_closed);
-    EXPECT_NEAR(length_of(isolines), 2 * pi * (0.75 + 0.125 * std::sqrt(2)), 1e-8);
+    EXPECT_NEAR(length_of(isolines), 2 * std::numbers::pi * (0.75 + 0.125 * std::sqrt(2)), 1e-8);
 }
 
 TEST(Isolines, AreTheSameForAnyNumberOfThreads) {
     const Surface surface = build_surface(shapes::jitter(shapes::sphere(4), 0.02, 1).view());
     const auto sites = points::scattered(surface, 3, 4);
-    const Propagation propagation = exact_everywhere(surface, sites);
+    const Propagation propagation = support::exact_everywhere(surface, sites);
     const auto levels = levels_every(propagation, 0.1);
     const Isolines once = build_isolines(surface, propagation, levels, {.num_threads = 1});
     const Isolines again = build_isolines(surface, propagation, levels, {.num_threads = 3});
@@ -227,7 +227,7 @@ TEST(Isolines, WithErrorsAreNearTheirLevels) {
 TEST(Isolines, NeedRelaysAndLevels) {
     const Surface surface = build_surface(shapes::sphere(2).view());
     const std::array sites{point_at(surface, 0)};
-    const Propagation exact = exact_everywhere(surface, sites);
+    const Propagation exact = support::exact_everywhere(surface, sites);
     for (const double level : {0.0, -1.0, std::nan(""), infinity}) {
         EXPECT_THROW((void)build_isolines(surface, exact, std::array{level}), InvalidOption);
         EXPECT_THROW((void)levels_every(exact, level), InvalidOption);

@@ -8,6 +8,7 @@
 #include "agvd/intrinsic/intrinsic_triangulation.h"
 #include "agvd/mesh/surface_points.h"
 #include "agvd/paths/distances.h"
+#include "support/exact_field.h"
 #include "support/geodesics.h"
 #include "support/points.h"
 #include "support/shapes.h"
@@ -15,10 +16,6 @@
 using namespace agvd;
 
 namespace {
-
-Propagation exact_everywhere(const Surface& surface, std::span<const SurfacePoint> sites) {
-    return propagate(surface, sites, {.max_error = 0, .relay_faces = all_faces(surface)});
-}
 
 // Each piece lies in one face, the pieces add up to the length, and no bend can be cut short.
 void expect_shortest(const Surface& surface, const GeodesicPath& path, double distance) {
@@ -65,7 +62,8 @@ TEST(ShortestPaths, OnASquareAreTheStraightLinesToTheNearestSite) {
     const Surface surface = build_surface(mesh.view());
     const auto sites = points::scattered(surface, 6, 2);
     const auto starts = points::scattered(surface, 90, 5);
-    const auto paths = paths_to_sites(surface, sites, exact_everywhere(surface, sites), starts);
+    const auto paths =
+        paths_to_sites(surface, sites, support::exact_everywhere(surface, sites), starts);
     ASSERT_EQ(paths.size(), starts.size());
     for (std::size_t i = 0; i < starts.size(); ++i) {
         SCOPED_TRACE(i);
@@ -115,7 +113,7 @@ TEST(ShortestPaths, HaveTheDistancesThatAreExact) {
                                      shapes::jitter(shapes::grid(16), 0.05, 3), shapes::cube()}) {
         const Surface surface = build_surface(mesh.view());
         const auto sites = points::scattered(surface, 3, 4);
-        const Propagation propagation = exact_everywhere(surface, sites);
+        const Propagation propagation = support::exact_everywhere(surface, sites);
         std::vector<SurfacePoint> vertices;
         for (Index v = 0; v < surface.num_vertices(); v += 3) {
             vertices.push_back(point_at(surface, v));
@@ -137,7 +135,8 @@ TEST(ShortestPaths, OfManySitesHaveTheDistancesOfTheirPoints) {
     for (const Index count : {1u, 30u, 400u}) {
         const auto sites = uniform_points(surface, count, 3);
         const auto starts = uniform_points(surface, 400, 6);
-        const auto paths = paths_to_sites(surface, sites, exact_everywhere(surface, sites), starts);
+        const auto paths =
+            paths_to_sites(surface, sites, support::exact_everywhere(surface, sites), starts);
         const Distances distances = find_distances(surface, sites, starts, {.max_error = 0});
         for (std::size_t i = 0; i < starts.size(); ++i) {
             SCOPED_TRACE(i);
@@ -158,7 +157,8 @@ TEST(ShortestPaths, BetweenPairsAreThoseToASite) {
         if (pairs[i].from == pairs[i].to) continue;
         const std::array site{pairs[i].to};
         const std::array from{pairs[i].from};
-        const auto alone = paths_to_sites(surface, site, exact_everywhere(surface, site), from);
+        const auto alone =
+            paths_to_sites(surface, site, support::exact_everywhere(surface, site), from);
         expect_shortest(surface, paths[i], alone[0].path.length);
     }
 }
@@ -187,7 +187,8 @@ TEST(ShortestPaths, WithErrorsInTheDistancesAreLongerByNoMore) {
     const Surface surface = build_surface(shapes::jitter(shapes::torus(40, 20), 0.06, 2).view());
     const auto sites = points::scattered(surface, 2, 4);
     const auto starts = points::scattered(surface, 60, 5);
-    const auto exact = paths_to_sites(surface, sites, exact_everywhere(surface, sites), starts);
+    const auto exact =
+        paths_to_sites(surface, sites, support::exact_everywhere(surface, sites), starts);
     constexpr double error = 1e-2;
     const Propagation rough =
         propagate(surface, sites, {.max_error = error, .relay_faces = all_faces(surface)});
@@ -204,7 +205,7 @@ TEST(ShortestPaths, AreTheSameForAnyNumberOfThreads) {
     const Surface surface = build_surface(shapes::jitter(shapes::sphere(3), 0.05, 1).view());
     const auto sites = points::scattered(surface, 3, 4);
     const auto starts = points::scattered(surface, 50, 5);
-    const Propagation propagation = exact_everywhere(surface, sites);
+    const Propagation propagation = support::exact_everywhere(surface, sites);
     const auto once = paths_to_sites(surface, sites, propagation, starts, {.num_threads = 1});
     const auto again = paths_to_sites(surface, sites, propagation, starts, {.num_threads = 3});
     for (std::size_t i = 0; i < starts.size(); ++i) {
@@ -220,7 +221,8 @@ TEST(ShortestPaths, EndWhereNoSiteReaches) {
     const Surface surface = build_surface(mesh.view());
     const std::array sites{point_at(surface, 0)};
     const std::array starts{SurfacePoint{FaceId(15), {0.2, 0.3, 0.5}}, point_at(surface, 4)};
-    const auto paths = paths_to_sites(surface, sites, exact_everywhere(surface, sites), starts);
+    const auto paths =
+        paths_to_sites(surface, sites, support::exact_everywhere(surface, sites), starts);
     EXPECT_FALSE(paths[0].site.is_valid());
     EXPECT_TRUE(paths[0].path.points.empty());
     EXPECT_NEAR(paths[1].path.length, std::sqrt(0.5), 1e-15);
