@@ -1,14 +1,16 @@
 // `agvd diagram` writes geodesic Voronoi diagrams to files, `agvd compare` measures their
-// difference. Diagrams are drawn on the cleaned input.
+// difference. The queries are files of their own: agvd_path.cpp, ... Diagrams are drawn on the
+// cleaned input.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 
 #include "arguments.h"
 #include "based_diagram.h"
 #include "expected_stages.h"
 #include "help.h"
 #include "paper/compare_diagrams.h"
-#include "remesh/clean/carry.h"
+#include "query.h"
 #include "remesh/meshfile/atomic_file.h"
 #include "remesh/meshfile/diagram_file.h"
 #include "remesh/meshfile/mesh_file.h"
@@ -39,63 +41,15 @@ constexpr const char* diagram_footer =
     "  .obj   the polylines as v and l lines\n"
     "  .agvd  everything, exactly: what `agvd compare` reads\n\n";
 
-struct DiagramArguments : cli::DiagramArguments {
-    std::vector<fs::path> outputs;
-};
-
-void check_outputs(const DiagramArguments& arguments) {
-    for (const fs::path& output : arguments.outputs) {
-        remesh::check_diagram_extension(output);
-        cli::check_output(output, {arguments.input, arguments.sites}, arguments.force);
-        const auto same =
-            std::count_if(arguments.outputs.begin(), arguments.outputs.end(),
-                          [&](const fs::path& other) { return cli::is_same_file(output, other); });
-        if (same > 1) {
-            throw agvd::InvalidOption(output.string() +
-                                      " is named twice as an output; choose another file");
-        }
-    }
-}
-
-std::vector<agvd::SurfacePoint> sample(const DiagramArguments& arguments,
-                                       const agvd::Surface& surface, cli::Console& console) {
-    remesh::SamplingOptions sampling = arguments.sampling;
-    sampling.num_samples = cli::num_samples_for(arguments, surface.num_vertices());
-    sampling.num_threads = arguments.common.threads;
-    sampling.progress = console.progress_of("sample");
-    return cli::naming_file(arguments.input,
-                            [&] { return remesh::sample_sites(surface, sampling); });
-}
-
-// The sites of --sites as points of the cleaned mesh.
-std::vector<agvd::SurfacePoint> given_sites(const DiagramArguments& arguments,
-                                            const agvd::MeshView& mesh,
-                                            const remesh::CleanResult& clean,
-                                            cli::Console& console) {
-    const std::vector<agvd::SurfacePoint> given = cli::read_given_sites(arguments, mesh, console);
-    return cli::naming_file(arguments.sites,
-                            [&] { return remesh::to_cleaned(given, mesh, clean); });
-}
-
-void run_diagram(const DiagramArguments& arguments, cli::Console& console) {
-    check_outputs(arguments);
+void run_diagram(const cli::QueryArguments& arguments, cli::Console& console) {
+    cli::check_outputs(arguments, {arguments.sites}, remesh::check_diagram_extension);
     console.expect(cli::stages_with_reading(arguments.input, arguments.sampling.num_samples));
-    const remesh::MeshFile input = cli::read_input(arguments, console);
-    const agvd::MeshView mesh = input.mesh.view();
-    console.info(cli::describe(arguments.input, mesh));
-    console.expect(cli::stages_of_diagram(mesh.triangles.size(), arguments.sampling.num_samples));
-    remesh::CleanOptions cleaning = arguments.cleaning;
-    cleaning.num_threads = arguments.common.threads;
-    cleaning.progress = console.progress_of("clean");
-    const remesh::CleanResult clean =
-        cli::naming_file(arguments.input, [&] { return remesh::clean_input(mesh, cleaning); });
-    console.info(remesh::to_text(clean.counts));
-    const agvd::Surface surface = agvd::build_surface(clean.mesh.view(), arguments.common.threads,
-                                                      console.progress_of("clean"));
-
-    const std::vector<agvd::SurfacePoint> sites =
-        arguments.sites.empty() ? sample(arguments, surface, console)
-                                : given_sites(arguments, mesh, clean, console);
+    const cli::OpenedInput input = cli::open_input(arguments, console, [&](std::size_t num_faces) {
+        return cli::stages_of_diagram(num_faces, arguments.sampling.num_samples);
+    });
+    const remesh::CleanResult& clean = input.clean;
+    const agvd::Surface& surface = input.surface;
+    const std::vector<agvd::SurfacePoint> sites = cli::sites_on(input, arguments, console);
     const double spacing = remesh::mean_spacing(surface, sites.size());
     if (clean.slit_length > spacing) console.warn(cli::welded_slit_text(clean.slit_length));
     agvd::PropagationOptions propagating = arguments.propagation;
@@ -215,17 +169,11 @@ void run_compare(const CompareArguments& arguments, cli::Console& console) {
     if (!is_json_on_stdout) cli::print(to_text(comparison, info) + '\n');
 }
 
-CLI::App* add_diagram(CLI::App& app, DiagramArguments& arguments) {
+CLI::App* add_diagram(CLI::App& app, cli::QueryArguments& arguments) {
     CLI::App* command = app.add_subcommand(
         "diagram", "Compute the diagram of sites on a mesh and write it to files");
     cli::add_diagram_options(*command, arguments);
-    cli::start_group(*command, cli::heading::files);
-    command
-        ->add_option("-o,--output", arguments.outputs,
-                     "File to write; repeat the option to write more files")
-        ->required()
-        ->type_name("FILE")
-        ->allow_extra_args(false);
+    cli::add_outputs(*command, arguments.outputs);
     command->footer(std::string(diagram_footer) + cli::exit_code_help);
     return command;
 }
@@ -271,11 +219,15 @@ int main(int argc, char** argv) {
     CLI::App app("Geodesic Voronoi diagrams of triangle meshes.", "agvd");
     app.require_subcommand(1);
     app.footer(cli::exit_code_help);
-    DiagramArguments for_diagram;
+    cli::QueryArguments for_diagram;
     CompareArguments for_compare;
     const CLI::App* diagram = add_diagram(app, for_diagram);
+    const std::array queries{cli::add_distance(app), cli::add_path(app), cli::add_isolines(app)};
     add_compare(app, for_compare);
     return cli::run(app, argc, argv, [&] {
+        for (const cli::Query& query : queries) {
+            if (query.command->parsed()) return query.run();
+        }
         if (diagram->parsed()) {
             cli::Console console(for_diagram.common, cli::limit_of(for_diagram));
             console.run([&] { run_diagram(for_diagram, console); });

@@ -107,6 +107,12 @@ void add_site_options(CLI::App& app, DiagramArguments& arguments) {
         ->type_name("FILE");
 }
 
+void add_max_error(CLI::App& app, const std::string& help, agvd::PropagationOptions& propagation) {
+    app.add_option("--max-error", propagation.max_error, help)
+        ->check(CLI::Validator(check_max_error, ""))
+        ->type_name("E");
+}
+
 void add_propagation_options(CLI::App& app, agvd::PropagationOptions& propagation) {
     start_group(app, heading::geodesics);
     add_choice(
@@ -117,9 +123,7 @@ void add_propagation_options(CLI::App& app, agvd::PropagationOptions& propagatio
         [&propagation](const std::string& name) {
             propagation.engine = engines_by_name().at(name);
         });
-    app.add_option("--max-error", propagation.max_error, max_error_help())
-        ->check(CLI::Validator(check_max_error, ""))
-        ->type_name("E");
+    add_max_error(app, max_error_help(), propagation);
     const CLI::Option* const steiner_points =
         app.add_option("--steiner-points", propagation.steiner_points,
                        "Steiner engine: points on each edge; more points are more exact and slower")
@@ -142,6 +146,42 @@ void add_propagation_options(CLI::App& app, agvd::PropagationOptions& propagatio
                 "only the Steiner engine has it; add --engine steiner, or leave it out");
         }
     });
+}
+
+void add_input_options(CLI::App& app, DiagramArguments& arguments) {
+    start_group(app, heading::files);
+    add_mesh_input(app, "IN",
+                   "Mesh to read: " + mesh_extensions() + "; - reads standard input, with --from",
+                   arguments.input)
+        ->required();
+    add_format_option(app, "--from",
+                      "Format of IN where no extension names it: " + remesh::mesh_formats(),
+                      arguments.from);
+}
+
+void add_running_options(CLI::App& app, DiagramArguments& arguments) {
+    arguments.memory_limit = machine_memory() / 4 * 3;
+    start_group(app, heading::running);
+    app.add_option_function<std::string>(
+           "--memory-limit",
+           [&arguments](const std::string& text) {
+               arguments.memory_limit = parse_bytes(text).value();
+           },
+           "Stop if more memory is used: bytes (also with K, M, G or T), or a percentage of the "
+           "machine's memory")
+        ->check(CLI::Validator(check_memory_limit, ""))
+        ->type_name("BYTES")
+        ->default_str("75%");
+    start_group(app, heading::files);
+    app.add_flag("--force", arguments.force, "Allow an output to overwrite an input");
+    app.add_flag(
+        "--lenient", arguments.is_lenient,
+        "Read a file that does not fit its header, and warn: of more elements those announced; PLY "
+        "with values left over on a line or header lines without a keyword; STL that announces 0");
+    app.add_flag("--keep-slits", arguments.cleaning.keep_slits,
+                 "Leave edges open that lie at one place, such as the two sides of a slit; by "
+                 "default they are welded");
+    add_common_options(app, arguments.common);
 }
 
 }  // namespace
@@ -212,38 +252,23 @@ agvd::Index num_samples_for(const Amount& samples, std::size_t num_vertices) {
 }
 
 void add_diagram_options(CLI::App& app, DiagramArguments& arguments) {
-    start_group(app, heading::files);
-    add_mesh_input(app, "IN",
-                   "Mesh to read: " + mesh_extensions() + "; - reads standard input, with --from",
-                   arguments.input)
-        ->required();
-    add_format_option(app, "--from",
-                      "Format of IN where no extension names it: " + remesh::mesh_formats(),
-                      arguments.from);
+    add_input_options(app, arguments);
     add_site_options(app, arguments);
     add_propagation_options(app, arguments.propagation);
-    arguments.memory_limit = machine_memory() / 4 * 3;
-    start_group(app, heading::running);
-    app.add_option_function<std::string>(
-           "--memory-limit",
-           [&arguments](const std::string& text) {
-               arguments.memory_limit = parse_bytes(text).value();
-           },
-           "Stop if more memory is used: bytes (also with K, M, G or T), or a percentage of the "
-           "machine's memory")
-        ->check(CLI::Validator(check_memory_limit, ""))
-        ->type_name("BYTES")
-        ->default_str("75%");
-    start_group(app, heading::files);
-    app.add_flag("--force", arguments.force, "Allow an output to overwrite an input");
-    app.add_flag(
-        "--lenient", arguments.is_lenient,
-        "Read a file that does not fit its header, and warn: of more elements those announced; PLY "
-        "with values left over on a line or header lines without a keyword; STL that announces 0");
-    app.add_flag("--keep-slits", arguments.cleaning.keep_slits,
-                 "Leave edges open that lie at one place, such as the two sides of a slit; by "
-                 "default they are welded");
-    add_common_options(app, arguments.common);
+    add_running_options(app, arguments);
+}
+
+void add_query_options(CLI::App& app, DiagramArguments& arguments) {
+    add_input_options(app, arguments);
+    add_site_options(app, arguments);
+    arguments.propagation.max_error = 0;
+    start_group(app, heading::geodesics);
+    add_max_error(
+        app,
+        "Largest error of the distances, as a share of the exact ones: 0 (exact) to below "
+        "1. Default: 0",
+        arguments.propagation);
+    add_running_options(app, arguments);
 }
 
 MemoryLimit limit_of(const DiagramArguments& arguments) {
@@ -267,6 +292,14 @@ remesh::MeshFile read_input(const DiagramArguments& arguments, Console& console,
 std::vector<agvd::SurfacePoint> read_given_sites(const DiagramArguments& arguments,
                                                  const agvd::MeshView& mesh, Console& console) {
     remesh::SitesFile file = remesh::read_sites(arguments.sites, mesh, console.progress_of("read"));
+    for (const std::string& warning : file.warnings) console.warn(warning);
+    return std::move(file.sites);
+}
+
+std::vector<agvd::SurfacePoint> read_points(const std::filesystem::path& path,
+                                            const agvd::MeshView& mesh, Console& console) {
+    remesh::SitesFile file =
+        remesh::read_sites(path, mesh, console.progress_of("read"), remesh::Repeats::Allowed);
     for (const std::string& warning : file.warnings) console.warn(warning);
     return std::move(file.sites);
 }

@@ -70,6 +70,10 @@ CLI::Option* add_count(CLI::App& app, const std::string& flag, const std::string
 //! --memory-limit, --force, --lenient and the common options.
 void add_diagram_options(CLI::App& app, DiagramArguments& arguments);
 
+//! The same for exact distances by the window engine: without the options of engines, and
+//! --max-error has the default 0.
+void add_query_options(CLI::App& app, DiagramArguments& arguments);
+
 //! Values by the names that name_of gives them.
 template <typename T>
 [[nodiscard]] std::map<std::string, T> by_name(std::initializer_list<T> values,
@@ -114,6 +118,11 @@ enum class WithAttributes { No, Yes };
 [[nodiscard]] std::vector<agvd::SurfacePoint> read_given_sites(const DiagramArguments& arguments,
                                                                const agvd::MeshView& mesh,
                                                                Console& console);
+
+//! Reads points of the mesh as it was read: a file of sites in which places may repeat.
+[[nodiscard]] std::vector<agvd::SurfacePoint> read_points(const std::filesystem::path& path,
+                                                          const agvd::MeshView& mesh,
+                                                          Console& console);
 
 //! "FILE: N vertices, M faces", for the log.
 [[nodiscard]] std::string describe(const std::filesystem::path& path, const agvd::MeshView& mesh);

@@ -66,6 +66,15 @@ std::vector<ExpectedStage> stages_of_diagram(std::size_t num_faces, std::size_t 
             {"write", 1e-7 * faces + 1e-5 * sites}};
 }
 
+std::vector<ExpectedStage> stages_of_query(std::size_t num_faces, const char* query) {
+    const auto faces = static_cast<double>(num_faces);
+    return {{"clean", 3e-6 * faces},
+            {"sample", 7e-7 * faces},
+            {"propagate", 2e-5 * faces},
+            {query, 3e-6 * faces},
+            {"write", 1e-7 * faces}};
+}
+
 std::vector<ExpectedStage> stages_of_comparison(bool is_exact) {
     std::vector<ExpectedStage> stages{{"read", 0.12}};
     if (is_exact) stages.insert(stages.end(), {{"propagate", 0.19}, {"diagram", 0.1}});

@@ -31,6 +31,10 @@ namespace cli {
 [[nodiscard]] std::vector<ExpectedStage> stages_of_diagram(std::size_t num_faces,
                                                            std::size_t num_sites);
 
+//! Of `agvd path`, `agvd isolines` and `agvd distance`, once the input is read.
+//! \param query  the name of the stage behind propagation.
+[[nodiscard]] std::vector<ExpectedStage> stages_of_query(std::size_t num_faces, const char* query);
+
 //! Of `agvd compare`.
 [[nodiscard]] std::vector<ExpectedStage> stages_of_comparison(bool is_exact);
 

@@ -9,5 +9,7 @@
 #include "agvd/mesh/closest_point.h"
 #include "agvd/mesh/mesh.h"
 #include "agvd/mesh/surface.h"
+#include "agvd/paths/distances.h"
 #include "agvd/paths/geodesic_path.h"
+#include "agvd/paths/isolines.h"
 #include "agvd/propagation/propagate.h"

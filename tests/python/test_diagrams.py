@@ -170,3 +170,32 @@ def test_sites_at_vertices_without_a_face_are_refused(sphere):
     V, F = sphere
     with pytest.raises(remesh.InvalidSites, match="vertex 1026 is in no face"):
         remesh.voronoi(np.vstack([V, [[5, 5, 5]]]), F, [1026])
+
+
+def test_distances_of_targets_and_within_a_radius():
+    V, F = flat_square(10)
+    sites = np.array([[0.21, 0.33, 0], [0.84, 0.7, 0]])
+    targets = np.array([[0.5, 0.4, 0], [0.22, 0.3, 0], [0.9, 0.1, 0]])
+    straight = np.linalg.norm(targets[:, None] - sites, axis=2).min(axis=1)
+    assert np.allclose(remesh.geodesic_distance(V, F, sites, 0, targets=targets), straight, atol=1e-12)
+    near = remesh.geodesic_distance(V, F, sites, 0, targets=targets, radius=0.4)
+    assert np.allclose(near, np.where(straight <= 0.4, straight, np.inf), atol=1e-12)
+    of_vertices = np.linalg.norm(V[:, None] - sites, axis=2).min(axis=1)
+    found = remesh.geodesic_distance(V, F, sites, 0, radius=0.25)
+    assert np.allclose(found, np.where(of_vertices <= 0.25, of_vertices, np.inf), atol=1e-12)
+    with pytest.raises(remesh.InvalidOption, match="window"):
+        remesh.geodesic_distance(V, F, sites, 0.1, radius=1, engine="steiner")
+    with pytest.raises(remesh.InvalidOption):
+        remesh.geodesic_distance(V, F, sites, radius=-1)
+
+
+def test_nearest_sites_are_ranked():
+    V, F = flat_square(10)
+    points = np.array([[0.21, 0.33, 0], [0.84, 0.7, 0], [0.1, 0.95, 0]])
+    straight = np.linalg.norm(V[:, None] - points, axis=2)
+    sites, distances = remesh.nearest_sites(V, F, points, 4, 0)
+    assert np.array_equal(sites[:, :3], straight.argsort(axis=1))
+    assert np.allclose(distances[:, :3], np.sort(straight, axis=1), atol=1e-12)
+    assert (sites[:, 3] == -1).all() and np.isinf(distances[:, 3]).all()
+    with pytest.raises(remesh.InvalidOption):
+        remesh.nearest_sites(V, F, points, 0)

@@ -83,17 +83,21 @@ Nearest nearest(std::span<const PlanarRelay> relays, const Vec2& p) {
 PointLabel point_label(const Surface& surface, const Propagation& propagation,
                        const SurfacePoint& point) {
     const Index face = point.face.value();
-    const auto& mixed = propagation.mixed_faces;
-    const auto found = std::lower_bound(mixed.begin(), mixed.end(), face);
-    if (found == mixed.end() || *found != face) {
-        return {propagation.vertex_site[surface.mesh.triangles[face][0]], {}};
-    }
+    const std::optional<Index> mixed = mixed_index_of(propagation, face);
+    if (!mixed) return {propagation.vertex_site[surface.mesh.triangles[face][0]], {}};
     std::vector<PlanarRelay> planar;
-    for (const Relay& relay : relays_of(propagation, static_cast<Index>(found - mixed.begin()))) {
+    for (const Relay& relay : relays_of(propagation, *mixed)) {
         planar.push_back(to_planar(relay, to_face_frame(surface, relay.half_edge)));
     }
     const Nearest label = nearest(planar, position_in_frame(surface, point, 3 * face));
     return {SiteId(label.site), label.distance};
+}
+
+PointLabel label_at(const Surface& surface, const Propagation& propagation,
+                    const SurfacePoint& point) {
+    const std::optional<Index> vertex = vertex_of(surface, point);
+    if (!vertex) return point_label(surface, propagation, point);
+    return {propagation.vertex_site[*vertex], propagation.vertex_distance[*vertex]};
 }
 
 LineRelay on_line(const PlanarRelay& relay, const Vec2& start, const Vec2& along, double length) {

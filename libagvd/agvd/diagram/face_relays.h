@@ -113,6 +113,10 @@ struct PointLabel {
 [[nodiscard]] PointLabel point_label(const Surface& surface, const Propagation& propagation,
                                      const SurfacePoint& point);
 
+//! The same; at a vertex what the propagation says of it.
+[[nodiscard]] PointLabel label_at(const Surface& surface, const Propagation& propagation,
+                                  const SurfacePoint& point);
+
 // --- Seen from a segment -----------------------------------------------------------------------
 //
 // The segment lies on the x axis and begins at the origin. The distance from a site through a relay

@@ -1,5 +1,6 @@
-// trace() follows the straight line to a site, descend() goes down the distances from vertex to
-// vertex, search() is an A* search along edges; then paths are straightened.
+// trace_to_site() follows relays where there are any. trace() follows the straight line to a site,
+// descend() goes down the distances from vertex to vertex, search() is an A* search along edges;
+// then paths are straightened.
 #include "agvd/paths/geodesic_path.h"
 
 #include <algorithm>
@@ -12,6 +13,7 @@
 #include "agvd/diagram/face_relays.h"
 #include "agvd/mesh/surface_points.h"
 #include "agvd/paths/face_strip.h"
+#include "agvd/paths/relay_trace.h"
 
 namespace agvd {
 
@@ -234,11 +236,17 @@ GeodesicPath path_to_site(const Surface& surface, const SiteDistances& distances
 GeodesicPath path_to_site(const Surface& surface, std::span<const SurfacePoint> sites,
                           const Propagation& propagation, const SurfacePoint& point,
                           const Progress& progress) {
-    const std::optional<Index> vertex = vertex_of(surface, point);
-    const PointLabel label =
-        vertex ? PointLabel{propagation.vertex_site[*vertex], propagation.vertex_distance[*vertex]}
-               : point_label(surface, propagation, point);
+    const PointLabel label = label_at(surface, propagation, point);
     if (!label.site.is_valid()) throw InvalidInput("no path: no site reaches the point");
+    Poller poller(progress);
+    Ticker ticker(poller);
+    const TracedField field{surface, sites, propagation};
+    if (const auto traced = trace_to_site(field, snapped(surface, point), ticker)) {
+        const FaceStrip strip = strip_along(surface, traced->points, traced->faces);
+        GeodesicPath path = straighten(surface, strip, ticker);
+        const double allowed = std::max(length_tolerance, propagation.certified_error);
+        if (path.length <= label.distance.value_or(infinity) * (1 + allowed)) return path;
+    }
     return path_to_site(surface, {propagation.vertex_site, propagation.vertex_distance},
                         {label.site, sites[label.site.value()], label.distance.value_or(0)}, point,
                         progress);

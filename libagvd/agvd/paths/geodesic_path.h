@@ -1,7 +1,8 @@
 //! \file
 //! Locally shortest paths on the surface: from a given path, between two points, and from a point
 //! to its site after propagate(). None is shorter than the geodesic distance (up to rounding).
-//! Held by GeodesicPath.OnRandomMeshesEveryPathIsLocallyShortest in tests/agvd/paths.
+//! Held by GeodesicPath.OnRandomMeshesEveryPathIsLocallyShortest and ShortestPaths in
+//! tests/agvd/paths, and ShortestPathsAgainstExact in tests/oracle.
 #pragma once
 
 #include <span>
@@ -82,12 +83,68 @@ struct SiteGoal {
                                         const SiteGoal& goal, const SurfacePoint& point,
                                         const Progress& progress = {});
 
-//! The same to the point's nearest site.
+//! The same to the point's nearest site. Where the faces on the way have relays, as all have with
+//! PropagationOptions::relay_faces = all_faces(surface), the path follows them: after an exact
+//! propagation it is a shortest path, and its length is the distance up to rounding.
 //!
 //! \param sites, propagation  propagate(surface, sites).
 //! \throw InvalidInput  no site reaches the point.
+//! Cost: along relays O(faces crossed), and O(relays) at each vertex where the path bends.
 [[nodiscard]] GeodesicPath path_to_site(const Surface& surface, std::span<const SurfacePoint> sites,
                                         const Propagation& propagation, const SurfacePoint& point,
                                         const Progress& progress = {});
+
+// --- Many shortest paths at once
+// ------------------------------------------------------------------
+
+//! `{}` gives the defaults.
+struct ShortestPathOptions {
+    //! Relative error of the distances by which paths between pairs are found, in [0, 1). 0: the
+    //! paths are shortest ones, and their lengths the distances up to rounding.
+    double max_error = 0;
+    int num_threads = 0;     //!< >= 0; 0: all cores. The same bytes for any number.
+    Progress progress = {};  //!< Polled during the call; see agvd::poll.
+};
+
+//! A path from a point to its nearest site.
+struct SitePath {
+    SiteId site;        //!< Invalid: no site reaches the point, and the path has no points.
+    GeodesicPath path;  //!< From the point to the site.
+};
+
+//! path_to_site() for each point.
+//!
+//! \param sites, propagation  propagate(surface, sites), with relays in all faces for shortest paths
+//!                            (PropagationOptions::relay_faces).
+//! \return a path for each point.
+//! \throw InvalidSites  a point names a face that does not exist, or is off the face.
+//! \throw Cancelled     the progress callback returned false.
+//! Parallel. Cost: that of path_to_site() for each point.
+[[nodiscard]] std::vector<SitePath> paths_to_sites(const Surface& surface,
+                                                   std::span<const SurfacePoint> sites,
+                                                   const Propagation& propagation,
+                                                   std::span<const SurfacePoint> points,
+                                                   const ShortestPathOptions& options = {});
+
+//! Two points of a surface.
+struct PointPair {
+    SurfacePoint from;  //!< Where the path begins.
+    SurfacePoint to;    //!< Where it ends.
+};
+
+//! The shortest path of each pair.
+//!
+//! Exact windows go from the points to which most pairs lead back, only where a path over them can
+//! be as short as path_between() of some pair: in an ellipse around a pair's points.
+//! \return a path for each pair, from `from` to `to`.
+//! \throw InvalidOption  max_error is out of range.
+//! \throw InvalidSites   a point names a face that does not exist, or is off the face.
+//! \throw InvalidInput   the points of a pair lie on different components; the text names the pair.
+//! \throw Cancelled      the progress callback returned false.
+//! Cost: that of a SurfaceLayout; then for each different `to` O(n) quick steps and the windows in
+//! its ellipses, and the paths.
+[[nodiscard]] std::vector<GeodesicPath> shortest_paths(const Surface& surface,
+                                                       std::span<const PointPair> pairs,
+                                                       const ShortestPathOptions& options = {});
 
 }  // namespace agvd

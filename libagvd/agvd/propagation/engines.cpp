@@ -1,5 +1,7 @@
 #include "agvd/propagation/engines.h"
 
+#include <algorithm>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -29,12 +31,29 @@ void check_steiner_options(const Surface& surface, const PropagationOptions& opt
             "this mesh with " + std::to_string(options.steiner_points) +
             " Steiner points per edge needs more than 2^32 nodes; use fewer Steiner points");
     }
+    if (!options.relay_faces.empty() || options.max_distance < infinity) {
+        throw InvalidOption(
+            "the Steiner engine keeps relays in mixed faces only, and goes everywhere; use the "
+            "window engine for relay_faces and max_distance");
+    }
 }
 
 void check_options(const Surface& surface, const PropagationOptions& options) {
     if (options.max_error && !(*options.max_error >= 0 && *options.max_error < 1)) {
         throw InvalidOption("the maximal error is " + std::to_string(*options.max_error) +
                             "; use a number from 0 (exact) to below 1");
+    }
+    if (!(options.max_distance >= 0)) {
+        throw InvalidOption("the maximal distance is " + std::to_string(options.max_distance) +
+                            "; use a number of 0 or more");
+    }
+    const std::vector<Index>& faces = options.relay_faces;
+    if (!std::is_sorted(faces.begin(), faces.end()) ||
+        (!faces.empty() && faces.back() >= surface.num_faces())) {
+        throw InvalidOption(
+            "relay_faces are not ascending faces of the mesh; sort them, and use "
+            "numbers below " +
+            std::to_string(surface.num_faces()));
     }
     if (options.engine == Engine::Steiner) check_steiner_options(surface, options);
 }
@@ -62,6 +81,19 @@ Propagation propagate_distinct(const Surface& surface, std::span<const SurfacePo
 }
 
 }  // namespace
+
+std::vector<Index> all_faces(const Surface& surface) {
+    std::vector<Index> faces(surface.num_faces());
+    std::iota(faces.begin(), faces.end(), Index{0});
+    return faces;
+}
+
+std::optional<Index> mixed_index_of(const Propagation& propagation, Index face) {
+    const auto& mixed = propagation.mixed_faces;
+    const auto found = std::lower_bound(mixed.begin(), mixed.end(), face);
+    if (found == mixed.end() || *found != face) return std::nullopt;
+    return static_cast<Index>(found - mixed.begin());
+}
 
 const char* engine_name(Engine engine) { return engine == Engine::Steiner ? "steiner" : "window"; }
 

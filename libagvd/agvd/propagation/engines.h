@@ -2,6 +2,8 @@
 //! The two engines, which propagate() calls with checked options.
 #pragma once
 
+#include <cmath>
+
 #include "agvd/propagation/propagate.h"
 
 namespace agvd {
@@ -12,10 +14,20 @@ inline constexpr Index default_work_cap = 1 << 11;
 
 //! The window engine: every site on its own, as far as upper bounds of the distances allow. Cost:
 //! about O(n sqrt(n / t)) time for exact distances, O(n) for error-bounded ones, O(n) space.
+//! \param caps  #V, >= 0, or none: only paths to points p with length(p) <= caps[v] + |v p| for the
+//!              vertices v of their faces are looked for, and no vertex gets a longer distance.
 [[nodiscard]] Propagation propagate_windows(const Surface& surface, SurfaceLayout layout,
                                             std::span<const SurfacePoint> sites,
                                             const PropagationOptions& options,
-                                            Index work_cap = default_work_cap);
+                                            Index work_cap = default_work_cap,
+                                            std::span<const float> caps = {});
+
+//! The float at or above a value.
+[[nodiscard]] inline float rounded_up(double value) {
+    const auto rounded = static_cast<float>(value);
+    if (rounded >= value) return rounded;
+    return std::nextafter(rounded, std::numeric_limits<float>::infinity());
+}
 
 //! The paper's engine: multi-source propagation over Steiner points.
 //! \throw ConstraintUnmet  for max_error 1000 points on an edge do not suffice, or will foreseeably

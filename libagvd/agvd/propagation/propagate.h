@@ -38,6 +38,12 @@ struct PropagationOptions {
     //! Steiner engine: triangles are retired every lambda * #F pops, > 0. With max_error they all
     //! stay until the end.
     double lambda = 1;
+    //! Window engine: no path longer than this counts, in mesh units, >= 0. Vertices farther away
+    //! are reached by no site. Windows end there, so that their cost is that of the faces reached.
+    double max_distance = std::numeric_limits<double>::infinity();
+    //! Window engine: faces that are listed as mixed whatever labels they hold, ascending. Their
+    //! relays give the distance at each of their points. See all_faces().
+    std::vector<Index> relay_faces = {};
     int num_threads = 0;     //!< >= 0; 0: all cores. The same bytes for any number.
     Progress progress = {};  //!< Polled during the call; see agvd::poll.
 };
@@ -98,6 +104,7 @@ struct Propagation {
 
     //! Faces that may hold more than one label, ascending. Contract: an edge between a listed and
     //! an unlisted face, and a whole unlisted face, lie in the cell of their vertices' one site.
+    //! Those of PropagationOptions::relay_faces are among them.
     std::vector<Index> mixed_faces;
     std::vector<RelayRange> relay_ranges;  //!< #mixed: where the relays of each mixed face stand.
     //! Ordered by face.
@@ -112,6 +119,12 @@ struct Propagation {
     //! Work done: graph nodes reached (in the last round of insertions), or windows served.
     std::size_t num_nodes = 0;
 };
+
+//! 0, 1, ... for PropagationOptions::relay_faces: relays in all faces take about 60 bytes a window.
+[[nodiscard]] std::vector<Index> all_faces(const Surface& surface);
+
+//! The position of a face in Propagation::mixed_faces; nothing if it is not there. Cost: O(log n).
+[[nodiscard]] std::optional<Index> mixed_index_of(const Propagation& propagation, Index face);
 
 //! The relays of one mixed face.
 [[nodiscard]] inline std::span<const Relay> relays_of(const Propagation& propagation,

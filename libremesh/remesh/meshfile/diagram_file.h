@@ -19,6 +19,9 @@ struct SitesFile {
     std::vector<std::string> warnings;  //!< With the file's name and the line.
 };
 
+//! Whether points at one place are a warning: of sites only one counts, of targets all do.
+enum class Repeats { Told, Allowed };
+
 //! A text file with one site per line, in the order of the result; indices count from 0, as in the
 //! arrays of `mesh`:
 //!
@@ -40,8 +43,9 @@ struct SitesFile {
 //!        finite, barycentric coordinates are negative or do not sum to 1, or a point is off the
 //!        mesh by more than the spacing; names file and line.
 //! Cost: O(file size + n log n), and O(#F log #F) once for the first `p`.
+//! \param repeats  whether sites at the place of earlier ones are a warning.
 [[nodiscard]] SitesFile read_sites(const std::filesystem::path& path, const MeshView& mesh,
-                                   const Progress& progress = {});
+                                   const Progress& progress = {}, Repeats repeats = Repeats::Told);
 
 //! A text file with one vertex per line, counted from 0 as in the arrays of read_mesh's result;
 //! what follows # is a comment.

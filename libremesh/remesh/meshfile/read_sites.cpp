@@ -64,7 +64,7 @@ public:
     SiteReader(const SourceFile& file, const MeshView& mesh, const Progress& progress)
         : file_(file), mesh_(mesh), progress_(progress) {}
 
-    SitesFile read() {
+    SitesFile read(Repeats repeats) {
         SitesFile result;
         read_lines(
             file_,
@@ -75,7 +75,7 @@ public:
                 result.sites.push_back(read_site(scan));
             });
         judge_distances(result);
-        judge_repeats(result);
+        if (repeats == Repeats::Told) judge_repeats(result);
         return result;
     }
 
@@ -191,10 +191,10 @@ private:
 }  // namespace
 
 SitesFile read_sites(const std::filesystem::path& path, const MeshView& mesh,
-                     const Progress& progress) {
+                     const Progress& progress, Repeats repeats) {
     Poller poller(progress);
     const SourceFile file = load_file(path, poller);
-    return SiteReader(file, mesh, progress).read();
+    return SiteReader(file, mesh, progress).read(repeats);
 }
 
 std::vector<Index> read_vertices(const std::filesystem::path& path, const MeshView& mesh,

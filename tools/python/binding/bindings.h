@@ -6,11 +6,14 @@
 
 namespace python {
 
-void bind_remesh(pybind11::module_& module);    //!< Options and remesh.
-void bind_diagram(pybind11::module_& module);   //!< Diagrams and distances.
-void bind_stages(pybind11::module_& module);    //!< Cleaning, sampling, relaxation.
-void bind_transfer(pybind11::module_& module);  //!< Values of the input for the result.
-void bind_files(pybind11::module_& module);     //!< Files, and polygons.
-void bind_evaluate(pybind11::module_& module);  //!< Measures.
+void bind_remesh(pybind11::module_& module);     //!< Options and remesh.
+void bind_diagram(pybind11::module_& module);    //!< Diagrams and distances.
+void bind_distances(pybind11::module_& module);  //!< Distances of points and of k sites.
+void bind_isolines(pybind11::module_& module);   //!< Lines of equal distance.
+void bind_paths(pybind11::module_& module);      //!< Shortest paths.
+void bind_stages(pybind11::module_& module);     //!< Cleaning, sampling, relaxation.
+void bind_transfer(pybind11::module_& module);   //!< Values of the input for the result.
+void bind_files(pybind11::module_& module);      //!< Files, and polygons.
+void bind_evaluate(pybind11::module_& module);   //!< Measures.
 
 }  // namespace python

@@ -8,6 +8,9 @@ PYBIND11_MODULE(_remesh, module) {
     python::bind_errors(module);
     python::bind_remesh(module);
     python::bind_diagram(module);
+    python::bind_distances(module);
+    python::bind_paths(module);
+    python::bind_isolines(module);
     python::bind_stages(module);
     python::bind_transfer(module);
     python::bind_evaluate(module);

@@ -14,10 +14,12 @@ once, and gives the same bytes for any number of threads. Ctrl-C ends a call in 
 """
 
 from . import examples
-from ._diagrams import Voronoi, geodesic_distance, voronoi
+from ._diagrams import Voronoi, geodesic_distance, nearest_sites, voronoi
 from ._evaluation import evaluate
 from ._files import read, write
+from ._isolines import Isolines, isolines
 from ._mesh import Mesh
+from ._paths import Paths, paths
 from ._remesh import (
     Cancelled,
     ConstraintUnmet,
@@ -41,8 +43,10 @@ __all__ = [
     "InvalidInput",
     "InvalidOption",
     "InvalidSites",
+    "Isolines",
     "Mesh",
     "OutOfMemory",
+    "Paths",
     "Relaxed",
     "Result",
     "Sites",
@@ -52,6 +56,9 @@ __all__ = [
     "evaluate",
     "examples",
     "geodesic_distance",
+    "isolines",
+    "nearest_sites",
+    "paths",
     "read",
     "relax_sites",
     "remesh",

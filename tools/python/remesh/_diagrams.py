@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _arrays, _kinds, _remesh
+from ._remesh import InvalidOption
 from ._stages import Progress, take_sites
 
 
@@ -97,12 +98,16 @@ def voronoi(V: Any, F: Any = None, sites: Any = None, max_error: float | None = 
 
 
 def geodesic_distance(V: Any, F: Any = None, sources: Any = None, max_error: float | None = None, *,
-                      engine: str = "window", keep_slits: bool = False, threads: int = 0,
+                      targets: Any = None, radius: float | None = None, engine: str = "window",
+                      keep_slits: bool = False, threads: int = 0,
                       progress: Progress | None = None) -> NDArray[np.float64]:
     """#V: the distance along the surface of each vertex from the nearest of the sources; infinity
     where there is none on the same component.
 
     sources: as ``sites`` of voronoi(). max_error, engine, keep_slits: likewise.
+    targets: points given in the same ways; the result is their distances, one for each.
+    radius: what is farther away gets infinity; only faces so near to a source are looked at.
+    targets and radius need the engine ``"window"``.
 
     >>> V, F = remesh.examples.sphere(4)
     >>> d = remesh.geodesic_distance(V, F, [0], max_error=0)
@@ -111,5 +116,36 @@ def geodesic_distance(V: Any, F: Any = None, sources: Any = None, max_error: flo
     """
     mesh = _kinds.take(V, F)
     faces, barycentric = take_sites(mesh, sources)
+    if targets is not None or radius is not None:
+        if engine != "window":
+            raise InvalidOption(f"targets and radius need engine='window', not {engine!r}")
+        _, error, slits, num_threads = _common(engine, max_error, keep_slits, threads)
+        to = (faces, barycentric) if targets is None else take_sites(mesh, targets)
+        return _remesh.distances_at(
+            mesh.V, mesh.F, faces, barycentric, *to, targets is not None,
+            float("inf") if radius is None else _arrays.number(radius, "radius"),
+            1e-4 if error is None else error, slits, num_threads, progress)
     return _remesh.geodesic_distance(mesh.V, mesh.F, faces, barycentric,
                                      *_common(engine, max_error, keep_slits, threads), progress)
+
+
+def nearest_sites(V: Any, F: Any = None, sites: Any = None, k: int = 1, max_error: float = 1e-4, *,
+                  keep_slits: bool = False, threads: int = 0, progress: Progress | None = None
+                  ) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+    """The k nearest sites of each vertex along the surface, and their distances: two arrays #V x k,
+    the nearest first; -1 and infinity where fewer sites reach.
+
+    sites, max_error, keep_slits: as for voronoi().
+
+    >>> V, F = remesh.examples.sphere(3)
+    >>> sites, distances = remesh.nearest_sites(V, F, [0, 1, 2], k=2)
+    >>> sites[0].tolist()[0], float(distances[0, 0]), sites.shape == (len(V), 2)
+    (0, 0.0, True)
+    """
+    mesh = _kinds.take(V, F)
+    faces, barycentric = take_sites(mesh, sites)
+    count = _arrays.whole(k, "k", 1)
+    found, distances = _remesh.nearest_sites(
+        mesh.V, mesh.F, faces, barycentric, count, _arrays.number(max_error, "max_error"),
+        bool(keep_slits), _arrays.whole(threads, "threads", 0, 2**31 - 1), progress)
+    return found.reshape(-1, count), distances.reshape(-1, count)

@@ -72,6 +72,23 @@ def voronoi(positions: _Floats, triangles: _Indices, faces: _Indices, barycentri
 def geodesic_distance(positions: _Floats, triangles: _Indices, faces: _Indices,
                       barycentric: _Floats, engine: str, max_error: float | None,
                       keep_slits: bool, num_threads: int, progress: _Progress) -> _Floats: ...
+def paths_to_sites(positions: _Floats, triangles: _Indices, faces: _Indices,
+                   barycentric: _Floats, site_faces: _Indices, site_barycentric: _Floats,
+                   max_error: float, keep_slits: bool, num_threads: int,
+                   progress: _Progress) -> dict[str, Any]: ...
+def paths_between(positions: _Floats, triangles: _Indices, faces: _Indices, barycentric: _Floats,
+                  end_faces: _Indices, end_barycentric: _Floats, max_error: float,
+                  keep_slits: bool, num_threads: int, progress: _Progress) -> dict[str, Any]: ...
+def distances_at(positions: _Floats, triangles: _Indices, faces: _Indices, barycentric: _Floats,
+                 target_faces: _Indices, target_barycentric: _Floats, has_targets: bool,
+                 radius: float, max_error: float, keep_slits: bool, num_threads: int,
+                 progress: _Progress) -> _Floats: ...
+def nearest_sites(positions: _Floats, triangles: _Indices, faces: _Indices, barycentric: _Floats,
+                  k: int, max_error: float, keep_slits: bool, num_threads: int,
+                  progress: _Progress) -> tuple[_Numbers, _Floats]: ...
+def isolines(positions: _Floats, triangles: _Indices, faces: _Indices, barycentric: _Floats,
+             levels: list[float], step: float, tolerance: float | None, max_error: float,
+             keep_slits: bool, num_threads: int, progress: _Progress) -> dict[str, Any]: ...
 def clean(positions: _Floats, triangles: _Indices, keep_slits: bool, num_threads: int,
           progress: _Progress) -> tuple[_Floats, _Indices, _Numbers, _Numbers, dict[str, int]]: ...
 def sample_sites(positions: _Floats, triangles: _Indices, num_samples: int, init: str,

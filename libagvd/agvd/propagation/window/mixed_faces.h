@@ -125,8 +125,10 @@ void for_each_relay(const std::vector<Relay>& block, const Load& load, const Eac
 class MixedFaceWriter {
 public:
     MixedFaceWriter(const Surface& surface, const SitePlacement& placement, RelayLogs logs,
-                    Propagation& result)
-        : surface_(surface), placement_(placement), logs_(std::move(logs)), result_(result) {}
+                    std::span<const Index> relay_faces, Propagation& result)
+        : surface_(surface), placement_(placement), logs_(std::move(logs)), result_(result) {
+        for (const Index f : relay_faces) faces_[f].site = FaceRelays::several;
+    }
 
     void run(int num_threads, Poller& poller) {
         const Index num_ranges = logs_.num_ranges();
@@ -238,12 +240,14 @@ private:
 
 //! Writes the mixed faces and their relays into `result`, whose vertices are final. A face is mixed
 //! if its windows, corners and sites belong to more than one site.
+//! \param relay_faces  faces that count as mixed.
 //! \param logs  the windows of every face that may be mixed; consumed. Their order stays.
 //! Cost: O(#F + relays).
 inline void write_mixed_faces(const Surface& surface, const SitePlacement& placement,
-                              RelayLogs logs, int num_threads, Poller& poller,
-                              Propagation& result) {
-    MixedFaceWriter(surface, placement, std::move(logs), result).run(num_threads, poller);
+                              RelayLogs logs, std::span<const Index> relay_faces, int num_threads,
+                              Poller& poller, Propagation& result) {
+    MixedFaceWriter(surface, placement, std::move(logs), relay_faces, result)
+        .run(num_threads, poller);
 }
 
 }  // namespace agvd

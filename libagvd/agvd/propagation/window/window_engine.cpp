@@ -120,7 +120,9 @@ public:
           sites_(sites),
           options_(options),
           work_cap_(work_cap),
-          bounds_(std::move(bounds)) {}
+          bounds_(std::move(bounds)) {
+        for (const Index face : options.relay_faces) borders_[face] = 1;
+    }
 
     Propagation run() {
         result_.vertex_distance.assign(surface_.num_vertices(), infinity);
@@ -137,8 +139,8 @@ public:
         bounds_ = {};
         Marks().swap(borders_);
         const std::size_t log_bytes = common_bytes();
-        write_mixed_faces(surface_, placement_, std::move(logs_), options_.num_threads, poller_,
-                          result_);
+        write_mixed_faces(surface_, placement_, std::move(logs_), options_.relay_faces,
+                          options_.num_threads, poller_, result_);
         result_.peak_bytes =
             std::max(result_.peak_bytes, log_bytes + result_.relays.capacity() * sizeof(Relay) +
                                              result_.mixed_faces.capacity() * 3 * sizeof(Index));
@@ -256,6 +258,7 @@ private:
         for (const auto& [distance, vertex, site] : task.vertices) {
             double& best = result_.vertex_distance[vertex];
             SiteId& best_site = result_.vertex_site[vertex];
+            if (distance > options_.max_distance) continue;
             if (!is_nearer(distance, site, best, best_site.value())) continue;
             best = distance;
             best_site = SiteId(site);
@@ -267,6 +270,7 @@ private:
     void take_bounds() {
         for (Index v = 0; v < surface_.num_vertices(); ++v) {
             if (result_.vertex_site[v].is_valid() || bounds_.site[v] == no_index) continue;
+            if (bounds_.distance[v] > options_.max_distance) continue;
             result_.vertex_distance[v] = bounds_.distance[v];
             result_.vertex_site[v] = SiteId(bounds_.site[v]);
             result_.vertices_off_windows.push_back(v);
@@ -318,7 +322,7 @@ private:
     Poller poller_{options_.progress};
     double max_error_ = options_.max_error.value_or(default_max_error);
     SitePlacement placement_{surface_, sites_};
-    // #F: 1 where all windows are kept.
+    // #F: 1 where all windows are kept: near borders, and in relay_faces.
     Marks borders_ = faces_near_borders(surface_, *corners_, bounds_);
     std::vector<Relay> strays_;  // As in TaskResult; then all relays of late faces; then none.
     RelayLogs logs_{surface_.num_faces()};
@@ -327,14 +331,29 @@ private:
     Propagation result_;
 };
 
+// Windows end at caps. What the bounds name beyond them is no site.
+void cap(DistanceBounds& bounds, std::span<const float> caps, float max_distance) {
+    for (Index v = 0; v < bounds.distance.size(); ++v) {
+        const float most = caps.empty() ? max_distance : std::min(caps[v], max_distance);
+        if (!(most < bounds.distance[v])) continue;
+        bounds.distance[v] = most;
+        bounds.site[v] = no_index;
+    }
+}
+
 }  // namespace
 
 Propagation propagate_windows(const Surface& surface, SurfaceLayout layout,
                               std::span<const SurfacePoint> sites,
-                              const PropagationOptions& options, Index work_cap) {
+                              const PropagationOptions& options, Index work_cap,
+                              std::span<const float> caps) {
     poll(options.progress, 0);
     DistanceBounds bounds = distance_bounds(surface, layout, sites, options.num_threads,
                                             within(options.progress, 0, 0));
+    if (!caps.empty() || options.max_distance < infinity) {
+        // Larger than any rounding of a distance.
+        cap(bounds, caps, rounded_up(options.max_distance * (1 + 1e-6)));
+    }
     auto corners = SurfaceLayout(std::move(layout)).corners();  // Frees the arcs.
     return WindowEngine(surface, std::move(corners), std::move(bounds), sites, options, work_cap)
         .run();

@@ -1,0 +1,197 @@
+// At the point, the nearest relay of its faces tells the image to go to. The line to the image is
+// followed from face to face until the image lies in one: there the next relay is asked. It is that
+// of the site, or of a vertex where the path bends. Relays with errors are asked in every face,
+// since no site or vertex need lie at their images.
+#include "agvd/paths/relay_trace.h"
+
+#include <algorithm>
+
+#include "agvd/diagram/face_relays.h"
+#include "agvd/mesh/surface_points.h"
+#include "agvd/paths/face_strip.h"
+
+namespace agvd {
+namespace {
+
+// A share of the lengths of a face: nearer to it, an image lies in it.
+constexpr double image_in_face = 1e-10;
+// A share of a distance: pieces of a path that are shorter are rounding.
+constexpr double no_piece = 1e-12;
+
+// The relay that a path arrives through, and the face through which it comes.
+struct Chosen {
+    SurfacePoint view;  // The point, in this face.
+    const Relay* relay = nullptr;
+    Vec2 from;  // The start of the last straight piece, in the relay's frame.
+    double distance = infinity;
+};
+
+// A line in the frame of a half-edge, from a point of its face to an image beyond it.
+struct ImageLine {
+    Index half_edge;
+    Vec2 from, image;
+};
+
+class RelayTracer {
+public:
+    RelayTracer(const TracedField& field, const SurfacePoint& start, Ticker& ticker)
+        : surface_(field.surface), field_(field), ticker_(ticker) {
+        path_.points.push_back(start);
+    }
+
+    std::optional<TracedPath> run() {
+        Chosen chosen = choose(path_.points.front(), 0);
+        // Distances fall from piece to piece, but for errors and rounding: the end comes.
+        for (std::size_t left = std::size_t{4} * surface_.num_faces() + 64; left > 0; --left) {
+            if (chosen.relay == nullptr) return std::nullopt;
+            const bool is_inner = chosen.relay->y >= 0;
+            if (is_inner && ends_at_site(chosen)) return std::move(path_);
+            chosen = is_inner ? go_to_corner(chosen) : go_across(chosen);
+        }
+        return std::nullopt;
+    }
+
+private:
+    // The nearest relay at a point over all faces that hold it.
+    // \param distance  of a point where the path has turned already: relays that start there do not
+    //                  count. 0: of any point.
+    [[nodiscard]] Chosen choose(const SurfacePoint& point, double distance) {
+        Chosen best;
+        for_each_view(surface_, point, [&](const SurfacePoint& view) {
+            choose_in_face(view, no_index, distance, best);
+        });
+        return best;
+    }
+    // \param entered  half-edge through which relays do not count: the path went out there.
+    void choose_in_face(const SurfacePoint& view, Index entered, double distance, Chosen& best) {
+        const Index face = view.face.value();
+        const std::optional<Index> mixed = mixed_index_of(field_.propagation, face);
+        if (!mixed) return;
+        const std::array<Vec2, 3> seen{position_in_frame(surface_, view, 3 * face),
+                                       position_in_frame(surface_, view, 3 * face + 1),
+                                       position_in_frame(surface_, view, 3 * face + 2)};
+        const auto relays = relays_of(field_.propagation, *mixed);
+        ticker_.tick(relays.size());
+        for (const Relay& relay : relays) {
+            if (relay.half_edge == entered && relay.y < 0) continue;
+            const Reach r = reach(to_planar(relay, Motion()), seen[relay.half_edge % 3]);
+            if (!(r.distance < best.distance)) continue;
+            if (distance > 0 && !(r.last_piece > no_piece * distance)) continue;
+            best = {view, &relay, r.from, r.distance};
+        }
+    }
+
+    void go(const SurfacePoint& to, Index face) {
+        path_.points.push_back(to);
+        path_.faces.emplace_back(face);
+    }
+
+    // Appends the site if the relay is its own: no other has the weight 0.
+    bool ends_at_site(const Chosen& chosen) {
+        const Relay& relay = *chosen.relay;
+        const SiteId site = relay.site;
+        const Index face = chosen.view.face.value();
+        const auto goal = seen_from(surface_, snapped_site(site), face);
+        if (!goal || relay.weight > no_piece * chosen.distance) return false;
+        go(*goal, face);
+        path_.site = site;
+        return true;
+    }
+    [[nodiscard]] SurfacePoint snapped_site(SiteId site) const {
+        return snapped(surface_, field_.sites[site.value()]);
+    }
+
+    // To a corner at which the path bends.
+    Chosen go_to_corner(const Chosen& chosen) {
+        const Index h = chosen.relay->half_edge;
+        const SurfacePoint corner = point_on(h, 0);
+        go(corner, Surface::face(h));
+        return choose(corner, chosen.relay->weight);
+    }
+
+    // Out of the face, and on while the image lies beyond.
+    Chosen go_across(const Chosen& chosen) {
+        const Index h = chosen.relay->half_edge;
+        ImageLine line{h, position_in_frame(surface_, chosen.view, h), chosen.from};
+        const bool is_exact = field_.propagation.certified_error == 0;
+        for (Index left = surface_.num_faces(); left > 0; --left) {
+            ticker_.tick();
+            const Index inside = surface_.twin[line.half_edge];
+            const double at = leave(line);
+            if (inside == no_index) return {};
+            const SurfacePoint here = point_on(inside, 1 - at);
+            const Vec2 end(surface_.length_of(inside), 0);
+            line = {inside, end - Vec2(at * end.x(), 0), end - line.image};
+            const std::optional<Index> beyond = side_towards(line);
+            if (!is_exact || !beyond) return choose_at(line, here, chosen);
+            line = seen_along(line, *beyond);
+        }
+        return {};
+    }
+    // Where the line has come into the face of its image, or of the next relay. The image may be
+    // the corner through which it came.
+    Chosen choose_at(const ImageLine& line, const SurfacePoint& here, const Chosen& before) {
+        const Index inside = line.half_edge;
+        const double left = (line.image - line.from).norm();
+        if (left < image_in_face * surface_.length_of(inside)) {
+            const auto& b = here.barycentric;
+            const Index h = b[inside % 3] > 0.5 ? inside : Surface::next(inside);
+            if (b[h % 3] > 1 - 2 * image_in_face) {
+                go(point_on(h, 0), Surface::face(h));
+                return choose(point_on(h, 0), before.distance);
+            }
+        }
+        Chosen next;
+        choose_in_face(here, inside, before.distance, next);
+        return next;
+    }
+    // Appends the point where the line leaves its face. Returns the share of the half-edge there.
+    double leave(const ImageLine& line) {
+        const double length = surface_.length_of(line.half_edge);
+        const double fall = line.from.y() - line.image.y();
+        const double share = fall > 0 ? line.from.y() / fall : 0;
+        const double at = line.from.x() + share * (line.image.x() - line.from.x());
+        const double clamped = std::clamp(at / length, 0.0, 1.0);
+        go(point_on(line.half_edge, clamped), Surface::face(line.half_edge));
+        return clamped;
+    }
+    // The other half-edge of the face through which the line goes on; none: the image lies in it.
+    [[nodiscard]] std::optional<Index> side_towards(const ImageLine& line) const {
+        const Index inside = line.half_edge;
+        const Vec2 apex = surface_.apex[inside], end(surface_.length_of(inside), 0);
+        const Vec2 way = line.image - line.from;
+        const bool is_left = cross(way, apex - line.from) > 0;  // The apex.
+        const Vec2 tail = is_left ? end : apex, head = is_left ? apex : Vec2(0, 0);
+        const Vec2 along = head - tail;
+        const double beyond = cross(along, tail - line.image);  // > 0: across that side.
+        if (!(beyond > image_in_face * along.squaredNorm())) return std::nullopt;
+        return is_left ? Surface::next(inside) : Surface::previous(inside);
+    }
+    // The same line in the frame of another half-edge of the face.
+    [[nodiscard]] ImageLine seen_along(const ImageLine& line, Index half_edge) const {
+        const Index inside = line.half_edge;
+        const Vec2 apex = surface_.apex[inside], end(surface_.length_of(inside), 0);
+        const bool is_next = half_edge == Surface::next(inside);
+        const Vec2 tail = is_next ? end : apex, head = is_next ? apex : Vec2(0, 0);
+        const Vec2 along = (head - tail) / surface_.length_of(half_edge);
+        const auto moved = [&](const Vec2& p) {
+            const Vec2 step = p - tail;
+            return Vec2(step.dot(along), cross(along, step));
+        };
+        return {half_edge, moved(line.from), moved(line.image)};
+    }
+
+    const Surface& surface_;
+    const TracedField& field_;
+    Ticker& ticker_;
+    TracedPath path_;
+};
+
+}  // namespace
+
+std::optional<TracedPath> trace_to_site(const TracedField& field, const SurfacePoint& point,
+                                        Ticker& ticker) {
+    return RelayTracer(field, point, ticker).run();
+}
+
+}  // namespace agvd

@@ -1,0 +1,35 @@
+//! \file
+//! A path walked back from a point to its site, along the straight lines to the images that the
+//! relays of the faces name. Private to the paths.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "agvd/core/progress.h"
+#include "agvd/paths/geodesic_path.h"
+
+namespace agvd {
+
+//! What a path is traced on: propagate(surface, sites) with relays in all faces on the way.
+struct TracedField {
+    const Surface& surface;
+    std::span<const SurfacePoint> sites;
+    const Propagation& propagation;
+};
+
+//! A path as straighten_path takes it.
+struct TracedPath {
+    std::vector<SurfacePoint> points;
+    std::vector<FaceId> faces;  //!< Of each piece.
+    SiteId site;                //!< Where it ends.
+};
+
+//! \param point  snapped.
+//! \return none where a face on the way has no relays, or rounding leads astray.
+//! Cost: O(relays) at the point and at each vertex where the path bends, O(1) in other faces; with
+//! errors in the relays O(relays) in all faces.
+[[nodiscard]] std::optional<TracedPath> trace_to_site(const TracedField& field,
+                                                      const SurfacePoint& point, Ticker& ticker);
+
+}  // namespace agvd

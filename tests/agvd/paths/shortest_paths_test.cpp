@@ -1,0 +1,244 @@
+#include "agvd/paths/geodesic_path.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "agvd/core/error.h"
+#include "agvd/intrinsic/intrinsic_triangulation.h"
+#include "agvd/mesh/surface_points.h"
+#include "agvd/paths/distances.h"
+#include "support/exact_field.h"
+#include "support/geodesics.h"
+#include "support/points.h"
+#include "support/shapes.h"
+
+using namespace agvd;
+
+namespace {
+
+// Each piece lies in one face, the pieces add up to the length, and no bend can be cut short.
+void expect_shortest(const Surface& surface, const GeodesicPath& path, double distance) {
+    EXPECT_NEAR(path.length, distance, 1e-12 * distance);
+    EXPECT_TRUE(path.is_locally_shortest);
+    ASSERT_EQ(path.faces.size() + 1, path.points.size());
+    double sum = 0;
+    for (std::size_t i = 0; i < path.faces.size(); ++i) {
+        const auto begin = seen_from(surface, path.points[i], path.faces[i].value());
+        const auto end = seen_from(surface, path.points[i + 1], path.faces[i].value());
+        ASSERT_TRUE(begin && end) << "piece " << i;
+        sum += face_distance(surface, *begin, *end);
+    }
+    EXPECT_NEAR(sum, distance, 1e-12 * distance);
+    EXPECT_LT(geodesics::largest_bend(surface, path.points), 1e-6);
+}
+
+// A square whose faces meet across edges of all directions.
+TriangleMesh rough_square(Index n) {
+    TriangleMesh mesh = shapes::jitter(shapes::grid(n), 0.2 / n, 1);
+    const TriangleMesh even = shapes::grid(n);
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        Vec3& p = mesh.positions[v];
+        const Vec3& q = even.positions[v];
+        p.z() = 0;
+        if (q.x() == 0 || q.x() == 1 || q.y() == 0 || q.y() == 1) p = q;
+    }
+    return mesh;
+}
+
+// The prism of n sides and radius 1 around z, of which a side is 2 sin(pi / n) wide, unrolled.
+Vec2 unrolled(const Vec3& p, Index n) {
+    const double side = 2 * std::numbers::pi / n;
+    const double turn = std::atan2(p.y(), p.x());
+    const double k = std::floor(turn / side);
+    const Vec2 corner(std::cos(k * side), std::sin(k * side));
+    return {2 * std::sin(side / 2) * k + (Vec2(p.x(), p.y()) - corner).norm(), p.z()};
+}
+
+}  // namespace
+
+TEST(ShortestPaths, OnASquareAreTheStraightLinesToTheNearestSite) {
+    const TriangleMesh mesh = rough_square(12);
+    const Surface surface = build_surface(mesh.view());
+    const auto sites = points::scattered(surface, 6, 2);
+    const auto starts = points::scattered(surface, 90, 5);
+    const auto paths =
+        paths_to_sites(surface, sites, support::exact_everywhere(surface, sites), starts);
+    ASSERT_EQ(paths.size(), starts.size());
+    for (std::size_t i = 0; i < starts.size(); ++i) {
+        SCOPED_TRACE(i);
+        const Vec3 from = position(mesh.view(), starts[i]);
+        Index nearest = 0;
+        for (Index s = 0; s < sites.size(); ++s) {
+            const auto distance = [&](Index t) {
+                return (position(mesh.view(), sites[t]) - from).norm();
+            };
+            if (distance(s) < distance(nearest)) nearest = s;
+        }
+        EXPECT_EQ(paths[i].site.value(), nearest);
+        const Vec3 to = position(mesh.view(), sites[nearest]);
+        const GeodesicPath& path = paths[i].path;
+        if (from == to) {
+            EXPECT_EQ(path.length, 0);
+            continue;
+        }
+        expect_shortest(surface, path, (to - from).norm());
+        EXPECT_LT((position(mesh.view(), path.points.front()) - from).norm(), 1e-15);
+        EXPECT_LT((position(mesh.view(), path.points.back()) - to).norm(), 1e-15);
+    }
+}
+
+TEST(ShortestPaths, OnAPrismAreStraightWhenUnrolled) {
+    constexpr Index n = 24;
+    const TriangleMesh mesh = shapes::tube(n, 20);
+    const Surface surface = build_surface(mesh.view());
+    const double around = 2 * n * std::sin(std::numbers::pi / n);
+    const auto ends = points::scattered(surface, 60, 8);
+    std::vector<PointPair> pairs;
+    for (std::size_t i = 0; i + 1 < ends.size(); i += 2) pairs.push_back({ends[i], ends[i + 1]});
+    const auto paths = shortest_paths(surface, pairs);
+    ASSERT_EQ(paths.size(), pairs.size());
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        SCOPED_TRACE(i);
+        Vec2 way = unrolled(position(mesh.view(), pairs[i].to), n) -
+                   unrolled(position(mesh.view(), pairs[i].from), n);
+        way.x() -= around * std::round(way.x() / around);
+        expect_shortest(surface, paths[i], way.norm());
+    }
+}
+
+TEST(ShortestPaths, HaveTheDistancesThatAreExact) {
+    for (const TriangleMesh& mesh : {shapes::jitter(shapes::sphere(3), 0.05, 1),
+                                     shapes::jitter(shapes::torus(30, 15), 0.06, 2),
+                                     shapes::jitter(shapes::grid(16), 0.05, 3), shapes::cube()}) {
+        const Surface surface = build_surface(mesh.view());
+        const auto sites = points::scattered(surface, 3, 4);
+        const Propagation propagation = support::exact_everywhere(surface, sites);
+        std::vector<SurfacePoint> vertices;
+        for (Index v = 0; v < surface.num_vertices(); v += 3) {
+            vertices.push_back(point_at(surface, v));
+        }
+        const auto paths = paths_to_sites(surface, sites, propagation, vertices);
+        for (std::size_t i = 0; i < vertices.size(); ++i) {
+            const double distance = propagation.vertex_distance[3 * i];
+            if (distance == 0) continue;
+            SCOPED_TRACE(3 * i);
+            EXPECT_EQ(paths[i].site, propagation.vertex_site[3 * i]);
+            expect_shortest(surface, paths[i].path, distance);
+        }
+    }
+}
+
+// In a cell the path crosses faces that have relays of other sites too; sites lie inside faces.
+TEST(ShortestPaths, OfManySitesHaveTheDistancesOfTheirPoints) {
+    const Surface surface = build_surface(shapes::jitter(shapes::sphere(4), 0.03, 1).view());
+    for (const Index count : {1u, 30u, 400u}) {
+        const auto sites = uniform_points(surface, count, 3);
+        const auto starts = uniform_points(surface, 400, 6);
+        const auto paths =
+            paths_to_sites(surface, sites, support::exact_everywhere(surface, sites), starts);
+        const Distances distances = find_distances(surface, sites, starts, {.max_error = 0});
+        for (std::size_t i = 0; i < starts.size(); ++i) {
+            SCOPED_TRACE(i);
+            EXPECT_EQ(paths[i].site, distances.point_site[i]);
+            expect_shortest(surface, paths[i].path, distances.point_distance[i]);
+        }
+    }
+}
+
+TEST(ShortestPaths, BetweenPairsAreThoseToASite) {
+    const Surface surface = build_surface(shapes::jitter(shapes::torus(40, 20), 0.05, 2).view());
+    const auto ends = points::scattered(surface, 14, 9);
+    std::vector<PointPair> pairs;
+    for (std::size_t i = 1; i < ends.size(); ++i) pairs.push_back({ends[i], ends[i % 2]});
+    const auto paths = shortest_paths(surface, pairs);
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        SCOPED_TRACE(i);
+        if (pairs[i].from == pairs[i].to) continue;
+        const std::array site{pairs[i].to};
+        const std::array from{pairs[i].from};
+        const auto alone =
+            paths_to_sites(surface, site, support::exact_everywhere(surface, site), from);
+        expect_shortest(surface, paths[i], alone[0].path.length);
+    }
+}
+
+// Its faces do not lie in space.
+TEST(ShortestPaths, OnAnIntrinsicTriangulationAreAsLong) {
+    TriangleMesh mesh = shapes::jitter(shapes::torus(16, 8), 0.1, 2);
+    shapes::add_flat_vertices(mesh, 60, 3);
+    const Surface surface = build_surface(mesh.view());
+    const IntrinsicTriangulation base(surface);
+    const auto ends = points::scattered(surface, 60, 9);
+    const auto on_base = base.to_intrinsic(ends);
+    std::vector<PointPair> pairs, pairs_on_base;
+    for (std::size_t i = 0; i + 1 < ends.size(); i += 2) {
+        pairs.push_back({ends[i], ends[i + 1]});
+        pairs_on_base.push_back({on_base[i], on_base[i + 1]});
+    }
+    const auto paths = shortest_paths(surface, pairs);
+    const auto paths_on_base = shortest_paths(base.surface(), pairs_on_base);
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        EXPECT_NEAR(paths_on_base[i].length, paths[i].length, 1e-9) << i;
+    }
+}
+
+TEST(ShortestPaths, WithErrorsInTheDistancesAreLongerByNoMore) {
+    const Surface surface = build_surface(shapes::jitter(shapes::torus(40, 20), 0.06, 2).view());
+    const auto sites = points::scattered(surface, 2, 4);
+    const auto starts = points::scattered(surface, 60, 5);
+    const auto exact =
+        paths_to_sites(surface, sites, support::exact_everywhere(surface, sites), starts);
+    constexpr double error = 1e-2;
+    const Propagation rough =
+        propagate(surface, sites, {.max_error = error, .relay_faces = all_faces(surface)});
+    const auto paths = paths_to_sites(surface, sites, rough, starts);
+    for (std::size_t i = 0; i < starts.size(); ++i) {
+        const double distance = exact[i].path.length;
+        if (distance > 0) expect_shortest(surface, exact[i].path, distance);
+        EXPECT_GE(paths[i].path.length, distance * (1 - 1e-12)) << i;
+        EXPECT_LE(paths[i].path.length, exact[i].path.length * (1 + error)) << i;
+    }
+}
+
+TEST(ShortestPaths, AreTheSameForAnyNumberOfThreads) {
+    const Surface surface = build_surface(shapes::jitter(shapes::sphere(3), 0.05, 1).view());
+    const auto sites = points::scattered(surface, 3, 4);
+    const auto starts = points::scattered(surface, 50, 5);
+    const Propagation propagation = support::exact_everywhere(surface, sites);
+    const auto once = paths_to_sites(surface, sites, propagation, starts, {.num_threads = 1});
+    const auto again = paths_to_sites(surface, sites, propagation, starts, {.num_threads = 3});
+    for (std::size_t i = 0; i < starts.size(); ++i) {
+        EXPECT_EQ(once[i].site, again[i].site);
+        EXPECT_EQ(once[i].path.points, again[i].path.points);
+        EXPECT_EQ(once[i].path.length, again[i].path.length);
+    }
+}
+
+TEST(ShortestPaths, EndWhereNoSiteReaches) {
+    const TriangleMesh mesh =
+        shapes::join(shapes::grid(2), shapes::moved(shapes::grid(2), {3, 0, 0}));
+    const Surface surface = build_surface(mesh.view());
+    const std::array sites{point_at(surface, 0)};
+    const std::array starts{SurfacePoint{FaceId(15), {0.2, 0.3, 0.5}}, point_at(surface, 4)};
+    const auto paths =
+        paths_to_sites(surface, sites, support::exact_everywhere(surface, sites), starts);
+    EXPECT_FALSE(paths[0].site.is_valid());
+    EXPECT_TRUE(paths[0].path.points.empty());
+    EXPECT_NEAR(paths[1].path.length, std::sqrt(0.5), 1e-15);
+    const std::array pairs{PointPair{starts[1], sites[0]}, PointPair{starts[0], sites[0]}};
+    try {
+        (void)shortest_paths(surface, pairs);
+        FAIL();
+    } catch (const InvalidInput& error) {
+        EXPECT_NE(std::string(error.what()).find("pair 1 "), std::string::npos) << error.what();
+    }
+}
+
+TEST(ShortestPaths, RefuseWhatIsNoPointAndNoError) {
+    const Surface surface = build_surface(shapes::cube().view());
+    const std::array pairs{PointPair{{FaceId(12), {1, 0, 0}}, {FaceId(0), {1, 0, 0}}}};
+    EXPECT_THROW((void)shortest_paths(surface, pairs), InvalidSites);
+    EXPECT_THROW((void)shortest_paths(surface, {}, {.max_error = 1}), InvalidOption);
+    EXPECT_TRUE(shortest_paths(surface, {}).empty());
+}

@@ -1,0 +1,109 @@
+// The subcommand `distance` of the program `agvd` as a process.
+#include <cmath>
+#include <sstream>
+
+#include "remesh/meshfile/mesh_file.h"
+#include "support/scratch.h"
+#include "support/shapes.h"
+
+namespace {
+
+class AgvdDistance : public Scratch {
+protected:
+    [[nodiscard]] static process::Outcome distance(std::vector<std::string> arguments) {
+        arguments.insert(arguments.begin(), "distance");
+        return run(AGVD_PROGRAM, std::move(arguments));
+    }
+    [[nodiscard]] std::vector<double> column(const std::string& name, std::size_t index) const {
+        const remesh::MeshFile file =
+            remesh::read_mesh(at(name), remesh::ReadOptions{.with_attributes = true});
+        return file.attributes.of_vertices.at(index).values;
+    }
+    const agvd::TriangleMesh square_ = shapes::grid(7);
+    const std::string in_ = put("in.off", square_);
+    const std::string sites_ = put("s", "p .1 .2 0\np .9 .9 0\n");
+};
+
+TEST_F(AgvdDistance, OfVerticesIsAPropertyOfTheMesh) {
+    for (const bool has_radius : {false, true}) {
+        std::vector<std::string> arguments{in_, "--sites", sites_, "-o", at("d.ply"), "-q"};
+        if (has_radius) arguments.insert(arguments.end(), {"--radius", ".4"});
+        const auto outcome = distance(arguments);
+        ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+        const std::vector<double> sites = column("d.ply", 0), distances = column("d.ply", 1);
+        for (std::size_t v = 0; v < square_.positions.size(); ++v) {
+            const double a = (square_.positions[v] - agvd::Vec3(.1, .2, 0)).norm();
+            const double b = (square_.positions[v] - agvd::Vec3(.9, .9, 0)).norm();
+            if (has_radius && std::min(a, b) > .4) {
+                EXPECT_EQ(sites[v], -1);
+                EXPECT_TRUE(std::isinf(distances[v]));
+            } else {
+                EXPECT_EQ(sites[v], a < b ? 0 : 1);
+                EXPECT_NEAR(distances[v], std::min(a, b), 1e-14);
+            }
+        }
+    }
+}
+
+TEST_F(AgvdDistance, OfTargetsIsATable) {
+    const auto outcome =
+        distance({in_, "--sites", sites_, "--targets", put("t", "p .5 .3 0\np .8 .7 0\nv 0\n"),
+                  "--radius", ".3", "-o", at("t.csv"), "-q"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    std::istringstream table(bytes("t.csv"));
+    std::string line;
+    ASSERT_TRUE(std::getline(table, line));
+    EXPECT_EQ(line, "site,distance");
+    ASSERT_TRUE(std::getline(table, line));
+    EXPECT_EQ(line, "-1,inf");
+    for (const char* site : {"1,", "0,"}) {
+        ASSERT_TRUE(std::getline(table, line));
+        EXPECT_EQ(line.substr(0, 2), site);
+        EXPECT_NEAR(std::stod(line.substr(2)), std::hypot(.1, .2), 1e-14);
+    }
+    EXPECT_FALSE(std::getline(table, line));
+}
+
+TEST_F(AgvdDistance, OfTheNearestSitesIsRanked) {
+    const auto outcome =
+        distance({in_, "--sites", sites_, "--nearest", "2", "-o", at("d.ply"), "-q"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const std::vector<double> first = column("d.ply", 0), second = column("d.ply", 2);
+    const std::vector<double> near = column("d.ply", 1), far = column("d.ply", 3);
+    for (std::size_t v = 0; v < square_.positions.size(); ++v) {
+        const double a = (square_.positions[v] - agvd::Vec3(.1, .2, 0)).norm();
+        const double b = (square_.positions[v] - agvd::Vec3(.9, .9, 0)).norm();
+        EXPECT_EQ(first[v], a < b ? 0 : 1);
+        EXPECT_EQ(second[v], a < b ? 1 : 0);
+        EXPECT_NEAR(near[v], std::min(a, b), 1e-14);
+        EXPECT_NEAR(far[v], std::max(a, b), 1e-14);
+    }
+}
+
+TEST_F(AgvdDistance, RefusesWhatItCannotDoAndWritesNothing) {
+    struct Case {
+        std::vector<std::string> arguments;
+        int exit_code;
+        std::string text;
+    };
+    const std::string out = at("d.ply"), table = at("d.csv");
+    const std::vector<Case> cases{
+        {{in_, "--sites", sites_, "-o", table}, 3, ".ply, .vtp or .vtk"},
+        {{in_, "--sites", sites_, "-o", at("d.off")}, 3, ".ply, .vtp or .vtk"},
+        {{in_, "--sites", sites_, "--targets", sites_, "-o", out}, 3, ".csv"},
+        {{in_, "--sites", sites_, "--radius", "0", "-o", out}, 2, "above 0"},
+        {{in_, "--sites", sites_, "--nearest", "0", "-o", out}, 2, "above 0"},
+        {{in_, "--sites", sites_, "--nearest", "2", "--radius", "1", "-o", out}, 2, "--radius"},
+        {{in_, "--sites", sites_, "--targets", at("none"), "-o", table}, 3, "none"},
+        {{in_, "--sites", sites_, "--targets", put("x", "v 999\n"), "-o", table}, 4, "999"},
+    };
+    for (const Case& c : cases) {
+        const auto outcome = distance(c.arguments);
+        EXPECT_EQ(outcome.exit_code, c.exit_code) << outcome.err;
+        EXPECT_NE(outcome.err.find(c.text), std::string::npos) << outcome.err;
+        EXPECT_FALSE(std::filesystem::exists(out));
+        EXPECT_FALSE(std::filesystem::exists(table));
+    }
+}
+
+}  // namespace

@@ -1,0 +1,70 @@
+//! \file
+//! What the subcommands of `agvd` share: input, sites, outputs; and how each is added.
+#pragma once
+
+#include <functional>
+#include <initializer_list>
+#include <vector>
+
+#include "agvd/mesh/surface.h"
+#include "arguments.h"
+#include "expected_stages.h"
+#include "remesh/meshfile/lines_file.h"
+
+namespace cli {
+
+//! Options that every subcommand with a mesh has.
+struct QueryArguments : DiagramArguments {
+    std::vector<std::filesystem::path> outputs;
+};
+
+//! A subcommand. Its arguments live as long as `run`.
+struct Query {
+    CLI::App* command;
+    std::function<void()> run;
+};
+
+//! `agvd distance`.
+[[nodiscard]] Query add_distance(CLI::App& app);
+//! `agvd path`.
+[[nodiscard]] Query add_path(CLI::App& app);
+//! `agvd isolines`.
+[[nodiscard]] Query add_isolines(CLI::App& app);
+
+//! Adds -o, which is required and may be repeated.
+void add_outputs(CLI::App& app, std::vector<std::filesystem::path>& outputs);
+
+//! Checks -o before the long work.
+//! \param inputs  files besides IN that must not be overwritten; may be empty paths.
+//! \param check_extension  throws what no format is known for.
+void check_outputs(const QueryArguments& arguments,
+                   std::initializer_list<std::filesystem::path> inputs,
+                   void (*check_extension)(const std::filesystem::path&));
+
+//! The input as it was read, and what it was cleaned to.
+struct OpenedInput {
+    remesh::MeshFile file;
+    remesh::CleanResult clean;
+    agvd::Surface surface;
+};
+
+//! Reads, cleans and connects IN.
+//! \param stages  what is expected, by the number of faces.
+[[nodiscard]] OpenedInput open_input(
+    const DiagramArguments& arguments, Console& console,
+    const std::function<std::vector<ExpectedStage>(std::size_t num_faces)>& stages);
+
+//! The sites of --sites, or sampled ones, on the cleaned mesh.
+[[nodiscard]] std::vector<agvd::SurfacePoint> sites_on(const OpenedInput& input,
+                                                       const DiagramArguments& arguments,
+                                                       Console& console);
+
+//! The points of a file, on the cleaned mesh.
+[[nodiscard]] std::vector<agvd::SurfacePoint> points_on(const OpenedInput& input,
+                                                        const std::filesystem::path& path,
+                                                        Console& console);
+
+//! Writes the lines to all outputs, or to none.
+void write_lines(const QueryArguments& arguments, const remesh::Lines& lines, Console& console);
+
+}  // namespace cli
