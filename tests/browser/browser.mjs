@@ -48,7 +48,7 @@ export async function openPage(browser, file, options = {}) {
     if (request.url() !== url && !request.url().startsWith("blob:")) problems.push(`loads ${request.url()}`);
   });
   await page.goto(url);
-  await page.waitForFunction(() => window.remeshPage, null, { timeout: 60_000 });
+  await page.waitForFunction(() => window.remeshPage, null, { timeout: 30_000 });
   return { page, problems, close: () => context.close() };
 }
 

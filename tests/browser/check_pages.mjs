@@ -216,10 +216,15 @@ function labelledPly(property) {
           ...quads.map((quad, i) => `4 ${quad.join(" ")} ${i}`), ""].join("\n");
 }
 
-test("hostile names of files and properties", async (browser) => {
-  const name = "<img src=x onerror=hacked=1><!--<script>hacked=2";
-  const input = at(`${name}.ply`);
-  writeFileSync(input, labelledPly("<script>hacked=3</script><b>"));
+// Paths, file and property names that end the element they stand in, or begin others.
+const hostile = [
+  ["folder<", "script ><img src=x onerror=hacked=1>", "</script/x><script>hacked=2</script><b>"],
+  ["folder", "<!--<script x>hacked=3", "<!--<script/x>"],
+];
+for (const [folder, name, property] of hostile) test(`a file ${folder}/${name}, with ${property}`, async (browser) => {
+  mkdirSync(at(folder));
+  const input = join(at(folder), `${name}.ply`);
+  writeFileSync(input, labelledPly(property));
   const { html, evaluation, output } = makePage(input, `out ${name}`, "-n", "300");
   const { page, problems, close } = await openPage(browser, html);
   await checkColors(page, ["quality", "angle", "distance", "label", "patch"]);
