@@ -136,6 +136,34 @@ async function checkWorst(page, evaluation) {
   await page.keyboard.press("r");
 }
 
+// The colour in the middle of the worst triangle is that of its value, but for the light.
+async function checkColorsOfValues(page, modes) {
+  await page.keyboard.press("w");
+  await page.locator('[data-worst="0"]').click();
+  const { figures } = (await state(page)).picked;
+  const values = { quality: figures.quality, angle: figures.minAngle, distance: figures.distance, target: figures.target };
+  const gradient = await page.locator("#legend-bar").evaluate((bar) => bar.style.background);
+  const map = [...gradient.matchAll(/rgb\((\d+),? (\d+),? (\d+)\)/g)].map((match) => match.slice(1).map(Number));
+  for (const mode of modes) {
+    await page.selectOption("#color", mode);
+    const { scale } = await state(page);
+    const linear = (values[mode] - scale.low) / (scale.high - scale.low);
+    const at = (scale.isRoot ? Math.sqrt(linear) : linear) * (map.length - 1), low = Math.min(Math.floor(at), map.length - 2);
+    const wanted = map[low].map((x, k) => x + (map[low + 1][k] - x) * (at - low));
+    await take(page, mode, "result");
+    const seen = await page.evaluate((mode) => {
+      const { data, width, height } = window.pictures[mode];
+      return [...data.slice(4 * (Math.round(height / 2) * width + Math.round(width / 2)))].slice(0, 3);
+    }, mode);
+    const dot = (a, b) => a.reduce((sum, x, k) => sum + x * b[k], 0);
+    const cosine = dot(seen, wanted) / Math.sqrt(dot(seen, seen) * dot(wanted, wanted));
+    assert.ok(cosine > 0.995, `${mode}: ${seen}, not ${wanted.map(Math.round)}`);
+  }
+  await page.selectOption("#color", "plain");
+  await page.keyboard.press("w");
+  await page.keyboard.press("r");
+}
+
 async function checkFarthest(page, evaluation) {
   if (evaluation.distance.samples_per_surface === null) return;  // Without CGAL.
   const { farthest, original } = JSON.parse(await page.locator("#page-data").textContent());
@@ -180,6 +208,7 @@ test("a free form with target lengths", async (browser) => {
   await checkPanes(page);
   await checkCamera(page);
   await checkWorst(page, evaluation);
+  await checkColorsOfValues(page, ["quality", "angle", "distance", "target"]);
   await checkFarthest(page, evaluation);
   await checkFigures(page, evaluation);
   await checkTheme(page);

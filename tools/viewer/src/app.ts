@@ -188,7 +188,7 @@ export class App {
   state(): Record<string, unknown> {
     const { camera, controls, frames, isFlying } = this.stage;
     return {
-      mode: this.mode, wire: this.isWire, lines: this.hasLines, theme: this.theme,
+      mode: this.mode, scale: this.scale, wire: this.isWire, lines: this.hasLines, theme: this.theme,
       panes: this.panes.filter((pane) => pane.isShown).map((pane) => pane.id),
       camera: fromDrawn(camera.position.toArray(), this.frame),
       target: fromDrawn(controls.target.toArray(), this.frame),

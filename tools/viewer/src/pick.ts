@@ -59,6 +59,10 @@ export interface FaceFigures {
   angles: number[];
   edges: number[];
   area: number;
+  /** To the other mesh, in percent of the diagonal: the mean of the corners. */
+  distance: number | null;
+  /** Target length, likewise. */
+  target: number | null;
 }
 
 /** Those of the worst faces come from the program, in full precision. */
@@ -69,8 +73,15 @@ export function figuresOf(mesh: PageMesh, face: number, frame: Frame, worst: Wor
   const { quality, angles, edges, area } = shapeOf(points);
   return {
     face: known?.face ?? null, angles, edges, area,
+    distance: meanOf(mesh, face, "distance", 100 / frame.diagonal), target: meanOf(mesh, face, "target", 1),
     quality: known?.quality ?? quality, minAngle: known?.min_angle_deg ?? Math.min(...angles),
   };
+}
+
+function meanOf(mesh: PageMesh, face: number, key: string, unit: number): number | null {
+  const values = mesh.values.get(key)?.values;
+  if (!values) return null;
+  return [0, 1, 2].reduce((sum, k) => sum + unit / 3 * values[mesh.corners[3 * face + k]], 0);
 }
 
 function isSame(points: ArrayLike<number>[], corners: ArrayLike<number>[]): boolean {
@@ -92,5 +103,7 @@ export function figureTable(title: string, figures: FaceFigures): HTMLElement {
       ["Angles", list(figures.angles, 3, "°")],
       ["Edges", list(figures.edges, 3, "")],
       ["Area", inDigits(figures.area, 3)],
+      ...(figures.distance === null ? [] : [["Distance", `${inDigits(figures.distance, 3)} %`]]),
+      ...(figures.target === null ? [] : [["Target length", inDigits(figures.target, 3)]]),
     ]));
 }
