@@ -91,13 +91,11 @@ void run_job(Arguments& arguments, cli::Console& console) {
     std::vector<remesh::FileContent> files =
         cli::make_pages(arguments.page, page_of(arguments, original, result, evaluation),
                         console.progress_of("page"));
-    if (is_json_on_stdout) {
-        cli::print(to_json(evaluation, info));
-    } else if (!arguments.report.empty()) {
+    if (!arguments.report.empty() && !is_json_on_stdout) {
         files.push_back({arguments.report, to_json(evaluation, info)});
     }
     remesh::write_files_atomically(files, console.progress_of("write"));
-    if (!is_json_on_stdout) cli::print(to_text(evaluation, info) + '\n');
+    cli::print(is_json_on_stdout ? to_json(evaluation, info) : to_text(evaluation, info) + '\n');
 }
 
 }  // namespace
