@@ -17,6 +17,8 @@
 #include "levels.h"
 #include "mesh_paths.h"
 #include "mesh_run.h"
+#include "page_cells.h"
+#include "page_outputs.h"
 #include "region.h"
 #include "remesh/meshfile/diagram_file.h"
 #include "remesh/meshfile/mesh_file.h"
@@ -70,6 +72,7 @@ struct Arguments : cli::DiagramArguments {
     cli::LevelArguments levels;
     cli::AttributeArguments attributes;
     cli::RegionArguments region;
+    cli::PageArguments page;
 };
 
 std::map<std::string, remesh::Delaunay> delaunay_by_name() {
@@ -241,22 +244,32 @@ void add_output_options(CLI::App& app, Arguments& arguments) {
     app.add_option("--report", arguments.report,
                    "Write a JSON report, also of a run that fails; - writes it to stdout")
         ->type_name("FILE|-");
+    cli::add_page_options(app, arguments.page);
+    for (const char* const name : {"--html", "--picture"}) {
+        app.get_option(name)->excludes("--out-dir");
+    }
 }
 
 // Those of each level, with the names of its files.
 std::vector<Arguments> arguments_of_levels(const Arguments& arguments) {
     const std::vector<fs::path> outputs = cli::level_paths(arguments.levels, arguments.output),
-                                maps = cli::level_paths(arguments.levels, arguments.attributes.map);
+                                maps = cli::level_paths(arguments.levels, arguments.attributes.map),
+                                pages = cli::level_paths(arguments.levels, arguments.page.html),
+                                pictures =
+                                    cli::level_paths(arguments.levels, arguments.page.picture);
     std::vector<Arguments> levels(outputs.size(), arguments);
     for (std::size_t level = 0; level < levels.size(); ++level) {
         levels[level].output = outputs[level];
         levels[level].attributes.map = maps[level];
+        levels[level].page.html = pages[level];
+        levels[level].page.picture = pictures[level];
     }
     return levels;
 }
 
 void check_outputs(const Arguments& arguments) {
     cli::check_format({arguments.output, arguments.to});
+    cli::check_page_options(arguments.page);
     cli::check_one_on_stdout(arguments.output, arguments.report, "--report");
     struct Output {
         const char* name;
@@ -265,7 +278,8 @@ void check_outputs(const Arguments& arguments) {
     std::vector<Output> checked;
     for (const Output& output :
          {Output{"the output", arguments.output}, Output{"--report", arguments.report},
-          Output{"--map", arguments.attributes.map}}) {
+          Output{"--map", arguments.attributes.map}, Output{"--html", arguments.page.html},
+          Output{"--picture", arguments.page.picture}}) {
         if (output.path.empty() || (&output.path == &arguments.report && output.path == "-")) {
             continue;
         }
@@ -383,12 +397,13 @@ Input prepare(const Arguments& arguments, cli::Console& console) {
                                                console.progress_of("read"));
     }
     keep_wanted(arguments, input, options, console);
-    return {.file = std::move(input),
-            .attributes = attributes,
-            .is_needed = needs_map || arguments.levels.count > 1,
-            .num_vertices = num_vertices,
-            .options = std::move(options),
-            .warnings = console.warnings()};
+    return {
+        .file = std::move(input),
+        .attributes = attributes,
+        .is_needed = needs_map || arguments.levels.count > 1 || cli::wants_pages(arguments.page),
+        .num_vertices = num_vertices,
+        .options = std::move(options),
+        .warnings = console.warnings()};
 }
 
 // Tells the bar of the levels still to come, the last one first.
@@ -403,6 +418,38 @@ void expect_levels(std::span<const remesh::RemeshOptions> to_come, const Input& 
         stages.insert(stages.end(), of_level.begin(), of_level.end());
     }
     console.expect(std::move(stages), cli::runs_of_remesh(to_come.back()));
+}
+
+// Page and picture.
+// \param info  of the report, which the page holds as well.
+void add_pages(const Arguments& arguments, const Input& input, const remesh::RemeshResult& result,
+               const remesh::MeshAttributes& carried, const remesh::RunInfo& info,
+               cli::Console& console, cli::Products& products) {
+    page::Page page{.report = remesh::to_json(result, info),
+                    .original_name = arguments.input.filename().string(),
+                    .result_name = arguments.output.filename().string(),
+                    .original = input.file.mesh.view(),
+                    .result = result.mesh.view(),
+                    .targets = result.sizing.targets,
+                    .original_labels = cli::labels_for_page(input.file.attributes),
+                    .result_labels = cli::labels_for_page(carried),
+                    .options = info.options};
+    if (!arguments.page.html.empty()) {
+        if (page.original.triangles.size() <= page::most_faces && result.kept.faces.empty()) {
+            page.cells =
+                cli::cells_for_page(page.original, result.sites, info.options,
+                                    [&](const char* stage) { return console.progress_of(stage); });
+        }
+        page.evaluation = cli::naming_file(arguments.input, [&] {
+            return remesh::evaluate(page.original, page.result,
+                                    {.num_threads = arguments.common.threads,
+                                     .progress = console.progress_of("measure")});
+        });
+    }
+    for (remesh::FileContent& file :
+         cli::make_pages(arguments.page, std::move(page), console.progress_of("page"))) {
+        products.files.push_back(std::move(file));
+    }
 }
 
 // A level, or the only result.
@@ -443,12 +490,17 @@ cli::Products make_level(const Arguments& arguments, const remesh::RemeshOptions
         {arguments.output, remesh::format_mesh(target, result.mesh.view(), carried, writing)});
     const remesh::RoundingLoss loss = remesh::rounding_loss(target, result.mesh.view(), writing);
     if (loss.matters()) console.warn(remesh::describe(loss, target));
-    if (!arguments.report.empty()) {
+    if (!arguments.report.empty() || !arguments.page.html.empty()) {
         info.output = remesh::measure_figures(result.mesh.view(), writing);
         info.warnings = input.warnings;
         const auto more = std::span(console.warnings()).subspan(num_warnings);
         info.warnings.insert(info.warnings.end(), more.begin(), more.end());
+    }
+    if (!arguments.report.empty()) {
         products.reports = {remesh::to_json(result, info)};
+    }
+    if (cli::wants_pages(arguments.page)) {
+        add_pages(arguments, input, result, carried, info, console, products);
     }
     console.detail(remesh::details_to_text(result, info));
     products.text = remesh::to_text(result, info);
@@ -540,6 +592,7 @@ int main(int argc, char** argv) {
     add_options(app, arguments);
     add_output_options(app, arguments);
     app.footer(std::string(footer) + cli::exit_code_help + batch_exit_code_help);
+    arguments.page.command = page::to_shell(argc, argv, "remesh");
     return cli::run(app, argc, argv, [&] {
         cli::check_levels(arguments.levels, arguments.sizing);
         if (arguments.folder.empty()) {

@@ -5,6 +5,7 @@
 #include "cli.h"
 #include "help.h"
 #include "mesh_paths.h"
+#include "page_outputs.h"
 #include "remesh/meshfile/mesh_file.h"
 #include "report/report.h"
 
@@ -30,18 +31,46 @@ struct Arguments {
     fs::path result;
     std::string from;  // Format of the one that comes from standard input.
     fs::path report;   // Empty: none; "-": stdout, and no text.
+    cli::PageArguments page;
     remesh::EvaluationOptions options;
 };
 
+// \throw agvd::InvalidOption  an output is one of the inputs, or another output.
+void check_outputs(const Arguments& arguments) {
+    cli::check_page_options(arguments.page);
+    std::vector<fs::path> checked;
+    for (const fs::path& output : {arguments.report, arguments.page.html, arguments.page.picture}) {
+        if (output.empty() || output == "-") continue;
+        cli::check_output(output, {arguments.original, arguments.result});
+        for (const fs::path& other : checked) {
+            if (!cli::is_same_file(output, other)) continue;
+            throw agvd::InvalidOption(output.string() +
+                                      " is named for two outputs; choose another file");
+        }
+        checked.push_back(output);
+    }
+}
+
+page::Page page_of(const Arguments& arguments, const remesh::MeshFile& original,
+                   const remesh::MeshFile& result, const remesh::Evaluation& evaluation) {
+    return {.original_name = arguments.original.filename().string(),
+            .result_name = arguments.result.filename().string(),
+            .original = original.mesh.view(),
+            .result = result.mesh.view(),
+            .evaluation = evaluation,
+            .original_labels = cli::labels_for_page(original.attributes),
+            .result_labels = cli::labels_for_page(result.attributes),
+            .options = {.num_threads = arguments.options.num_threads}};
+}
+
 void run_job(Arguments& arguments, cli::Console& console) {
     const bool is_json_on_stdout = arguments.report == "-";
-    if (!arguments.report.empty() && !is_json_on_stdout) {
-        cli::check_output(arguments.report, {arguments.original, arguments.result});
-    }
+    check_outputs(arguments);
     const auto read = [&](const fs::path& path) {
         const bool is_stream = cli::is_standard_input(path);
         return remesh::read_mesh(
-            path, remesh::ReadOptions{.format = is_stream ? arguments.from : std::string(),
+            path, remesh::ReadOptions{.with_attributes = !arguments.page.html.empty(),
+                                      .format = is_stream ? arguments.from : std::string(),
                                       .progress = console.progress_of("read")});
     };
     if (cli::is_standard_input(arguments.original) && cli::is_standard_input(arguments.result)) {
@@ -59,8 +88,14 @@ void run_job(Arguments& arguments, cli::Console& console) {
     const remesh::EvaluationInfo info{.version = REMESH_VERSION,
                                       .original_path = arguments.original.string(),
                                       .result_path = arguments.result.string()};
-    if (!arguments.report.empty()) cli::write_text(arguments.report, to_json(evaluation, info));
-    if (!is_json_on_stdout) cli::print(to_text(evaluation, info) + '\n');
+    std::vector<remesh::FileContent> files =
+        cli::make_pages(arguments.page, page_of(arguments, original, result, evaluation),
+                        console.progress_of("page"));
+    if (!arguments.report.empty() && !is_json_on_stdout) {
+        files.push_back({arguments.report, to_json(evaluation, info)});
+    }
+    remesh::write_files_atomically(files, console.progress_of("write"));
+    cli::print(is_json_on_stdout ? to_json(evaluation, info) : to_text(evaluation, info) + '\n');
 }
 
 }  // namespace
@@ -78,6 +113,7 @@ int main(int argc, char** argv) {
     app.add_option("--report,--json", arguments.report,
                    "Write the figures as JSON; - writes them to stdout")
         ->type_name("FILE|-");
+    cli::add_page_options(app, arguments.page);
     cli::start_group(app, cli::heading::accuracy);
     cli::add_count(app, "--samples", "Number of points to measure on each surface",
                    arguments.options.samples)
@@ -88,6 +124,7 @@ int main(int argc, char** argv) {
         ->type_name("N")
         ->capture_default_str();
     app.footer(std::string(footer) + cli::exit_code_help);
+    arguments.page.command = page::to_shell(argc, argv, "remesh-eval");
     return cli::run(app, argc, argv, [&] {
         const cli::CommonOptions quietly{.quiet = true};  // It has no such option.
         cli::Console console(quietly);

@@ -1,4 +1,4 @@
-// render-mesh: a picture of a mesh, for documentation. The view turns the mesh about its axes and
+// render-mesh: a picture of a mesh. The view turns the mesh about its axes and
 // fits it into the picture in perspective. Faces are shaded by their normals, back faces are blue;
 // lines of an OBJ file or the network of creases can be drawn on top.
 
@@ -10,8 +10,9 @@
 #include <sstream>
 
 #include "cli.h"
+#include "remesh/meshfile/atomic_file.h"
 #include "remesh/meshfile/mesh_file.h"
-#include "render/canvas.h"
+#include "render/mesh_picture.h"
 #include "render/network_lines.h"
 
 namespace {
@@ -20,9 +21,8 @@ using agvd::Index;
 using agvd::TriangleMesh;
 using agvd::Vec3;
 using render::Color;
+using render::View;
 
-const Color front_color{0.84F, 0.40F, 0.24F};
-const Color back_color{0.06F, 0.13F, 0.55F};
 const Color plain_color{0.62F, 0.62F, 0.60F};  // Under lines in colour.
 const Color overlay_color{0.02F, 0.05F, 0.16F};
 
@@ -68,59 +68,6 @@ Lines read_lines(const std::string& path) {
     return lines;
 }
 
-// Turned about y, then x, then z (degrees); seen from a few radii away; fitted to the picture.
-class View {
-public:
-    View(const TriangleMesh& mesh, const std::vector<double>& degrees, int width, int height) {
-        const auto turn = [&](std::size_t k, const Vec3& axis) {
-            return Eigen::AngleAxisd(degrees[k] * std::numbers::pi / 180, axis);
-        };
-        rotation_ = turn(2, Vec3::UnitZ()) * turn(0, Vec3::UnitX()) * turn(1, Vec3::UnitY());
-        Eigen::AlignedBox3d box, screen;
-        for (const Vec3& p : mesh.positions) box.extend(p);
-        center_ = box.center();
-        distance_ = 3.5 * box.diagonal().norm();
-        for (const Vec3& p : mesh.positions) screen.extend(project(p));
-        const Vec3 extent = screen.sizes();
-        scale_ = 0.94 * std::min(width / extent.x(), height / extent.y());
-        shift_ = Vec3(width, height, 0) / 2 -
-                 scale_ * Vec3(screen.center().x(), -screen.center().y(), 0);
-    }
-
-    // The perspective is a projective map, so planes stay planes and depth stays linear in x, y.
-    [[nodiscard]] Vec3 project(const Vec3& point) const {
-        Vec3 p = rotation_ * (point - center_);
-        p /= 1 - p.z() / distance_;
-        return p;
-    }
-    [[nodiscard]] Vec3 to_pixels(const Vec3& point) const {
-        const Vec3 p = project(point);
-        return scale_ * Vec3(p.x(), -p.y(), p.z()) + shift_;
-    }
-    [[nodiscard]] Vec3 turn(const Vec3& direction) const { return rotation_ * direction; }
-
-private:
-    Eigen::Matrix3d rotation_;
-    Vec3 center_, shift_ = Vec3::Zero();
-    double distance_ = 1, scale_ = 1;
-};
-
-// A warm light from above on the left, a cool one from the right, and ambient light from above.
-Color shade(const Vec3& normal, const Color& surface) {
-    const Vec3 key = Vec3(-0.45, 0.7, 0.75).normalized();
-    const Vec3 fill = Vec3(0.9, 0.1, 0.35).normalized();
-    const auto lit = [&](const Vec3& light) {
-        return static_cast<float>(std::max(0.0, normal.dot(light)));
-    };
-    const auto sky = static_cast<float>(0.5 + 0.5 * normal.y());
-    const Vec3 half = (key + Vec3::UnitZ()).normalized();
-    const float gloss = 0.16F * static_cast<float>(std::pow(std::max(0.0, normal.dot(half)), 40));
-    const Color light = Color(1.0F, 0.96F, 0.88F) * 0.78F * lit(key) +
-                        Color(0.70F, 0.82F, 1.0F) * 0.26F * lit(fill) +
-                        Color(0.80F, 0.88F, 1.0F) * (0.10F + 0.16F * sky);
-    return surface.cwiseProduct(light) + Color::Constant(gloss);
-}
-
 void draw_network(const Options& options, const View& view, render::Canvas& canvas) {
     const render::NetworkLines network =
         render::network_lines(options.network, options.num_vertices);
@@ -145,22 +92,11 @@ void draw(const Options& options) {
                                   "; use a size such as 1200x900, each number from 1 to 10000");
     }
     const TriangleMesh mesh = remesh::read_mesh(options.mesh).mesh;
-    const View view(mesh, options.view, width, height);
+    const View view(mesh.view(), {options.view[0], options.view[1], options.view[2]}, width,
+                    height);
     render::Canvas canvas(width, height);
-    for (const agvd::Triangle& t : mesh.triangles) {
-        const Vec3 &a = mesh.positions[t[0]], &b = mesh.positions[t[1]], &c = mesh.positions[t[2]];
-        const std::array corners{view.to_pixels(a), view.to_pixels(b), view.to_pixels(c)};
-        const Vec3 screen_normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-        const bool is_front = screen_normal.z() < 0;  // y points down
-        Vec3 normal = view.turn((b - a).cross(c - a)).normalized();
-        if (!is_front) normal = -normal;
-        // Lines fade where triangles are only a few pixels large: otherwise lines would cover them.
-        const double pixels = std::sqrt(std::abs(screen_normal.z()));
-        const double opacity = options.is_wire ? 0.75 * std::clamp(pixels / 10, 0.1, 1.0) : 0.0;
-        const Color& front = options.network.empty() ? front_color : plain_color;
-        canvas.draw_triangle(corners, shade(normal, is_front ? front : back_color),
-                             static_cast<float>(opacity));
-    }
+    const Color& front = options.network.empty() ? render::front_color : plain_color;
+    render::draw_mesh(mesh.view(), view, front, options.is_wire, canvas);
     canvas.shade_hollows(0.05 * std::min(width, height));
     if (!options.overlay.empty()) {
         const Lines lines = read_lines(options.overlay);
@@ -170,7 +106,7 @@ void draw(const Options& options) {
         }
     }
     if (!options.network.empty()) draw_network(options, view, canvas);
-    canvas.write_png(options.picture);
+    remesh::write_file_atomically(options.picture, canvas.png());
 }
 
 }  // namespace

@@ -9,9 +9,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <new>
 #include <numbers>
 
-#include "agvd/core/error.h"
 #include "agvd/core/random.h"
 
 namespace render {
@@ -142,7 +142,7 @@ void Canvas::shade_hollows(double radius) {
     for (std::size_t i = 0; i < light.size(); ++i) colors_[i] *= light[i];
 }
 
-void Canvas::write_png(const std::filesystem::path& path) const {
+std::string Canvas::png() const {
     const int columns = width_ / samples, rows = height_ / samples;
     std::vector<png_byte> bytes;
     bytes.reserve(depth_.size() / (samples * samples) * 3);
@@ -163,10 +163,14 @@ void Canvas::write_png(const std::filesystem::path& path) const {
     image.width = static_cast<png_uint_32>(columns);
     image.height = static_cast<png_uint_32>(rows);
     image.format = PNG_FORMAT_RGB;
-    if (png_image_write_to_file(&image, path.c_str(), 0, bytes.data(), 0, nullptr) == 0) {
-        throw agvd::IoError(path.string() + ": cannot be written: " + image.message +
-                            "; check that its folder exists and is writable");
+    png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
+    std::string file(size, '\0');
+    // Fails without memory alone.
+    if (png_image_write_to_memory(&image, file.data(), &size, 0, bytes.data(), 0, nullptr) == 0) {
+        throw std::bad_alloc();
     }
+    file.resize(size);
+    return file;
 }
 
 }  // namespace render

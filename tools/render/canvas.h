@@ -3,7 +3,7 @@
 #pragma once
 
 #include <array>
-#include <filesystem>
+#include <string>
 #include <vector>
 
 #include "agvd/core/types.h"
@@ -26,8 +26,9 @@ public:
                    double bias);
     //! Darkens hollows up to `radius` pixels wide; call after the triangles.
     void shade_hollows(double radius);
-    //! \throw agvd::IoError  the file cannot be written.
-    void write_png(const std::filesystem::path& path) const;
+    //! The picture as a file in the format PNG.
+    //! \throw std::bad_alloc
+    [[nodiscard]] std::string png() const;
 
 private:
     [[nodiscard]] std::size_t index(int x, int y) const;

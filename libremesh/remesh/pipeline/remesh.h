@@ -152,6 +152,8 @@ struct SizingResult {
     //! Edges over the mean of the targets at their ends: 5th and 95th percentile.
     double low_ratio = 0;
     double high_ratio = 0;  //!< See low_ratio.
+    //! The target at each vertex of the result. Empty: all are equal, or there is a region.
+    std::vector<double> targets = {};
     //! Both ways between result and input, at many points of each; all others are proved to be
     //! within that of MaxDistance. 0: not measured, as that is not used.
     double largest_distance = 0;

@@ -116,6 +116,7 @@ void scale_back(RemeshResult& result, int exponent) {
           &verdict.largest_distance, &verdict.diagonal}) {
         *length = std::ldexp(*length, exponent);
     }
+    for (double& target : result.sizing.targets) target = std::ldexp(target, exponent);
     for (double& coordinate : verdict.farthest) coordinate = std::ldexp(coordinate, exponent);
     for (ComponentTopology& component : result.input_topology.components) {
         component.area = std::ldexp(component.area, 2 * exponent);

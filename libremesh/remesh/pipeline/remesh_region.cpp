@@ -135,6 +135,7 @@ RemeshResult remesh_region(const MeshView& mesh, const RemeshOptions& options) {
     GluedRegion glued = glue_region(mesh, region, result.mesh, last_ticker);
     result.sites = sites_of(region, glued, result.sites);
     result.mesh = std::move(glued.mesh);
+    result.sizing.targets.clear();
     result.kept = {std::move(glued.kept_vertices), region.kept,
                    static_cast<Index>(region.rim_edges.size())};
     count_crossings(mesh, region, options, result);

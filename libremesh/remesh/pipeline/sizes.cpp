@@ -338,7 +338,7 @@ SizingResult measure_edges(const MeshView& mesh, std::span<const SurfacePoint> s
                            Index num_samples, const SizeField* sizes) {
     SizingResult result{.num_samples = num_samples, .mean_edge = mean_edge(mesh)};
     if (sizes == nullptr) return result;
-    const std::vector<double> target = lengths_at(sizes, sites);
+    std::vector<double> target = lengths_at(sizes, sites);
     std::vector<double> ratios;  // Each inner edge twice.
     for (const Triangle& t : mesh.triangles) {
         for (std::size_t k = 0; k < 3; ++k) {
@@ -356,6 +356,7 @@ SizingResult measure_edges(const MeshView& mesh, std::span<const SurfacePoint> s
     result.largest_target = *largest;
     result.low_ratio = percentile(5);
     result.high_ratio = percentile(95);
+    result.targets = std::move(target);
     return result;
 }
 

@@ -78,6 +78,7 @@ void scale_back(Evaluation& evaluation, int exponent) {
             for (double* length : {&side->mean, &side->rms, &side->max}) {
                 *length = std::ldexp(*length, exponent);
             }
+            for (double& coordinate : side->farthest) coordinate = std::ldexp(coordinate, exponent);
         }
         d.diagonal = std::ldexp(d.diagonal, exponent);
     }

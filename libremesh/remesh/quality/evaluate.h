@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -30,6 +31,19 @@ struct TriangleQuality {
     Index non_delaunay_edges = 0;
     Index faces_without_area = 0;  //!< Flat up to rounding: see is_flat().
 };
+
+//! One triangle.
+struct FaceShape {
+    double quality = 0;             //!< Q: see TriangleQuality.
+    std::array<double, 3> angle{};  //!< Radians, at each corner.
+    //! Of the three.
+    [[nodiscard]] double smallest_angle() const {
+        return *std::min_element(angle.begin(), angle.end());
+    }
+};
+
+//! \param corners  finite.
+[[nodiscard]] FaceShape measure_face(const std::array<Vec3, 3>& corners);
 
 //! Measures any mesh, manifold or not. Edges with one face or more than two are not tested for the
 //! Delaunay condition, and vertices in no face do not count.
@@ -58,9 +72,10 @@ struct EvaluationOptions {
 
 //! From one surface to the closest points of another, mesh units.
 struct OneSidedDistance {
-    double mean = 0;  //!< Over the area: from the samples alone.
-    double rms = 0;   //!< Likewise.
-    double max = 0;   //!< Over samples and vertices.
+    double mean = 0;               //!< Over the area: from the samples alone.
+    double rms = 0;                //!< Likewise.
+    double max = 0;                //!< Over samples and vertices.
+    Vec3 farthest = Vec3::Zero();  //!< The point that is so far; of several the first.
 };
 
 //! Lengths in mesh units.
@@ -75,14 +90,17 @@ struct SurfaceDistance {
 
     //! Lengths as percentages of the diagonal.
     [[nodiscard]] OneSidedDistance percent_of_diagonal(const OneSidedDistance& d) const {
-        return {100 * d.mean / diagonal, 100 * d.rms / diagonal, 100 * d.max / diagonal};
+        return {100 * d.mean / diagonal, 100 * d.rms / diagonal, 100 * d.max / diagonal,
+                d.farthest};
     }
     //! The larger of the two sides, for mean, RMS and max each (so `max` is the Hausdorff
     //! distance).
     [[nodiscard]] OneSidedDistance two_sided() const {
+        const bool is_original = from_original.max >= from_result.max;
         return {std::max(from_original.mean, from_result.mean),
                 std::max(from_original.rms, from_result.rms),
-                std::max(from_original.max, from_result.max)};
+                std::max(from_original.max, from_result.max),
+                is_original ? from_original.farthest : from_result.farthest};
     }
 };
 

@@ -90,6 +90,12 @@ void for_each_closest(Index count, int num_threads, Poller& poller, const Faces&
     parallel_chunks(count, queries_per_task, num_threads, find, poller);
 }
 
+void take_farther(double distance, const Vec3& point, OneSidedDistance& side) {
+    if (distance <= side.max) return;
+    side.max = distance;
+    side.farthest = point;
+}
+
 // Mean, RMS and maximum over the points, summed in a fixed order.
 template <typename PointAt>
 OneSidedDistance measure(Index count, int num_threads, Poller& poller, const Faces& faces,
@@ -100,13 +106,13 @@ OneSidedDistance measure(Index count, int num_threads, Poller& poller, const Fac
                          const double distance = (point - from_cgal(closest.first)).norm();
                          sums[chunk].mean += distance;
                          sums[chunk].rms += distance * distance;
-                         sums[chunk].max = std::max(sums[chunk].max, distance);
+                         take_farther(distance, point, sums[chunk]);
                      });
     OneSidedDistance total;
     for (const OneSidedDistance& sum : sums) {
         total.mean += sum.mean / count;
         total.rms += sum.rms / count;
-        total.max = std::max(total.max, sum.max);
+        take_farther(sum.max, sum.farthest, total);
     }
     total.rms = std::sqrt(total.rms);
     return total;
@@ -127,7 +133,7 @@ OneSidedDistance one_sided(const MeshView& mesh, const Faces& from, const Faces&
     const OneSidedDistance at_vertices =
         measure(static_cast<Index>(vertices.size()), options.num_threads, poller, to,
                 [&](Index v) { return vertices[v]; });
-    result.max = std::max(result.max, at_vertices.max);
+    take_farther(at_vertices.max, at_vertices.farthest, result);
     return result;
 }
 

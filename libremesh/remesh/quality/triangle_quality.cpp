@@ -18,27 +18,6 @@ namespace {
 constexpr double angle_sum_tolerance = 1e-6;
 constexpr double small_angle = std::numbers::pi / 6;
 
-struct Shape {
-    double quality;
-    std::array<double, 3> angle;  // At each corner; atan2 is exact enough for the thinnest needle.
-};
-
-Shape shape_of(const std::array<Vec3, 3>& p) {
-    const std::array<Vec3, 3> side = {p[1] - p[0], p[2] - p[1], p[0] - p[2]};
-    const double doubled_area = side[0].cross(side[1]).norm();
-    Shape shape{};
-    double perimeter = 0, longest = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-        shape.angle[k] = portable::atan2(doubled_area, -side[k].dot(side[(k + 2) % 3]));
-        perimeter += side[k].norm();
-        longest = std::max(longest, side[k].norm());
-    }
-    if (doubled_area > 0) {
-        shape.quality = 6 / std::numbers::sqrt3 * doubled_area / (perimeter * longest);
-    }
-    return shape;
-}
-
 // Fills the figures of the faces and returns the angle opposite each half-edge.
 std::vector<double> measure_faces(const MeshView& mesh, Ticker& ticker, TriangleQuality& result) {
     std::vector<double> opposite(3 * mesh.triangles.size());
@@ -47,7 +26,7 @@ std::vector<double> measure_faces(const MeshView& mesh, Ticker& ticker, Triangle
     Index small = 0;
     for (Index f = 0; f < mesh.triangles.size(); ++f) {
         ticker.tick(4);
-        const Shape shape = shape_of(corners_of(mesh, f));
+        const FaceShape shape = measure_face(corners_of(mesh, f));
         const auto [lowest, highest] = std::minmax_element(shape.angle.begin(), shape.angle.end());
         result.mean_quality += shape.quality;
         result.min_quality = std::min(result.min_quality, shape.quality);
@@ -103,6 +82,24 @@ void measure_valences(const MeshView& mesh, const std::vector<EdgeSide>& sides, 
 }
 
 }  // namespace
+
+FaceShape measure_face(const std::array<Vec3, 3>& corners) {
+    const std::array<Vec3, 3>& p = corners;
+    const std::array<Vec3, 3> side = {p[1] - p[0], p[2] - p[1], p[0] - p[2]};
+    const double doubled_area = side[0].cross(side[1]).norm();
+    FaceShape shape;
+    double perimeter = 0, longest = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        // Exact enough for the thinnest needle.
+        shape.angle[k] = portable::atan2(doubled_area, -side[k].dot(side[(k + 2) % 3]));
+        perimeter += side[k].norm();
+        longest = std::max(longest, side[k].norm());
+    }
+    if (doubled_area > 0) {
+        shape.quality = 6 / std::numbers::sqrt3 * doubled_area / (perimeter * longest);
+    }
+    return shape;
+}
 
 TriangleQuality measure_triangles(const MeshView& mesh, const Progress& progress) {
     Poller poller(progress);

@@ -100,6 +100,9 @@ TEST(Sizing, EdgesFollowAFieldThatVariesTenfold) {
         EXPECT_NEAR(result.sizing.low_ratio, low, 0.05);
         EXPECT_NEAR(result.sizing.high_ratio, high, 0.05);
         EXPECT_NEAR(result.sizing.largest_target / result.sizing.least_target, 10, 0.8);
+        const std::vector<double>& targets = result.sizing.targets;
+        ASSERT_EQ(targets.size(), result.mesh.positions.size());
+        EXPECT_EQ(*std::max_element(targets.begin(), targets.end()), result.sizing.largest_target);
     }
 }
 
@@ -266,6 +269,7 @@ TEST(Sizing, LengthsAreScaledWithTheMesh) {
     EXPECT_EQ(large.mesh.positions, agvd::scaled(result.mesh.view(), exponent).positions);
     EXPECT_EQ(large.sizing.mean_edge, std::ldexp(result.sizing.mean_edge, exponent));
     EXPECT_EQ(large.sizing.least_target, std::ldexp(result.sizing.least_target, exponent));
+    EXPECT_EQ(large.sizing.targets.at(0), std::ldexp(result.sizing.targets.at(0), exponent));
 }
 
 TEST(Sizing, WrongOptionsAreRefused) {

@@ -109,6 +109,7 @@ TEST(Evaluate, AnyScaleGivesTheSameSharesAndScaledLengths) {
             EXPECT_EQ(scaled.mean, std::ldexp(plain.mean, exponent));
             EXPECT_EQ(scaled.rms, std::ldexp(plain.rms, exponent));
             EXPECT_EQ(scaled.max, std::ldexp(plain.max, exponent));
+            EXPECT_EQ(scaled.farthest.x(), std::ldexp(plain.farthest.x(), exponent));
         }
         EXPECT_EQ(e.distance->diagonal, std::ldexp(usual.distance->diagonal, exponent));
     }

@@ -37,6 +37,15 @@ TEST(SurfaceDistance, AnOffsetPlaneLiesAtItsOffset) {
     EXPECT_EQ(d.samples, 20'000u);
 }
 
+TEST(SurfaceDistance, TellsWhereEachMaximumIs) {
+    TriangleMesh result = shapes::grid(4);
+    result.positions[7].z() = 0.1;
+    const SurfaceDistance d = distance(shapes::grid(4), result);
+    EXPECT_EQ(d.from_result.farthest, result.positions[7]);
+    EXPECT_EQ(d.two_sided().farthest, result.positions[7]);
+    EXPECT_LT((d.from_original.farthest.head<2>() - result.positions[7].head<2>()).norm(), 0.2);
+}
+
 TEST(SurfaceDistance, AMeshLiesOnItself) {
     const TriangleMesh mesh = shapes::jitter(shapes::sphere(3), 0.02, 5);
     const SurfaceDistance d = distance(mesh, mesh);

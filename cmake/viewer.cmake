@@ -1,0 +1,30 @@
+# The viewer of report pages: TypeScript, bundled by node when the programs are built. Where node or
+# npm is missing, or the parts from npm cannot be fetched, the programs are built without it.
+#
+# agvd_find_viewer(variable): true if tools/viewer can be built. Fetches its parts once: npm ci.
+function(agvd_find_viewer variable)
+    set(${variable} OFF PARENT_SCOPE)
+    find_program(AGVD_NODE NAMES node nodejs)
+    find_program(AGVD_NPM npm)
+    set(without "the programs are built without --html; see docs/contributing.md")
+    if(NOT AGVD_NODE OR NOT AGVD_NPM)
+        message(STATUS "node and npm (Debian: nodejs npm) were not found: ${without}")
+        return()
+    endif()
+    set(viewer ${PROJECT_SOURCE_DIR}/tools/viewer)
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${viewer}/package-lock.json)
+    set(fetched ${viewer}/node_modules/.package-lock.json)
+    if(NOT ${viewer}/package-lock.json IS_NEWER_THAN ${fetched})
+        set(${variable} ON PARENT_SCOPE)
+        return()
+    endif()
+    message(STATUS "Fetching the parts of the viewer: npm ci in tools/viewer")
+    execute_process(COMMAND ${AGVD_NPM} ci WORKING_DIRECTORY ${viewer}
+        RESULT_VARIABLE code OUTPUT_VARIABLE output ERROR_VARIABLE output TIMEOUT 300)
+    if(NOT code EQUAL 0)
+        message(WARNING "npm ci failed in tools/viewer, so ${without}\n${output}")
+        return()
+    endif()
+    file(TOUCH ${fetched})
+    set(${variable} ON PARENT_SCOPE)
+endfunction()

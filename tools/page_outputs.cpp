@@ -1,0 +1,59 @@
+#include "page_outputs.h"
+
+#include <CLI/CLI.hpp>
+
+#include "page/viewer.h"
+#include "picture.h"
+
+namespace cli {
+
+void add_page_options(CLI::App& app, PageArguments& arguments) {
+    app.add_option(
+           "--html", arguments.html,
+           "Write a page that shows original and result side by side, with all figures: one "
+           "file for any browser, which needs no network")
+        ->type_name("FILE");
+    app.add_option("--picture", arguments.picture,
+                   "Write a picture of original and result beside each other, as PNG")
+        ->type_name("FILE");
+}
+
+bool wants_pages(const PageArguments& arguments) {
+    return !arguments.html.empty() || !arguments.picture.empty();
+}
+
+void check_page_options(const PageArguments& arguments) {
+    for (const auto& [option, path] :
+         {std::pair("--html", arguments.html), std::pair("--picture", arguments.picture)}) {
+        if (path == "-") {
+            throw agvd::InvalidOption(std::string(option) +
+                                      " does not write to the standard output; name a file");
+        }
+    }
+    if (!arguments.html.empty()) page::require_viewer("--html");
+    if (!arguments.picture.empty()) require_pictures();
+}
+
+page::FaceLabels labels_for_page(const remesh::MeshAttributes& attributes) {
+    for (const remesh::Attribute& attribute : attributes.of_faces) {
+        if (!remesh::is_label(attribute)) continue;
+        return {attribute.name, attribute.values};
+    }
+    return {};
+}
+
+std::vector<remesh::FileContent> make_pages(const PageArguments& arguments, page::Page page,
+                                            const agvd::Progress& progress) {
+    std::vector<remesh::FileContent> files;
+    if (!arguments.html.empty()) {
+        page.version = REMESH_VERSION;
+        page.command = arguments.command;
+        files.push_back({arguments.html, page::format_page(page, progress)});
+    }
+    if (!arguments.picture.empty()) {
+        files.push_back({arguments.picture, picture_of(page.original, page.result)});
+    }
+    return files;
+}
+
+}  // namespace cli
