@@ -31,13 +31,10 @@ void add_values(VtpWriter& writer, const char* section, const std::vector<Attrib
 }
 
 std::string format_vtp_lines(const Lines& lines, Ticker ticker) {
-    VtpWriter writer({.points = lines.points.size(), .lines = num_lines(lines)});
+    VtpWriter writer;
     add_values(writer, "PointData", lines.of_points, lines.points.size(), ticker);
     add_values(writer, "CellData", lines.of_lines, num_lines(lines), ticker);
-    writer.begin_section("Points");
-    writer.add_array<double>("Points", "Float64", 3, lines.points.size(), ticker,
-                             [&](std::size_t p) { return lines.points[p]; });
-    writer.end_section();
+    writer.add_points(lines.points, ticker);
     writer.add_cells("Lines", num_lines(lines), ticker,
                      [&](std::size_t line) { return points_of(lines, line, 0); });
     return std::move(writer).finish();

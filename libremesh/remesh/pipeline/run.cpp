@@ -102,28 +102,32 @@ private:
 
     void run_all(bool has_junctions) {
         KeptCurves kept{has_junctions, !found_.is_seam.empty(), found_.is_crease};
+        BadPoints bad;
+        if (try_curves(kept, bad) || try_other_sites(kept)) return;
         for (int num_changes = 0;;) {
-            BadPoints bad;
-            if (try_curves(kept, bad)) return;
-            if (!options_.sites && !std::exchange(has_other_seed_, true)) {
-                ++options_.seed;
-                continue;
-            }
-            if (!found_.strips.empty()) {  // The same without them.
+            if (!found_.strips.empty()) {
                 refines_ = false;
                 find_lengths({});
                 kept.is_crease = found_.is_crease;
-                continue;
-            }
-            if (kept.has_seams) {
+            } else if (kept.has_seams) {
                 kept.has_seams = false;
-                continue;
+            } else if (!change_near(bad, num_changes, kept.is_crease)) {
+                // Faces without area are no reason to give up more.
+                if (!has_creases(kept.is_crease) || (best_ && is_fine(*best_))) return;
+                kept.is_crease.assign(kept.is_crease.size(), 0);
             }
-            if (change_near(bad, num_changes, kept.is_crease)) continue;
-            // Faces without area are no reason to give up more.
-            if (!has_creases(kept.is_crease) || (best_ && is_fine(*best_))) return;
-            kept.is_crease.assign(kept.is_crease.size(), 0);
+            bad = {};
+            if (try_curves(kept, bad)) return;
         }
+    }
+
+    bool try_other_sites(const KeptCurves& kept) {
+        if (options_.sites) return false;
+        BadPoints bad;
+        ++options_.seed;
+        const bool is_done = try_curves(kept, bad);
+        --options_.seed;
+        return is_done;
     }
 
     // Corners of bad faces.
@@ -183,6 +187,7 @@ private:
         if (!best_ || is_better(result, *best_)) {
             best_ = std::move(result);
             kept_ = kept;
+            seed_ = options_.seed;
             narrow_points_ = std::move(end.narrow_points);
             crossings_ = std::move(end.crossing_corners);
         }
@@ -218,6 +223,7 @@ private:
         // The number stays, whatever it follows from: a mean edge would make the others longer.
         RemeshOptions options = options_;
         options.sizing.count = NumSamples{};
+        options.seed = seed_;
         const StageContext context{options, again};
         const RunSizes sizes = find_sizes(cleaned_, found_, spacing_for(cleaned_, options_), {},
                                           narrow_points_, points, context);
@@ -239,12 +245,12 @@ private:
     FoundCurves found_;
     RunSizes sizes_;
     InputCrossings of_input_;
-    bool has_other_seed_ = false;  // Than what was asked for: the first attempt failed.
     // Strips between close creases. With a mean edge given the others would be longer.
     bool refines_ =
         may_shorten(options_) && !std::holds_alternative<MeanEdge>(options_.sizing.count);
     std::optional<RemeshResult> best_;
     KeptCurves kept_;                          // Of the best.
+    std::uint64_t seed_ = 0;                   // Of the best.
     std::vector<SurfacePoint> narrow_points_;  // Of the best.
     std::vector<SurfacePoint> crossings_;      // Corners of the best that intersect.
     Index samples_for_all_ = 0;                // Of the attempt with most curves.
