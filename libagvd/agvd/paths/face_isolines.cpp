@@ -89,8 +89,8 @@ private:
         if (!(relay.weight + least < level_)) return;
         const SightLine before{relay.image, relay.image - relay.begin};
         const SightLine behind{relay.image, relay.end - relay.image};
-        const auto add = [&](const Vec2& centre, double weight, std::array<SightLine, 2> seen,
-                             std::size_t num_seen) {
+        const auto add = [&](const Vec2& centre, double weight,
+                             const std::array<SightLine, 2>& seen, std::size_t num_seen) {
             if (!(weight < level_)) return;
             circles_.push_back({centre, level_ - weight, relay.site, seen, num_seen});
         };

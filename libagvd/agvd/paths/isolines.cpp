@@ -176,19 +176,19 @@ private:
     [[nodiscard]] std::vector<LineEnd> ends_on_edges() const {
         std::vector<LineEnd> ends;
         for (Index i = 0; i < arcs_.size(); ++i) {
-            const auto& [level, face, place, arc] = arcs_[i];
+            const SurfaceArc& here = arcs_[i];
             const auto add = [&](const FaceArcEnd& end, bool is_begin) {
-                const Index h = 3 * face + end.side;
+                const Index h = 3 * here.face + end.side;
                 if (surface_.twin[h] == no_index) return;
                 const Motion frame = to_face_frame(surface_, h);
                 const double at = (end.at - frame.origin).dot(frame.axis);
                 const Index edge = surface_.edge[h];
                 const bool is_forward = surface_.edge_half[edge] == h;
                 ends.push_back(
-                    {level, edge, is_forward ? at : surface_.length[edge] - at, i, is_begin});
+                    {here.level, edge, is_forward ? at : surface_.length[edge] - at, i, is_begin});
             };
-            if (next_[i] == no_index) add(arc.end, false);
-            if (!is_entered_[i]) add(arc.begin, true);
+            if (next_[i] == no_index) add(here.arc.end, false);
+            if (!is_entered_[i]) add(here.arc.begin, true);
         }
         return ends;
     }

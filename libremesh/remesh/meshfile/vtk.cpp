@@ -31,8 +31,8 @@ public:
     }
 
 private:
-    // Their order in `groups`.
-    static constexpr std::size_t strips = 3, grid = 4;
+    // Its place in `groups`.
+    static constexpr std::size_t grid = 4;
     enum class Of { Nothing, Points, Cells };
 
     template <typename... Parts>

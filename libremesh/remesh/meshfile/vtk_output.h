@@ -74,7 +74,7 @@ public:
         num_cells_[section] = num_cells;
         begin_section(section);
         add_array<std::int64_t>("connectivity", "Int64", 1, num_cells, ticker, [&](std::size_t i) {
-            const auto corners = corners_of(i);
+            auto corners = corners_of(i);
             ends.push_back((ends.empty() ? 0 : ends.back()) + corners.size());
             return corners;
         });
