@@ -262,7 +262,7 @@ Verdict judge_result(const MeshView& input, const MeshView& result, const Topolo
     const std::vector<VertexShape> shapes = vertex_shapes(result);
     const std::vector<Wall> walls = find_walls(result, tree, shapes, num_threads, poller);
     judge_walls(result, shapes, walls, verdict);
-    judge_narrow_faces(result, walls, poller, verdict.narrow);
+    if (verdict.small_angle_share > 0) judge_narrow_faces(result, walls, poller, verdict.narrow);
     judge_distance(input, tree, num_threads, poller, verdict);
     return verdict;
 }

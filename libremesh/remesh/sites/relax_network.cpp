@@ -321,7 +321,7 @@ private:
             return std::pair(std::min({t[0], t[1], t[2]}), t);
         });
     }
-    // Steps take half the time that way with 60 000 sites.
+    // In this order a step finds what it reads of neighbours in the cache.
     [[nodiscard]] std::vector<Index> order_of(std::span<const SurfacePoint> sites) const {
         std::vector<Vec3> positions;
         positions.reserve(sites.size());
