@@ -163,12 +163,6 @@ void run_distance(const DistanceArguments& arguments, Console& console) {
         arguments, [&](const fs::path&) { return to_table(distances); }, console);
 }
 
-std::string check_radius(const std::string& text) {
-    const std::optional<Amount> amount = parse_amount(text);
-    if (amount && !amount->is_percent) return {};
-    return "the radius is " + text + "; use a number above 0";
-}
-
 }  // namespace
 
 Query add_distance(CLI::App& app) {
@@ -189,14 +183,12 @@ Query add_distance(CLI::App& app) {
     command
         ->add_option("--radius", arguments->radius,
                      "Largest distance, in mesh units; only faces so near to a site are looked at")
-        ->check(CLI::Validator(check_radius, ""))
+        ->check(CLI::Validator([](const std::string& text) { return check_length("radius", text); },
+                               ""))
         ->type_name("R");
     add_outputs(*command, arguments->outputs);
     command->footer(std::string(distance_footer) + exit_code_help);
-    return {command, [arguments] {
-                Console console(arguments->common, limit_of(*arguments));
-                console.run([&] { run_distance(*arguments, console); });
-            }};
+    return make_query(command, arguments, run_distance);
 }
 
 }  // namespace cli

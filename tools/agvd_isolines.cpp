@@ -83,13 +83,6 @@ void run_isolines(const IsolineArguments& arguments, Console& console) {
                  std::to_string(levels.size()) + " levels");
 }
 
-// Checks the option; an empty text: valid.
-std::string check_length(const std::string& text) {
-    const std::optional<Amount> amount = parse_amount(text);
-    if (amount && !amount->is_percent) return {};
-    return "the length is " + text + "; use a number above 0";
-}
-
 }  // namespace
 
 Query add_isolines(CLI::App& app) {
@@ -98,7 +91,8 @@ Query add_isolines(CLI::App& app) {
     const auto arguments = std::make_shared<IsolineArguments>();
     add_query_options(*command, *arguments);
     start_group(*command, heading::count);
-    const CLI::Validator length(check_length, "");
+    const CLI::Validator length(
+        [](const std::string& text) { return check_length("length", text); }, "");
     auto* const levels =
         command->add_option("--levels", arguments->levels, "Distances of the lines, in mesh units");
     levels->delimiter(',')->check(length)->type_name("L,L,...")->allow_extra_args(false);
@@ -118,10 +112,7 @@ Query add_isolines(CLI::App& app) {
         ->type_name("D");
     add_outputs(*command, arguments->outputs);
     command->footer(std::string(isolines_footer) + exit_code_help);
-    return {command, [arguments] {
-                Console console(arguments->common, limit_of(*arguments));
-                console.run([&] { run_isolines(*arguments, console); });
-            }};
+    return make_query(command, arguments, run_isolines);
 }
 
 }  // namespace cli

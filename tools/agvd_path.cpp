@@ -131,10 +131,7 @@ Query add_path(CLI::App& app) {
         ->type_name("FILE");
     add_outputs(*command, arguments->outputs);
     command->footer(std::string(path_footer) + exit_code_help);
-    return {command, [arguments] {
-                Console console(arguments->common, limit_of(*arguments));
-                console.run([&] { run_path(*arguments, console); });
-            }};
+    return make_query(command, arguments, run_path);
 }
 
 }  // namespace cli

@@ -25,6 +25,12 @@ std::vector<SurfacePoint> sample(const DiagramArguments& arguments, const agvd::
 
 }  // namespace
 
+std::string check_length(const char* name, const std::string& text) {
+    const std::optional<Amount> amount = parse_amount(text);
+    if (amount && !amount->is_percent) return {};
+    return "the " + std::string(name) + " is " + text + "; use a number above 0";
+}
+
 void add_outputs(CLI::App& app, std::vector<fs::path>& outputs) {
     start_group(app, heading::files);
     app.add_option("-o,--output", outputs, "File to write; repeat the option to write more files")

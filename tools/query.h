@@ -4,6 +4,9 @@
 
 #include <functional>
 #include <initializer_list>
+#include <memory>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "agvd/mesh/surface.h"
@@ -30,6 +33,21 @@ struct Query {
 [[nodiscard]] Query add_path(CLI::App& app);
 //! `agvd isolines`.
 [[nodiscard]] Query add_isolines(CLI::App& app);
+
+//! \param run  the subcommand on a console of its own.
+template <typename Arguments>
+[[nodiscard]] Query make_query(CLI::App* command, std::shared_ptr<Arguments> arguments,
+                               void (*run)(const Arguments&, Console&)) {
+    return {command, [arguments = std::move(arguments), run] {
+                Console console(arguments->common, limit_of(*arguments));
+                console.run([&] { run(*arguments, console); });
+            }};
+}
+
+//! Checks a length in mesh units.
+//! \param name  of the length, in the text.
+//! \return what is wrong; an empty text: nothing.
+[[nodiscard]] std::string check_length(const char* name, const std::string& text);
 
 //! Adds -o, which is required and may be repeated.
 void add_outputs(CLI::App& app, std::vector<std::filesystem::path>& outputs);

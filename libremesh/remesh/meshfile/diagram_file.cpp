@@ -401,12 +401,7 @@ constexpr DiagramFormat diagram_formats[] = {{".vtp", format_vtp_diagram},
                                              {".agvd", format_whole_diagram}};
 
 const DiagramFormat& require_diagram_format(const std::filesystem::path& path) {
-    const std::string extension = lower_extension(is_compressed({path}) ? path.stem() : path);
-    for (const DiagramFormat& format : diagram_formats) {
-        if (extension == format.extension) return format;
-    }
-    throw IoError(joined(path.string(), ": unknown extension ",
-                         in_quotes(path.extension().string()), "; use .vtp, .ply, .obj or .agvd"));
+    return require_format(diagram_formats, path, ".vtp, .ply, .obj or .agvd");
 }
 
 }  // namespace

@@ -70,6 +70,20 @@ struct MeshFormat {
 //! Whether the path or the format ends in .gz, and this build can compress.
 [[nodiscard]] bool is_compressed(const MeshPath& path);
 
+//! The format, of a table of them, with the extension of a path, before .gz.
+//! \param known  the extensions of the table, for the text.
+//! \throw IoError  there is none.
+template <typename Format, std::size_t Count>
+[[nodiscard]] const Format& require_format(const Format (&formats)[Count],
+                                           const std::filesystem::path& path, const char* known) {
+    const std::string extension = lower_extension(is_compressed({path}) ? path.stem() : path);
+    for (const Format& format : formats) {
+        if (extension == format.extension) return format;
+    }
+    throw IoError(joined(path.string(), ": unknown extension ",
+                         in_quotes(path.extension().string()), "; use ", known));
+}
+
 //! The given format, or that of the path's extension (any case), either without .gz; nullptr:
 //! unknown.
 [[nodiscard]] const MeshFormat* find_format(const MeshPath& path);

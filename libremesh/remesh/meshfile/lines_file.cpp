@@ -111,12 +111,7 @@ constexpr LinesFormat lines_formats[] = {
     {".vtp", format_vtp_lines}, {".obj", format_obj_lines}, {".ply", format_ply_lines}};
 
 const LinesFormat& require_lines_format(const std::filesystem::path& path) {
-    const std::string extension = lower_extension(is_compressed({path}) ? path.stem() : path);
-    for (const LinesFormat& format : lines_formats) {
-        if (extension == format.extension) return format;
-    }
-    throw IoError(joined(path.string(), ": unknown extension ",
-                         in_quotes(path.extension().string()), "; use .vtp, .obj or .ply"));
+    return require_format(lines_formats, path, ".vtp, .obj or .ply");
 }
 
 }  // namespace

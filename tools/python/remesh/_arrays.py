@@ -102,3 +102,8 @@ def number(value: Any, name: str) -> float:
         return float(value)
     except (TypeError, ValueError):
         raise InvalidOption(f"{name} is {value!r}; use a number") from None
+
+
+def parts(points: Floats, offsets: NDArray[np.int64]) -> list[Floats]:
+    """Part i is points[offsets[i]:offsets[i+1]], a view."""
+    return [points[begin:end] for begin, end in zip(offsets[:-1], offsets[1:])]

@@ -36,8 +36,7 @@ class Isolines:
     @property
     def lines(self) -> list[NDArray[np.float64]]:
         """The polylines, each m x 3: views of ``points``."""
-        return [self.points[self.offsets[i]:self.offsets[i + 1]]
-                for i in range(len(self.offsets) - 1)]
+        return _arrays.parts(self.points, self.offsets)
 
 
 def isolines(V: Any, F: Any = None, sites: Any = None, levels: Any = None, *,

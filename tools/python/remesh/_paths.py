@@ -35,8 +35,7 @@ class Paths:
     @property
     def lines(self) -> list[NDArray[np.float64]]:
         """The polylines, each m x 3: views of ``points``."""
-        return [self.points[self.offsets[i]:self.offsets[i + 1]]
-                for i in range(len(self.offsets) - 1)]
+        return _arrays.parts(self.points, self.offsets)
 
 
 def paths(V: Any, F: Any = None, starts: Any = None, sites: Any = None, *, ends: Any = None,
