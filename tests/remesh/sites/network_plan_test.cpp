@@ -10,6 +10,7 @@
 #include "remesh/sites/sites.h"
 #include "support/flag_edges.h"
 #include "support/parts.h"
+#include "support/random_surfaces.h"
 #include "support/shapes.h"
 
 using agvd::Index;
@@ -124,6 +125,38 @@ TEST(SampleInnerSites, PatchesThatLackNoneGetNoneButWhereAllAreSo) {
         EXPECT_TRUE(std::abs(z) < 1e-12 || std::abs(z - .02) < 1e-12);
     }
     EXPECT_EQ(remesh::sample_inner_sites(plan.cut.surface(), {}, 7, 50, {}).size(), 7u);
+}
+
+TEST(RelaxNetwork, InnerSitesFollowEachOtherInSpace) {
+    const Surface surface = agvd::build_surface(shapes::sphere(5).view());
+    const NetworkPlan plan = plan_of(surface, 1000);
+    const remesh::PreparedSurface prepared(plan.cut.surface(), plan.spacing);
+    for (const int steps : {0, 10}) {
+        const remesh::NetworkSites made =
+            remesh::sample_network_sites(prepared, plan, {.num_samples = 1000}, {.steps = steps});
+        ASSERT_EQ(made.sites.size(), 1000u);
+        EXPECT_EQ(made.levels.size(), steps == 0 ? 0u : 2u);
+        double sum = 0;
+        for (Index i = 1; i < 1000; ++i) {
+            sum += (at(plan, made.sites[i]) - at(plan, made.sites[i - 1])).norm();
+        }
+        EXPECT_LT(sum / 999, 2 * plan.spacing);
+    }
+}
+
+// A coarse level of 106 sites would have 9 neighbours for each.
+TEST(RelaxNetwork, ThereIsNoCoarseLevelWithFewSitesForTheHandles) {
+    const Surface surface =
+        agvd::build_surface(shapes::subdivide(random_surfaces::lattice(4, 2, 1)).view());
+    const auto num_levels = [&](Index n) {
+        const std::vector<std::uint8_t> none(surface.num_edges(), 0);
+        const NetworkPlan plan = remesh::plan_network(surface, none, n);
+        const remesh::PreparedSurface prepared(plan.cut.surface(), plan.spacing);
+        return remesh::sample_network_sites(prepared, plan, {.num_samples = n}, {.steps = 10})
+            .levels.size();
+    };
+    EXPECT_EQ(num_levels(600), 1u);
+    EXPECT_EQ(num_levels(1000), 2u);
 }
 
 TEST(RelaxNetwork, SitesOfCurvesStayOnThemAndTogether) {
