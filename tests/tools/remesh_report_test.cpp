@@ -57,6 +57,7 @@ remesh::RemeshResult example_result() {
                         .welded_edges = 36};
     result.sizing = {.num_samples = 77, .mean_edge = 1};
     result.certified_error = 1.23e-4;
+    result.coarse_faces = 64'000;
     result.propagation_bytes = 12'300'000;
     result.refined_faces = 4321;
     result.delaunay = {.inner_edges = 200,
@@ -179,6 +180,7 @@ TEST(RemeshReport, GivesEveryFieldOfTheResult) {
     EXPECT_EQ(report["delaunay"]["broken_triangles"], 2);
     EXPECT_EQ(report["delaunay"]["finished"], false);
     EXPECT_EQ(report["certified_error"], 1.23e-4);
+    EXPECT_EQ(report["coarse_faces"], 64'000);
     EXPECT_EQ(report["propagation_bytes"], 12'300'000);
     EXPECT_EQ(report["refined_faces"], 4321);
     EXPECT_EQ(report["stage_seconds"]["clean_s"], 0.25);

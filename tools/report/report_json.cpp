@@ -332,6 +332,7 @@ std::string to_json(const RemeshResult& result, const RunInfo& info) {
     object["new_self_intersecting_pairs"] =
         result.self_intersections ? Json(result.new_self_intersections) : Json();
     object["certified_error"] = result.certified_error;
+    object["coarse_faces"] = result.coarse_faces;
     object["propagation_bytes"] = result.propagation_bytes;
     Json& stages = object["stage_seconds"] = Json::object();
     for (const auto& [stage, seconds] : result.seconds) {

@@ -3,6 +3,7 @@
 #include "agvd/mesh/surface_points.h"
 #include "remesh/clean/carry.h"
 #include "remesh/pipeline/build_mesh.h"
+#include "remesh/pipeline/coarse_input.h"
 #include "remesh/pipeline/crossings.h"
 #include "remesh/pipeline/curves.h"
 #include "remesh/pipeline/domain.h"
@@ -52,7 +53,7 @@ bool check_mesh(const CleanedInput& cleaned, const Domain& domain, std::span<con
         built.mesh.positions.size() != built.num_wanted) {
         return false;
     }
-    result.verdict = judge_result(domain.whole->mesh.view(), built.mesh.view(), topology,
+    result.verdict = judge_result(cleaned.finest().surface.mesh.view(), built.mesh.view(), topology,
                                   options.num_threads, progress);
     return true;
 }
@@ -89,8 +90,10 @@ AttemptEnd run_attempt(const CleanedInput& cleaned, const FoundCurves& found,
         return {.num_needed = built.num_vertices};
     }
     result.sizing = measure_edges(built.mesh.view(), built.sites, options.num_samples, sizes);
+    const CleanedInput& finest = cleaned.finest();
     result.sites =
-        to_original(built.sites, cleaned.given, {domain.whole->mesh.view(), cleaned.face_origin});
+        to_original(cleaned.finer != nullptr ? to_finer(cleaned, built.sites) : built.sites,
+                    finest.given, {finest.surface.mesh.view(), finest.face_origin});
     std::vector<SurfacePoint> flats = flat_corners(built);
     result.mesh = std::move(built.mesh);
     if (const auto& crossings = built.self_intersections) {

@@ -15,14 +15,6 @@ namespace {
 // Fewer sites may repeat as they like: relaxation parts them.
 constexpr std::size_t least_checked = 1000;
 
-// Sites, edges and labels refer to the caller's mesh; later stages carry them to the cleaned one.
-bool refers_to_input(const RemeshOptions& options) {
-    return options.sites || !options.feature_edges.empty() || !options.texture_seams.empty() ||
-           !options.face_labels.empty() ||
-           !(options.sizing.is_even() || options.sizing.is_adaptive()) || !options.locked.empty() ||
-           !options.locked_edges.empty();
-}
-
 Topology topology_of(const CleanResult& clean, const Progress& progress) {
     return clean.connectivity.twin.empty()
                ? analyze_topology(clean.mesh.view(), progress)
@@ -30,6 +22,14 @@ Topology topology_of(const CleanResult& clean, const Progress& progress) {
 }
 
 }  // namespace
+
+// Later stages carry them to the cleaned mesh.
+bool refers_to_input(const RemeshOptions& options) {
+    return options.sites || !options.feature_edges.empty() || !options.texture_seams.empty() ||
+           !options.face_labels.empty() ||
+           !(options.sizing.is_even() || options.sizing.is_adaptive()) || !options.locked.empty() ||
+           !options.locked_edges.empty();
+}
 
 CleanedInput clean_stage(const InputMesh& input, const StageContext& context) {
     const auto& [options, result] = context;

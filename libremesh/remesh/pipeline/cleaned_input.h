@@ -25,6 +25,13 @@ struct CleanedInput {
     std::vector<Index> face_origin = {};    //!< Likewise.
     Topology topology = {};                 //!< Of the surface.
     LockedElements locked = {};             //!< Of the surface.
+    //! Of a coarse input (see coarse_input) the one that it stands for; otherwise null.
+    const CleanedInput* finer = nullptr;
+    std::vector<Index> finer_vertex = {};    //!< #V: of a coarse input, which vertex each is there.
+    std::vector<std::uint8_t> creases = {};  //!< #E: of a coarse input; empty: there are none.
+
+    //! The one without a finer one.
+    [[nodiscard]] const CleanedInput& finest() const { return finer != nullptr ? *finer : *this; }
 };
 
 //! The options for a clean_input() at the beginning of a run.
@@ -40,6 +47,9 @@ struct CleanedInput {
 //! \throw as clean_input, drop_components, build_surface and find_locked.
 //! Cost: that of clean_input.
 [[nodiscard]] CleanedInput clean_stage(const InputMesh& input, const StageContext& context);
+
+//! Whether sites, edges, labels or lengths refer to the caller's mesh.
+[[nodiscard]] bool refers_to_input(const RemeshOptions& options);
 
 //! The caller's sites on the cleaned surface.
 //! \param surface  the cleaned one, which a later stage may own by now.

@@ -50,12 +50,8 @@ void find_all_creases(const CleanedInput& cleaned, double spacing, CloseCreases 
     found.is_crease.assign(surface.num_edges(), 0);
     found.is_given = found.is_crease;
     if (options.features != Features::Off) {
-        found.is_crease =
-            find_creases(surface, {.angle = options.feature_angle,
-                                   .spacing = std::min(spacing, mean_spacing(surface, least_scale)),
-                                   .is_automatic = options.features == Features::Auto,
-                                   .num_threads = options.num_threads,
-                                   .progress = progress});
+        found.is_crease = cleaned.finer != nullptr ? cleaned.creases
+                                                   : find_own_creases(cleaned, spacing, options);
     }
     if (!options.feature_edges.empty()) {
         add_marks(carry_edges(options.feature_edges, cleaned.given,
@@ -146,6 +142,17 @@ void count_seams(const Surface& surface, const NetworkPlan& plan, const FoundCur
 }
 
 }  // namespace
+
+std::vector<std::uint8_t> find_own_creases(const CleanedInput& cleaned, double spacing,
+                                           const RemeshOptions& options) {
+    if (options.features == Features::Off) return {};
+    const Surface& surface = cleaned.surface;
+    return find_creases(surface, {.angle = options.feature_angle,
+                                  .spacing = std::min(spacing, mean_spacing(surface, least_scale)),
+                                  .is_automatic = options.features == Features::Auto,
+                                  .num_threads = options.num_threads,
+                                  .progress = cleaned_progress(options)});
+}
 
 FoundCurves find_curves(const CleanedInput& cleaned, double spacing, CloseCreases close,
                         const StageContext& context) {

@@ -7,6 +7,7 @@
 
 #include "agvd/mesh/topology.h"
 #include "remesh/curves/select_creases.h"
+#include "remesh/pipeline/remesh.h"
 #include "remesh/sites/network_plan.h"
 
 namespace remesh::detail {
@@ -51,6 +52,12 @@ struct CurvePlan {
 //! Cost: O(#E) for each length at which creases are sought.
 [[nodiscard]] FoundCurves find_curves(const CleanedInput& cleaned, double spacing,
                                       CloseCreases close, const StageContext& context);
+
+//! Creases of the surface by its shape alone (see remesh::find_creases).
+//! \return #E; empty with Features::Off. Cost: that of find_creases.
+[[nodiscard]] std::vector<std::uint8_t> find_own_creases(const CleanedInput& cleaned,
+                                                         double spacing,
+                                                         const RemeshOptions& options);
 
 //! Of some edges those within two spacings of some points. Cost: O(#E + #points).
 //! \param is_among  #E: 1 for these edges.

@@ -205,6 +205,8 @@ struct RemeshResult {
     Verdict verdict = {};  //!< What the result is too coarse to show.
     //! Of the last propagation: see Propagation. Infinity: nothing is certified.
     double certified_error = std::numeric_limits<double>::infinity();
+    //! Faces of the coarse surface that stood for the input (see docs/algorithm.md); 0: none did.
+    Index coarse_faces = 0;
     std::size_t propagation_bytes = 0;  //!< Peak of the last propagation, beyond the mesh.
     std::vector<std::pair<Stage, double>> seconds = {};  //!< Wall time spent in each stage.
 };

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "remesh/pipeline/build_mesh.h"
+#include "remesh/pipeline/coarse_input.h"
 #include "remesh/pipeline/crossings.h"
 #include "remesh/pipeline/curves.h"
 #include "remesh/pipeline/meet_distance.h"
@@ -71,6 +72,7 @@ public:
     Attempts(const CleanedInput& cleaned, const RemeshResult& after_cleaning,
              const RemeshOptions& given, std::span<const double> most_lengths)
         : cleaned_(cleaned), options_(given), first_(after_cleaning) {
+        if (cleaned.finer != nullptr) of_input_.finer = &cleaned.finer->surface;
         find_lengths(most_lengths);
         if (sizes_.num_samples != options_.num_samples) {
             options_.num_samples = sizes_.num_samples;
@@ -374,12 +376,15 @@ RemeshResult run_stages(const InputMesh& input, const RemeshOptions& given) {
     if (!cleaned.locked.empty() && gives_num_samples(options.sizing)) {
         options.vertex_count = VertexCount::Add;
     }
+    std::optional<CleanedInput> coarse;
     try {
         options.num_samples = sample_count(cleaned, options);
         require_least_samples(cleaned.topology, options);
+        coarse = coarse_input(cleaned, {options, result});
+        const CleanedInput& used = coarse ? *coarse : cleaned;
         RemeshResult after_cleaning = result;
         const auto run = [&](const RemeshOptions& changed, std::span<const double> most_lengths) {
-            RemeshResult made = Attempts(cleaned, after_cleaning, changed, most_lengths).run();
+            RemeshResult made = Attempts(used, after_cleaning, changed, most_lengths).run();
             after_cleaning.seconds = made.seconds;
             return made;
         };
@@ -397,7 +402,7 @@ RemeshResult run_stages(const InputMesh& input, const RemeshOptions& given) {
             }
         }
     } catch (const TooFewSamples& failure) {
-        const EnoughSamples enough = find_enough(cleaned, result, options, failure.reached);
+        const EnoughSamples enough = find_enough(coarse ? *coarse : cleaned, result, options, failure.reached);
         throw ConstraintUnmet(describe_too_few(failure, enough, cleaned, given) +
                               describe_gaps(cleaned));
     }

@@ -1,0 +1,26 @@
+//! \file
+//! A coarse surface for a run of few samples on many faces, and the way back.
+#pragma once
+
+#include <optional>
+
+#include "remesh/pipeline/cleaned_input.h"
+
+namespace remesh::detail {
+
+//! The input on a mesh of some 32 faces for each sample (see coarsen), nowhere farther from it than
+//! a fiftieth of the spacing, root mean square; creases are those of the input.
+//! \param cleaned  outlives the result.
+//! \return unset if the input has few faces; if the options name places on it, or want vertices on
+//!         it, exact distances, or a bound of the distance.
+//! Cost: that of find_creases and coarsen.
+[[nodiscard]] std::optional<CleanedInput> coarse_input(const CleanedInput& cleaned,
+                                                       const StageContext& context);
+
+//! Points of the coarse surface on the one that it stands for: the nearest around them.
+//! \param coarse  has a finer one.
+//! Cost: O(faces within an edge of the coarse surface) for each point.
+[[nodiscard]] std::vector<SurfacePoint> to_finer(const CleanedInput& coarse,
+                                                 std::span<const SurfacePoint> points);
+
+}  // namespace remesh::detail
