@@ -118,8 +118,8 @@ private:
             Quadric& q = quadrics_[v];
             for_each_outgoing(surface_, v, [&](Index h) {
                 const Vec3& p = at(v);
-                const Vec3 twice = (at(surface_.head(h)) - p)
-                                       .cross(at(surface_.tail(Surface::previous(h))) - p);
+                const Vec3 twice =
+                    (at(surface_.head(h)) - p).cross(at(surface_.tail(Surface::previous(h))) - p);
                 const double norm = twice.norm();
                 const Vec3 normal = twice / norm;
                 const double area = norm / 2;
@@ -159,12 +159,12 @@ private:
             const double least = before.squaredNorm(), area = after.squaredNorm();
             const double dot = before.dot(after);
             if (dot <= 0 || dot * dot < least_cosine * least_cosine * least * area) return false;
-            const double most = std::max(
-                {(a - q).squaredNorm(), (b - q).squaredNorm(), (b - a).squaredNorm()});
+            const double most =
+                std::max({(a - q).squaredNorm(), (b - q).squaredNorm(), (b - a).squaredNorm()});
             if (most > longest) return false;
             if (area < least_height * least_height * most * most) {
-                const double old = std::max(
-                    {(a - p).squaredNorm(), (b - p).squaredNorm(), (b - a).squaredNorm()});
+                const double old =
+                    std::max({(a - p).squaredNorm(), (b - p).squaredNorm(), (b - a).squaredNorm()});
                 if (area * old * old < least * most * most) return false;
             }
         }
@@ -172,7 +172,8 @@ private:
     }
 
     // Where a vertex may go. A curve that has other than two edges at it, or of two kinds, ends.
-    [[nodiscard]] bool find_targets(std::span<const Wing> wings, std::vector<Index>& targets) const {
+    [[nodiscard]] bool find_targets(std::span<const Wing> wings,
+                                    std::vector<Index>& targets) const {
         targets.clear();
         std::uint8_t mark = 0;
         bool is_end = false;
@@ -206,8 +207,7 @@ private:
         if (!find_targets(wings, targets)) return none;
         std::array<std::pair<double, Index>, most_faces> costs;
         std::size_t count = 0;
-        const double most =
-            options_.most_distance * options_.most_distance * quadrics_[v].area;
+        const double most = options_.most_distance * options_.most_distance * quadrics_[v].area;
         for (const Index w : targets) {
             if (quadrics_[v].at(at(w) - middle_) <= most) costs[count++] = {cost(v, w), w};
         }
@@ -268,9 +268,7 @@ private:
     }
 
     // The half-edge opposite to the vertex.
-    [[nodiscard]] static Index third_half_edge(const Wing& wing) {
-        return Surface::next(wing.out);
-    }
+    [[nodiscard]] static Index third_half_edge(const Wing& wing) { return Surface::next(wing.out); }
 
     // Marks the edge from v to x in the face that stays.
     // \param leaves  whether it leaves v there.

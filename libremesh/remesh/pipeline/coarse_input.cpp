@@ -9,7 +9,6 @@
 #include "agvd/mesh/surface_points.h"
 #include "remesh/clean/coarsen.h"
 #include "remesh/pipeline/curves.h"
-#include "remesh/pipeline/run.h"
 
 namespace remesh::detail {
 namespace {
@@ -17,21 +16,32 @@ namespace {
 // Measured on scans of 1.4 million faces and N = 2000: with 32 shape and distance of the result are
 // those of the input itself, with 16 the farthest distance grows.
 constexpr Index faces_per_sample = 32;
+// Runs on fewer faces are quick.
+constexpr Index least_faces = 20'000;
 // The input has this many times more faces, or it is used as it is.
 constexpr Index least_gain = 2;
 // In spacings: of edges, and of the distance from the input.
 constexpr double longest_edge = 0.5, most_distance = 0.02;
 
+Index coarse_faces(Index num_samples) {
+    constexpr Index most_samples = no_index / faces_per_sample;
+    return std::max(least_faces, faces_per_sample * std::min(num_samples, most_samples));
+}
+
 bool may_coarsen(const CleanedInput& cleaned, const RemeshOptions& options) {
     return !refers_to_input(options) && cleaned.locked.empty() && !options.lock_boundary &&
            options.fit.value_or(is_relaxed(options)) && options.propagation.max_error != 0 &&
            !std::holds_alternative<MaxDistance>(options.sizing.count) &&
-           cleaned.surface.num_faces() / (least_gain * faces_per_sample) > options.num_samples;
+           cleaned.surface.num_faces() / least_gain > coarse_faces(options.num_samples);
 }
 
-// #V: 1 for the copies of a vertex at which sheets meet.
-std::vector<std::uint8_t> copies_stay(std::span<const Index> origin) {
-    std::vector<std::uint8_t> stays(origin.size(), 0);
+// #V: 1 on the boundary, and for the copies of a vertex at which sheets meet.
+std::vector<std::uint8_t> vertices_that_stay(const Surface& surface,
+                                             std::span<const Index> origin) {
+    std::vector<std::uint8_t> stays;
+    for (Index v = 0; v < surface.num_vertices(); ++v) {
+        stays.push_back(surface.is_boundary_vertex(v) ? 1 : 0);
+    }
     std::vector<std::pair<Index, Index>> copies;  // (origin, vertex)
     for (Index v = 0; v < origin.size(); ++v) copies.emplace_back(origin[v], v);
     std::sort(copies.begin(), copies.end());
@@ -57,8 +67,7 @@ SurfacePoint nearest_around(const Surface& surface, Index vertex, const Vec3& po
     while (!waiting.empty()) {
         const Index f = waiting.back();
         waiting.pop_back();
-        const ClosestPoint here =
-            closest_point_on_triangle(corners_of(mesh, f), FaceId(f), point);
+        const ClosestPoint here = closest_point_on_triangle(corners_of(mesh, f), FaceId(f), point);
         if (here.distance_sq > reach) continue;
         if (here.distance_sq < best.distance_sq) best = here;
         for (Index h = 3 * f; h < 3 * f + 3; ++h) {
@@ -73,24 +82,24 @@ SurfacePoint nearest_around(const Surface& surface, Index vertex, const Vec3& po
 
 }  // namespace
 
-std::optional<CleanedInput> coarse_input(const CleanedInput& cleaned, const StageContext& context) {
+std::optional<CleanedInput> coarse_input(const CleanedInput& cleaned, double spacing,
+                                         const StageContext& context) {
     const auto& [options, result] = context;
     if (!may_coarsen(cleaned, options)) return std::nullopt;
     const StageClock clock(Stage::Clean, result);
     const Surface& fine = cleaned.surface;
-    const double spacing = spacing_for(cleaned, options);
     const std::vector<std::uint8_t> is_crease = find_own_creases(cleaned, spacing, options);
-    CoarseMesh coarse =
-        coarsen(fine, is_crease, copies_stay(cleaned.vertex_origin),
-                {.num_faces = faces_per_sample * options.num_samples,
-                 .longest_edge = longest_edge * spacing,
-                 .most_distance = most_distance * spacing,
-                 .num_threads = options.num_threads,
-                 .progress = cleaned_progress(options)});
+    CoarseMesh coarse = coarsen(fine, is_crease, vertices_that_stay(fine, cleaned.vertex_origin),
+                                {.num_faces = coarse_faces(options.num_samples),
+                                 .longest_edge = longest_edge * spacing,
+                                 .most_distance = most_distance * spacing,
+                                 .num_threads = options.num_threads,
+                                 .progress = cleaned_progress(options)});
     result.coarse_faces = static_cast<Index>(coarse.mesh.triangles.size());
     CleanedInput input;
     input.given = cleaned.given;
-    input.surface = build_surface(coarse.mesh.view(), options.num_threads, cleaned_progress(options));
+    input.surface =
+        build_surface(coarse.mesh.view(), options.num_threads, cleaned_progress(options));
     input.topology = analyze_topology(input.surface.mesh.view(), cleaned_progress(options));
     if (!is_crease.empty()) {
         input.creases.resize(input.surface.num_edges());
@@ -114,11 +123,9 @@ std::vector<SurfacePoint> to_finer(const CleanedInput& coarse,
     for (const SurfacePoint& point : points) {
         const Vec3 at = position(mesh, point);
         const Triangle& corners = mesh.triangles[point.face.value()];
-        const Index nearest = *std::ranges::min_element(corners, {}, [&](Index v) {
-            return (mesh.positions[v] - at).squaredNorm();
-        });
-        found.push_back(
-            nearest_around(coarse.finer->surface, coarse.finer_vertex[nearest], at));
+        const Index nearest = *std::ranges::min_element(
+            corners, {}, [&](Index v) { return (mesh.positions[v] - at).squaredNorm(); });
+        found.push_back(nearest_around(coarse.finer->surface, coarse.finer_vertex[nearest], at));
     }
     return found;
 }

@@ -9,12 +9,13 @@
 namespace remesh::detail {
 
 //! The input on a mesh of some 32 faces for each sample (see coarsen), nowhere farther from it than
-//! a fiftieth of the spacing, root mean square; creases are those of the input.
+//! a fiftieth of the spacing, root mean square; creases and boundary are those of the input.
+//! \param spacing  of the sites, mesh units.
 //! \param cleaned  outlives the result.
 //! \return unset if the input has few faces; if the options name places on it, or want vertices on
 //!         it, exact distances, or a bound of the distance.
 //! Cost: that of find_creases and coarsen.
-[[nodiscard]] std::optional<CleanedInput> coarse_input(const CleanedInput& cleaned,
+[[nodiscard]] std::optional<CleanedInput> coarse_input(const CleanedInput& cleaned, double spacing,
                                                        const StageContext& context);
 
 //! Points of the coarse surface on the one that it stands for: the nearest around them.

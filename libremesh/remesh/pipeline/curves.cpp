@@ -147,11 +147,12 @@ std::vector<std::uint8_t> find_own_creases(const CleanedInput& cleaned, double s
                                            const RemeshOptions& options) {
     if (options.features == Features::Off) return {};
     const Surface& surface = cleaned.surface;
+    const Progress progress = cleaned_progress(options);
     return find_creases(surface, {.angle = options.feature_angle,
                                   .spacing = std::min(spacing, mean_spacing(surface, least_scale)),
                                   .is_automatic = options.features == Features::Auto,
                                   .num_threads = options.num_threads,
-                                  .progress = cleaned_progress(options)});
+                                  .progress = progress});
 }
 
 FoundCurves find_curves(const CleanedInput& cleaned, double spacing, CloseCreases close,

@@ -380,7 +380,7 @@ RemeshResult run_stages(const InputMesh& input, const RemeshOptions& given) {
     try {
         options.num_samples = sample_count(cleaned, options);
         require_least_samples(cleaned.topology, options);
-        coarse = coarse_input(cleaned, {options, result});
+        coarse = coarse_input(cleaned, spacing_for(cleaned, options), {options, result});
         const CleanedInput& used = coarse ? *coarse : cleaned;
         RemeshResult after_cleaning = result;
         const auto run = [&](const RemeshOptions& changed, std::span<const double> most_lengths) {
@@ -402,7 +402,8 @@ RemeshResult run_stages(const InputMesh& input, const RemeshOptions& given) {
             }
         }
     } catch (const TooFewSamples& failure) {
-        const EnoughSamples enough = find_enough(coarse ? *coarse : cleaned, result, options, failure.reached);
+        const EnoughSamples enough =
+            find_enough(coarse ? *coarse : cleaned, result, options, failure.reached);
         throw ConstraintUnmet(describe_too_few(failure, enough, cleaned, given) +
                               describe_gaps(cleaned));
     }

@@ -34,8 +34,8 @@ std::vector<std::uint8_t> edges_on(const agvd::Surface& surface, const IsOn& is_
 }
 
 TEST(Coarsen, APlaneKeepsItsOutlineAndAsManyFacesAsAsked) {
-    const CoarseMesh coarse =
-        coarsened(shapes::grid(40), {.num_faces = 200, .longest_edge = unlimited, .most_distance = 1e-9});
+    const CoarseMesh coarse = coarsened(
+        shapes::grid(40), {.num_faces = 200, .longest_edge = unlimited, .most_distance = 1e-9});
     EXPECT_LE(coarse.mesh.triangles.size(), 200u);
     EXPECT_GE(coarse.mesh.triangles.size(), 198u);
     const agvd::Surface surface = agvd::build_surface(coarse.mesh.view());
@@ -65,8 +65,8 @@ TEST(Coarsen, VerticesAreThoseOfTheInput) {
 }
 
 TEST(Coarsen, NoVertexGoesFartherThanAsked) {
-    const CoarseMesh coarse =
-        coarsened(shapes::sphere(5), {.num_faces = 0, .longest_edge = unlimited, .most_distance = 1e-2});
+    const CoarseMesh coarse = coarsened(
+        shapes::sphere(5), {.num_faces = 0, .longest_edge = unlimited, .most_distance = 1e-2});
     EXPECT_GT(coarse.mesh.triangles.size(), 300u);
     EXPECT_LT(coarse.mesh.triangles.size(), 6000u);
     for (const agvd::Triangle& t : coarse.mesh.triangles) {
@@ -78,9 +78,11 @@ TEST(Coarsen, NoVertexGoesFartherThanAsked) {
 }
 
 TEST(Coarsen, AClosedSurfaceEndsAsFewFacesAndNotAsNone) {
-    const remesh::CoarsenOptions all{.num_faces = 0, .longest_edge = unlimited, .most_distance = unlimited};
+    const remesh::CoarsenOptions all{
+        .num_faces = 0, .longest_edge = unlimited, .most_distance = unlimited};
     EXPECT_EQ(coarsened(shapes::tetrahedron(), all).mesh.triangles.size(), 4u);
-    const CoarseMesh two = coarsened(shapes::join(shapes::sphere(2), shapes::moved(shapes::sphere(2), {5, 0, 0})), all);
+    const CoarseMesh two = coarsened(
+        shapes::join(shapes::sphere(2), shapes::moved(shapes::sphere(2), {5, 0, 0})), all);
     const auto topology = agvd::analyze_topology(two.mesh.view());
     EXPECT_EQ(topology.components.size(), 2u);
     EXPECT_GE(two.mesh.triangles.size(), 8u);
@@ -141,7 +143,8 @@ TEST(Coarsen, VerticesThatStayAndEndsOfCurvesStay) {
     });
     const CoarseMesh coarse = remesh::coarsen(
         surface, mark, stays, {.num_faces = 0, .longest_edge = unlimited, .most_distance = 1});
-    for (const Index v : {77u, 300u}) EXPECT_TRUE(std::ranges::binary_search(coarse.vertex_origin, v));
+    for (const Index v : {77u, 300u})
+        EXPECT_TRUE(std::ranges::binary_search(coarse.vertex_origin, v));
     const auto is_end = [](const Vec3& p) { return (p - Vec3(0.5, 0.5, p.z())).norm() < 1e-12; };
     EXPECT_EQ(std::ranges::count_if(coarse.mesh.positions, is_end), 1);
     EXPECT_LT(coarse.mesh.triangles.size(), 100u);
