@@ -100,6 +100,8 @@ struct RemeshOptions {
     //! if sites are relaxed.
     std::optional<bool> fit = {};
     //! How distances are computed. Its num_threads and progress are ignored: those below count.
+    //! With a max_error of 0 the run works on the input itself, however many faces it has for each
+    //! sample; otherwise maybe on a coarse surface (RemeshResult::coarse_faces).
     PropagationOptions propagation = {};
     //! Which edges to flip: those that fail by geodesic or by straight lengths, or none.
     Delaunay delaunay = DelaunayOptions{}.mode;
