@@ -81,12 +81,16 @@ TEST(CoarseInput, SitesLieOnTheInputBelowTheirVertices) {
         remesh::remesh(fine_sphere().view(), {.num_samples = few_samples});
     ASSERT_GT(result.coarse_faces, 0u);
     ASSERT_EQ(result.sites.size(), result.mesh.positions.size());
+    int num_inside = 0;  // Of faces.
     for (Index v = 0; v < result.sites.size(); ++v) {
+        const auto& corners = result.sites[v].barycentric;
+        if (std::ranges::max(corners) < 0.999) ++num_inside;
         const Vec3 site = agvd::position(fine_sphere().view(), result.sites[v]);
         EXPECT_GT(site.norm(), 0.9995);  // The coarse surface reaches down to .995.
         // Fitted vertices have slid, by less than a spacing.
         EXPECT_LT((site - result.mesh.positions[v]).norm(), 0.25);
     }
+    EXPECT_GT(num_inside, 100);
 }
 
 // All twelve creases, found on the input and followed by the coarse surface.
@@ -103,7 +107,7 @@ TEST(CoarseInput, CreasesOfTheInputAreKept) {
 }
 
 TEST(CoarseInput, ABoundaryKeepsItsOutline) {
-    const agvd::Surface tube = agvd::build_surface(shapes::tube(300, 100).view());
+    const agvd::Surface tube = agvd::build_surface(shapes::tube(600, 200).view());
     const remesh::RemeshResult result =
         remesh::remesh(tube.mesh.view(), {.num_samples = few_samples});
     ASSERT_GT(result.coarse_faces, 0u);
