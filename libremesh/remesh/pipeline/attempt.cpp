@@ -53,7 +53,7 @@ bool check_mesh(const CleanedInput& cleaned, const Domain& domain, std::span<con
         built.mesh.positions.size() != built.num_wanted) {
         return false;
     }
-    result.verdict = judge_result(cleaned.finest().surface.mesh.view(), built.mesh.view(), topology,
+    result.verdict = judge_result(domain.cleaned->mesh.view(), built.mesh.view(), topology,
                                   options.num_threads, progress);
     return true;
 }

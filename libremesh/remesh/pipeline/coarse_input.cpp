@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <unordered_set>
 #include <utility>
 
 #include "agvd/mesh/closest_point.h"
+#include "agvd/mesh/patch.h"
 #include "agvd/mesh/surface_points.h"
 #include "remesh/clean/coarsen.h"
 #include "remesh/pipeline/curves.h"
@@ -52,30 +52,16 @@ std::vector<std::uint8_t> vertices_that_stay(const Surface& surface,
     return stays;
 }
 
-// The nearest point of the faces around a vertex that come as near as the vertex is.
+// The nearest point among those that are, along the surface, no farther from a vertex than twice as
+// far as `point` is in space.
 SurfacePoint nearest_around(const Surface& surface, Index vertex, const Vec3& point) {
     const MeshView mesh = surface.mesh.view();
-    ClosestPoint best{point_at(surface, vertex), mesh.positions[vertex], 0};
-    best.distance_sq = (best.position - point).squaredNorm();
-    const double reach = best.distance_sq;
-    std::vector<Index> waiting;
-    std::unordered_set<Index> seen;
-    for_each_outgoing(surface, vertex, [&](Index h) {
-        waiting.push_back(Surface::face(h));
-        seen.insert(Surface::face(h));
-    });
-    while (!waiting.empty()) {
-        const Index f = waiting.back();
-        waiting.pop_back();
+    const SurfacePoint start = point_at(surface, vertex);
+    ClosestPoint best{start, mesh.positions[vertex],
+                      (mesh.positions[vertex] - point).squaredNorm()};
+    for (const Index f : faces_within(surface, {&start, 1}, 2 * std::sqrt(best.distance_sq))) {
         const ClosestPoint here = closest_point_on_triangle(corners_of(mesh, f), FaceId(f), point);
-        if (here.distance_sq > reach) continue;
         if (here.distance_sq < best.distance_sq) best = here;
-        for (Index h = 3 * f; h < 3 * f + 3; ++h) {
-            const Index twin = surface.twin[h];
-            if (twin != no_index && seen.insert(Surface::face(twin)).second) {
-                waiting.push_back(Surface::face(twin));
-            }
-        }
     }
     return best.point;
 }

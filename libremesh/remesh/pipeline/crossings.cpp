@@ -118,8 +118,8 @@ CrossingFaces CrossingFinder::tell_added(const PlacedDual& placed, FacePairs all
 }
 
 void CrossingFinder::find_in_input() {
-    const bool is_coarse = of_input_.finer != nullptr;
-    const TriangleMesh& input = is_coarse ? of_input_.finer->mesh : domain_.whole->mesh;
+    const bool is_coarse = domain_.cleaned != domain_.whole;
+    const TriangleMesh& input = domain_.cleaned->mesh;
     std::vector<Triangle> welded;
     if (domain_.has_locked() || (is_coarse && domain_.has_junctions())) {
         welded = join_positions(input);
@@ -129,8 +129,7 @@ void CrossingFinder::find_in_input() {
     }
     const MeshView mesh{input.positions, welded.empty() ? input.triangles : welded};
     const FacePairs pairs = find_in(mesh, context_.options).value();
-    of_input_ = {.finer = of_input_.finer,
-                 .is_searched = true,
+    of_input_ = {.is_searched = true,
                  .is_welded = domain_.has_junctions(),
                  .num_pairs = static_cast<Index>(pairs.size()),
                  .triangles = {}};

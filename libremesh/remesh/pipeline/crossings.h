@@ -55,8 +55,6 @@ void for_each_corner(const FacePairs& pairs, const std::vector<Triangle>& triang
 
 //! Self-intersections of the cleaned input. All attempts of a run share them.
 struct InputCrossings {
-    //! The input itself, if the run works on a coarse one; otherwise null.
-    const Surface* finer = nullptr;
     bool is_searched = false;
     bool is_welded = false;  //!< Sheets that meet at junctions did not count.
     Index num_pairs = 0;

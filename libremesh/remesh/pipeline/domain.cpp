@@ -44,6 +44,7 @@ Domain prepare_domain(const CleanedInput& cleaned, std::unique_ptr<const CurvePl
                   .prepared = PreparedSurface(cut.network.cut.surface(), spacing,
                                               options.num_threads, progress, sizes),
                   .whole = &cleaned.surface,
+                  .cleaned = &cleaned.finest().surface,
                   .spacing = spacing,
                   .sizes = sizes};
     domain.patch = parts_of_base(domain.prepared.base, cut.patches.face_component,

@@ -11,7 +11,8 @@ namespace remesh::detail {
 struct Domain {
     std::unique_ptr<const CurvePlan> plan;
     PreparedSurface prepared;          //!< Of the surface, cut along the plan's curves.
-    const Surface* whole;              //!< The cleaned surface, uncut.
+    const Surface* whole;              //!< The cleaned surface, or the coarse one, uncut.
+    const Surface* cleaned;            //!< The cleaned surface.
     std::vector<Index> patch = {};     //!< #F of the base: index into plan->patches.components.
     double spacing = 0;                //!< Mesh units: mean distance of the sites.
     const SizeField* sizes = nullptr;  //!< Target lengths; null: all equal.

@@ -72,7 +72,6 @@ public:
     Attempts(const CleanedInput& cleaned, const RemeshResult& after_cleaning,
              const RemeshOptions& given, std::span<const double> most_lengths)
         : cleaned_(cleaned), options_(given), first_(after_cleaning) {
-        if (cleaned.finer != nullptr) of_input_.finer = &cleaned.finer->surface;
         find_lengths(most_lengths);
         if (sizes_.num_samples != options_.num_samples) {
             options_.num_samples = sizes_.num_samples;
