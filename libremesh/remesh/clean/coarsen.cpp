@@ -1,6 +1,6 @@
-// Rounds: each vertex picks its cheapest edge, then vertices go in the order of cost. In a round a
-// vertex that something was collapsed into neither goes nor takes in another one, so that the faces
-// around it, found once for a round, are known up to the names of vertices.
+// Works in rounds. In each, every vertex picks its cheapest edge; then vertices go in the order of
+// cost. A vertex takes part in one collapse of a round at most. So the faces around it are those
+// found at the start of the round; only their other corners may have other names.
 #include "remesh/clean/coarsen.h"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace {
 
 constexpr Index chunk_size = 1024;
 constexpr std::uint8_t boundary_mark = 0x80;  // Added to the mark of an edge.
-constexpr double least_cosine = 0.2588;       // Of the angle by which a face may turn.
+constexpr double least_cosine = 0.2588;       // A face turns by 75 degrees at most in one step.
 // Of a face that is made: height over longest edge.
 constexpr double least_height = 0.05;
 // Of the cost: squared lengths of edges with this factor. It decides where the surface is flat.
@@ -254,7 +254,7 @@ private:
         for_each_wing(v, [&](const Wing& wing) { wings_.push_back(wing); });
         if (!keeps_topology(w) || !fits(wings_, v, w)) return false;
         for (const Wing& wing : wings_) {
-            // The face goes; what lies beyond its edge at v gets the edge at w.
+            // The face goes. The face beyond its edge at v takes over the mark of its edge at w.
             if (wing.next == w) {
                 hand_on(mark_[third_half_edge(wing)], wing.last, true);
             } else if (wing.last == w) {
