@@ -24,7 +24,7 @@ constexpr const char* folders[] = {
     "agvd/core",        "agvd/mesh",      "agvd/intrinsic",  "agvd/propagation",
     "agvd/diagram",     "agvd/paths",     "remesh",          "remesh/meshfile",
     "remesh/clean",     "remesh/curves",  "remesh/dual",     "remesh/sites",
-    "remesh/placement", "remesh/quality", "remesh/transfer", "remesh/pipeline",
+    "remesh/tiles",     "remesh/placement", "remesh/quality", "remesh/transfer", "remesh/pipeline",
 };
 
 struct Package {

@@ -228,6 +228,7 @@ CurveNetwork find_network(const Surface& surface, std::span<const std::uint8_t> 
     for (const Index v : locked.vertices) is_node[finder.first_copy(v)] = 1;
     const CurveNetwork smooth = finder.run(is_node);
     for (const Curve& curve : smooth.curves) {
+        if (curve.is_locked) continue;
         for (const std::size_t i : corners_of_curve(surface, curve, spacing)) {
             is_node[finder.first_copy(curve.vertex(surface, i))] = 1;
         }

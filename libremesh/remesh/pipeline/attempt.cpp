@@ -12,6 +12,7 @@
 #include "remesh/pipeline/run.h"
 #include "remesh/pipeline/sizes.h"
 #include "remesh/pipeline/stage_context.h"
+#include "remesh/pipeline/tile_meshes.h"
 #include "remesh/placement/placement.h"
 
 namespace remesh::detail {
@@ -33,8 +34,8 @@ bool weld_junctions(const CurveNetwork& network, std::span<const ChainEdge> chai
 
 // Checks and judges the mesh. In between, Junctions::Keep welds the sheets.
 // \return whether it has the topology of the input, all that is locked, and its junctions.
-bool check_mesh(const CleanedInput& cleaned, const Domain& domain, std::span<const ChainEdge> chain,
-                BuiltMesh& built, const StageContext& context) {
+bool check_mesh(const CleanedInput& cleaned, const CurvedSurface& curved,
+                std::span<const ChainEdge> chain, BuiltMesh& built, const StageContext& context) {
     const auto& [options, result] = context;
     const StageClock clock(Stage::Check, result);
     const Progress progress = progress_at(Stage::Check, options, 1);
@@ -42,18 +43,18 @@ bool check_mesh(const CleanedInput& cleaned, const Domain& domain, std::span<con
     const Topology topology = analyze_topology(built.mesh.view(), progress);
     if (!topology.is_manifold || !topology.is_oriented ||
         !same_topology(topology, cleaned.topology) ||
-        !has_locked(*domain.whole, cleaned.locked, built.mesh)) {
+        !has_locked(*curved.whole, cleaned.locked, built.mesh)) {
         return false;
     }
-    if (domain.has_junctions() && options.junctions == Junctions::Keep &&
-        !weld_junctions(domain.plan->network.network, chain, built, result)) {
+    if (curved.has_junctions() && options.junctions == Junctions::Keep &&
+        !weld_junctions(curved.plan->network.network, chain, built, result)) {
         return false;
     }
     if (options.vertex_count == VertexCount::Exact &&
         built.mesh.positions.size() != built.num_wanted) {
         return false;
     }
-    result.verdict = judge_result(domain.cleaned->mesh.view(), built.mesh.view(), topology,
+    result.verdict = judge_result(curved.cleaned->mesh.view(), built.mesh.view(), topology,
                                   options.num_threads, progress);
     return true;
 }
@@ -83,11 +84,32 @@ AttemptEnd run_attempt(const CleanedInput& cleaned, const FoundCurves& found,
     }
     if (plan->network.sites_for_boundary > 0)
         return {.num_needed = plan->network.sites_for_boundary};
-    Domain domain = prepare_domain(cleaned, std::move(plan), spacing, sizes, context);
-    PlacedSites sites = place_sites(domain, context);
-    BuiltMesh built = build_mesh(domain, sites, of_input, context);
-    if (built.mesh.triangles.empty() || !check_mesh(cleaned, domain, sites.chain, built, context)) {
-        return {.num_needed = built.num_vertices};
+    CurvedSurface curved{.plan = std::move(plan),
+                         .whole = &cleaned.surface,
+                         .cleaned = &cleaned.finest().surface,
+                         .spacing = spacing,
+                         .sizes = sizes};
+    std::vector<SurfacePoint> narrow_points;
+    BuiltMesh built;
+    const auto is_right = [&](const CurvedSurface& surface, std::span<const ChainEdge> chain) {
+        return !built.mesh.triangles.empty() && check_mesh(cleaned, surface, chain, built, context);
+    };
+    bool has_mesh = false;
+    if (is_tiled(curved, options)) {
+        if (std::optional<TiledMesh> tiled = mesh_tiles(curved, context)) {
+            built.num_wanted = options.num_samples;
+            built.num_vertices = tiled->num_vertices;
+            narrow_points = std::move(tiled->narrow_points);
+            finish_mesh(curved, std::move(tiled->mesh), of_input, context, built);
+            has_mesh = is_right(curved, {});
+        }
+    }
+    if (!has_mesh) {
+        Domain domain = prepare_domain(cleaned, std::move(curved), context);
+        PlacedSites sites = place_sites(domain, context);
+        built = build_mesh(domain, sites, of_input, context);
+        narrow_points = std::move(sites.narrow_points);
+        if (!is_right(domain, sites.chain)) return {.num_needed = built.num_vertices};
     }
     result.sizing = measure_edges(built.mesh.view(), built.sites, options.num_samples, sizes);
     const CleanedInput& finest = cleaned.finest();
@@ -103,7 +125,7 @@ AttemptEnd run_attempt(const CleanedInput& cleaned, const FoundCurves& found,
     return {.has_mesh = true,
             .crossing_corners = std::move(built.crossing_corners),
             .flat_corners = std::move(flats),
-            .narrow_points = std::move(sites.narrow_points)};
+            .narrow_points = std::move(narrow_points)};
 }
 
 }  // namespace remesh::detail

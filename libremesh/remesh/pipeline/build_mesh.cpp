@@ -29,47 +29,65 @@ void drop_points(Diagram& diagram) {
     diagram.edge_points = {};
 }
 
+void take_crossings(const std::optional<CrossingFaces>& crossings, const PlacedDual& placed,
+                    BuiltMesh& built) {
+    if (!crossings) return;
+    built.self_intersections = crossings->counts();
+    for_each_corner(crossings->added, placed.mesh.triangles, [&](Index v) {
+        built.crossing_corners.push_back(placed.mesh.points[v]);
+    });
+}
+
 class MeshBuilder {
 public:
-    MeshBuilder(Domain& domain, const PlacedSites& placed, InputCrossings& of_input,
-                const StageContext& context)
+    MeshBuilder(Domain& domain, const PlacedSites& placed, const StageContext& context)
         : domain_(domain),
           placed_(placed),
-          of_input_(of_input),
           context_(context),
           on_base_(domain.prepared.base.to_intrinsic(placed.sites)) {
         domain.prepared.pieces.reset();  // Not needed until vertices are placed.
     }
 
-    BuiltMesh run() {
+    std::optional<PlacedDual> place(BuiltMesh& built) {
         dual_ = build_valid_dual(domain_, placed_, on_base_, context_);
-        if (!has_chain(domain_, placed_.chain, dual_)) return {};
-        find_target();
-        built_.num_vertices = fix_edges();
-        if (built_.num_vertices > built_.num_wanted) return std::move(built_);
+        if (!has_chain(domain_, placed_.chain, dual_)) return std::nullopt;
+        built.num_wanted = num_wanted_ = find_target();
+        built.num_vertices = fix_edges();
+        if (built.num_vertices > num_wanted_) return std::nullopt;
         drop_points(dual_.diagram);
-        place();
-        return std::move(built_);
+        return place_dual(domain_, placed_.curves, dual_, points_of_vertices(), context_);
+    }
+
+    void finish(PlacedDual placed, InputCrossings& of_input, BuiltMesh& built) {
+        CrossingFinder finder(domain_, of_input, context_);
+        take_crossings(unfit_crossings(finder, placed_.curves, placed, context_.result), placed,
+                       built);
+        take_mesh(placed, built);
+        if (!is_improvable(domain_, context_.options)) return;
+        JoinedMesh joined = joined_mesh(placed);
+        if (!improve(domain_, finder, joined, built.self_intersections, context_)) return;
+        const PlacedDual improved{std::move(joined.mesh), {}};
+        built.mesh = whole_mesh(*domain_.whole, improved);
+        built.sites = improved.mesh.points;
     }
 
 private:
     // How many vertices the result is to have: as many as were asked for, or one for each given
     // site that owns a part of the surface. Counts the other given sites.
-    void find_target() {
+    Index find_target() {
         const auto& [options, result] = context_;
         num_other_copies_ = placed_.num_other_copies(domain_);
-        built_.num_wanted = options.num_samples;
+        Index num_wanted = options.num_samples;
         if (options.sites) {
             const auto num_copies = static_cast<Index>(placed_.curves.sites.size());
             const auto num_owning =
                 std::count_if(dual_.diagram.cell_area.begin() + num_copies,
                               dual_.diagram.cell_area.end(), [](double area) { return area > 0; });
-            built_.num_wanted = num_copies + static_cast<Index>(num_owning) - num_other_copies_;
-            result.sites_dropped = static_cast<Index>(options.sites->size()) - built_.num_wanted;
+            num_wanted = num_copies + static_cast<Index>(num_owning) - num_other_copies_;
+            result.sites_dropped = static_cast<Index>(options.sites->size()) - num_wanted;
         }
-        if (options.vertex_count == VertexCount::Add) {
-            built_.num_wanted = std::max(built_.num_wanted, num_vertices());
-        }
+        if (options.vertex_count == VertexCount::Add) num_wanted = std::max(num_wanted, num_vertices());
+        return num_wanted;
     }
 
     // Of the result.
@@ -82,10 +100,10 @@ private:
     // \return the number of vertices; more than wanted if it failed.
     Index fix_edges() {
         for (int round = 0; round < most_split_rounds; ++round) {
-            if (num_vertices() > built_.num_wanted) reduce();
-            if (num_vertices() > built_.num_wanted) return num_vertices();
+            if (num_vertices() > num_wanted_) reduce();
+            if (num_vertices() > num_wanted_) return num_vertices();
             if (!context_.options.sites) {
-                add_vertices(domain_, points_of_vertices(), built_.num_wanted - num_vertices(),
+                add_vertices(domain_, points_of_vertices(), num_wanted_ - num_vertices(),
                              dual_);
             }
             flip_edges();
@@ -93,7 +111,7 @@ private:
                 return num_vertices();
             }
         }
-        return built_.num_wanted + 1;
+        return num_wanted_ + 1;
     }
 
     // Where the vertices of the dual lie on the cleaned surface.
@@ -126,7 +144,7 @@ private:
         }
         const std::vector<Vec3> positions = positions_of_vertices();
         const StageClock clock(Stage::Dual, context_.result);
-        (void)reduce_vertices(positions, dual_.triangles, built_.num_wanted + num_other_copies_,
+        (void)reduce_vertices(positions, dual_.triangles, num_wanted_ + num_other_copies_,
                               is_last, progress_of(Stage::Dual, context_.options));
         const std::vector<Index> left =
             drop_unused(static_cast<Index>(dual_.points.size()), dual_.triangles);
@@ -148,43 +166,17 @@ private:
         result.delaunay = made.counts;
     }
 
-    // Gives the vertices their positions, joins the patches, and improves the triangles.
-    void place() {
-        PlacedDual placed =
-            place_dual(domain_, placed_.curves, dual_, points_of_vertices(), context_);
-        CrossingFinder finder(domain_, of_input_, context_);
-        const std::optional<CrossingFaces> crossings =
-            unfit_crossings(finder, placed_.curves, placed, context_.result);
-        take_mesh(placed);
-        if (crossings) {
-            built_.self_intersections = crossings->counts();
-            for_each_corner(crossings->added, placed.mesh.triangles, [&](Index v) {
-                built_.crossing_corners.push_back(placed.mesh.points[v]);
-            });
-        }
-        if (!is_relaxed(context_.options)) return;
-        std::optional<ImprovableMesh> improvable =
-            find_improvable(domain_, std::move(placed), context_.options);
-        if (!improvable ||
-            !improve(domain_, finder, *improvable, built_.self_intersections, context_)) {
-            return;
-        }
-        const PlacedDual improved{std::move(improvable->mesh), {}};
-        built_.mesh = whole_mesh(*domain_.whole, improved);
-        built_.sites = improved.mesh.points;
-    }
-
-    void take_mesh(const PlacedDual& placed) {
+    void take_mesh(const PlacedDual& placed, BuiltMesh& built) {
         const GluedMesh& glued = placed.patches->glued;
-        built_.mesh = whole_mesh(*domain_.whole, placed);
-        built_.sites = take(placed.mesh.points, glued.representative);
-        if (domain_.has_junctions()) built_.first_of_group = glued.first_of_group;
-        if (domain_.plan->given) order_as_given(glued);
+        built.mesh = whole_mesh(*domain_.whole, placed);
+        built.sites = take(placed.mesh.points, glued.representative);
+        if (domain_.has_junctions()) built.first_of_group = glued.first_of_group;
+        if (domain_.plan->given) order_as_given(glued, built);
     }
 
     // Sorts the vertices in the caller's order of the sites, others last. Before, the vertices of
     // curves come first.
-    void order_as_given(const GluedMesh& glued) {
+    void order_as_given(const GluedMesh& glued, BuiltMesh& built) {
         const std::vector<Index>& number = domain_.plan->given->number;
         std::vector<std::pair<Index, Index>> order;  // (number of the site, vertex)
         for (Index v = 0; v < glued.representative.size(); ++v) {
@@ -197,26 +189,43 @@ private:
             after[v] = static_cast<Index>(before.size());
             before.push_back(v);
         }
-        built_.mesh = {take(built_.mesh.positions, before),
-                       rename_vertices(built_.mesh.triangles, after)};
-        built_.sites = take(built_.sites, before);
+        built.mesh = {take(built.mesh.positions, before),
+                       rename_vertices(built.mesh.triangles, after)};
+        built.sites = take(built.sites, before);
     }
 
     Domain& domain_;
     const PlacedSites& placed_;
-    InputCrossings& of_input_;
     const StageContext& context_;
     const std::vector<SurfacePoint> on_base_;  // The sites.
     ValidDual dual_;
+    Index num_wanted_ = 0;
     Index num_other_copies_ = 0;  // Of vertices on curves, but for the first of each.
-    BuiltMesh built_;
 };
 
 }  // namespace
 
+std::optional<PlacedDual> place_mesh(Domain& domain, const PlacedSites& sites, BuiltMesh& built,
+                                     const StageContext& context) {
+    return MeshBuilder(domain, sites, context).place(built);
+}
+
+void finish_mesh(const CurvedSurface& curved, PlacedMesh mesh, InputCrossings& of_input,
+                 const StageContext& context, BuiltMesh& built) {
+    CrossingFinder finder(curved, of_input, context);
+    PlacedDual placed{std::move(mesh), {}};
+    take_crossings(unfit_crossings(finder, {}, placed, context.result), placed, built);
+    built.mesh = whole_mesh(*curved.whole, placed);
+    built.sites = std::move(placed.mesh.points);
+}
+
 BuiltMesh build_mesh(Domain& domain, const PlacedSites& sites, InputCrossings& of_input,
                      const StageContext& context) {
-    return MeshBuilder(domain, sites, of_input, context).run();
+    BuiltMesh built;
+    MeshBuilder builder(domain, sites, context);
+    std::optional<PlacedDual> placed = builder.place(built);
+    if (placed) builder.finish(*std::move(placed), of_input, built);
+    return built;
 }
 
 }  // namespace remesh::detail

@@ -97,9 +97,9 @@ FacePairs pairs_elsewhere(const ClosestPointTree& triangles, const MeshView& mes
 std::optional<FacePairs> CrossingFinder::find(const PlacedDual& placed) {
     const StageClock clock(Stage::Check, context_.result);
     poll(progress_of(Stage::Check, context_.options), 0);
-    std::optional<FacePairs> all = find_in(welded_mesh(domain_, placed), context_.options);
+    std::optional<FacePairs> all = find_in(welded_mesh(curved_, placed), context_.options);
     if (all && !all->empty()) {
-        if (!of_input_.is_searched || of_input_.is_welded != domain_.has_junctions()) {
+        if (!of_input_.is_searched || of_input_.is_welded != curved_.has_junctions()) {
             find_in_input();
         }
         context_.result.input_self_intersections = of_input_.num_pairs;
@@ -112,25 +112,25 @@ CrossingFaces CrossingFinder::tell_added(const PlacedDual& placed, FacePairs all
     CrossingFaces found{std::move(all), {}};
     if (found.all.size() <= context_.result.input_self_intersections) return found;
     const auto& triangles = of_input_.triangles;
-    found.added = triangles ? pairs_elsewhere(*triangles, welded_mesh(domain_, placed), found.all)
+    found.added = triangles ? pairs_elsewhere(*triangles, welded_mesh(curved_, placed), found.all)
                             : found.all;
     return found;
 }
 
 void CrossingFinder::find_in_input() {
-    const bool is_coarse = domain_.cleaned != domain_.whole;
-    const TriangleMesh& input = domain_.cleaned->mesh;
+    const bool is_coarse = curved_.cleaned != curved_.whole;
+    const TriangleMesh& input = curved_.cleaned->mesh;
     std::vector<Triangle> welded;
-    if (domain_.has_locked() || (is_coarse && domain_.has_junctions())) {
+    if (curved_.has_locked() || (is_coarse && curved_.has_junctions())) {
         welded = join_positions(input);
-    } else if (domain_.has_junctions()) {
-        welded = rename_vertices(input.triangles, first_copies(domain_.plan->network.junctions,
-                                                               domain_.whole->num_vertices()));
+    } else if (curved_.has_junctions()) {
+        welded = rename_vertices(input.triangles, first_copies(curved_.plan->network.junctions,
+                                                               curved_.whole->num_vertices()));
     }
     const MeshView mesh{input.positions, welded.empty() ? input.triangles : welded};
     const FacePairs pairs = find_in(mesh, context_.options).value();
     of_input_ = {.is_searched = true,
-                 .is_welded = domain_.has_junctions(),
+                 .is_welded = curved_.has_junctions(),
                  .num_pairs = static_cast<Index>(pairs.size()),
                  .triangles = {}};
     if (!pairs.empty()) {

@@ -11,7 +11,7 @@ struct CurveSites;
 
 namespace remesh::detail {
 
-struct Domain;
+struct CurvedSurface;
 struct PlacedDual;
 struct StageContext;
 
@@ -64,9 +64,10 @@ struct InputCrossings {
 //! Finds self-intersections, and those of the input as soon as a result has any.
 class CrossingFinder {
 public:
-    //! \param domain, of_input, context  outlive this.
-    CrossingFinder(const Domain& domain, InputCrossings& of_input, const StageContext& context)
-        : domain_(domain), of_input_(of_input), context_(context) {}
+    //! \param curved, of_input, context  outlive this.
+    CrossingFinder(const CurvedSurface& curved, InputCrossings& of_input,
+                   const StageContext& context)
+        : curved_(curved), of_input_(of_input), context_(context) {}
 
     //! Intersecting faces of placed.mesh. Sheets that meet at a junction do not count.
     //! \return unset without CGAL.
@@ -78,7 +79,7 @@ public:
 private:
     void find_in_input();
 
-    const Domain& domain_;
+    const CurvedSurface& curved_;
     InputCrossings& of_input_;
     const StageContext& context_;
 };

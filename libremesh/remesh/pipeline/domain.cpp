@@ -34,20 +34,15 @@ namespace {
 
 }  // namespace
 
-Domain prepare_domain(const CleanedInput& cleaned, std::unique_ptr<const CurvePlan> plan,
-                      double spacing, const SizeField* sizes, const StageContext& context) {
+Domain prepare_domain(const CleanedInput& cleaned, CurvedSurface curved,
+                      const StageContext& context) {
     const auto& [options, result] = context;
     const StageClock clock(Stage::Clean, result);
     const Progress progress = within(progress_of(Stage::Clean, options), cleaned_fraction, 1);
-    const CurvePlan& cut = *plan;
-    Domain domain{.plan = std::move(plan),
-                  .prepared = PreparedSurface(cut.network.cut.surface(), spacing,
-                                              options.num_threads, progress, sizes),
-                  .whole = &cleaned.surface,
-                  .cleaned = &cleaned.finest().surface,
-                  .spacing = spacing,
-                  .sizes = sizes};
-    domain.patch = parts_of_base(domain.prepared.base, cut.patches.face_component,
+    PreparedSurface prepared(curved.cut(), curved.spacing, options.num_threads, progress,
+                             curved.sizes);
+    Domain domain{std::move(curved), std::move(prepared)};
+    domain.patch = parts_of_base(domain.prepared.base, domain.plan->patches.face_component,
                                  progress_at(Stage::Clean, options, 1));
     if (!domain.prepared.base.counts().is_delaunay) refuse_narrow_parts(*domain.whole, cleaned);
     result.refined_faces = domain.base().num_faces();

@@ -1,5 +1,5 @@
 //! \file
-//! The surface on which sites lie.
+//! The surface on which sites lie, and what is prepared on it.
 #pragma once
 
 #include "remesh/pipeline/curves.h"
@@ -7,27 +7,33 @@
 
 namespace remesh::detail {
 
-//! The cleaned surface, cut along its curves, and the base on which propagation runs.
-struct Domain {
+//! A surface and the curves on it.
+struct CurvedSurface {
     std::unique_ptr<const CurvePlan> plan;
-    PreparedSurface prepared;          //!< Of the surface, cut along the plan's curves.
     const Surface* whole;              //!< The cleaned surface, or the coarse one, uncut.
     const Surface* cleaned;            //!< The cleaned surface.
-    std::vector<Index> patch = {};     //!< #F of the base: index into plan->patches.components.
     double spacing = 0;                //!< Mesh units: mean distance of the sites.
     const SizeField* sizes = nullptr;  //!< Target lengths; null: all equal.
 
-    //! The surface on which propagation runs.
-    [[nodiscard]] const Surface& base() const { return prepared.base.surface(); }
+    //! The surface, cut along the curves.
+    [[nodiscard]] const Surface& cut() const { return plan->network.cut.surface(); }
     [[nodiscard]] bool has_junctions() const { return !plan->network.junctions.empty(); }
     [[nodiscard]] bool has_locked() const { return !plan->network.locked.empty(); }
 };
 
-//! \param cleaned  outlives the domain.
+//! The same with the base on which propagation runs.
+struct Domain : CurvedSurface {
+    PreparedSurface prepared;       //!< Of cut().
+    std::vector<Index> patch = {};  //!< #F of the base: index into plan->patches.components.
+
+    //! The surface on which propagation runs.
+    [[nodiscard]] const Surface& base() const { return prepared.base.surface(); }
+};
+
+//! \param curved  of the input.
 //! \throw InvalidInput  a part of the surface is too thin for double precision.
 //! Cost: that of PreparedSurface.
-[[nodiscard]] Domain prepare_domain(const CleanedInput& cleaned,
-                                    std::unique_ptr<const CurvePlan> plan, double spacing,
-                                    const SizeField* sizes, const StageContext& context);
+[[nodiscard]] Domain prepare_domain(const CleanedInput& cleaned, CurvedSurface curved,
+                                    const StageContext& context);
 
 }  // namespace remesh::detail

@@ -6,8 +6,10 @@
 #include "agvd/mesh/surface_points.h"
 #include "remesh/pipeline/crossings.h"
 #include "remesh/pipeline/domain.h"
+#include "remesh/pipeline/mesh_part.h"
 #include "remesh/pipeline/stage_context.h"
 #include "remesh/placement/mesh_curves.h"
+#include "remesh/placement/shape_quality.h"
 
 namespace remesh::detail {
 namespace {
@@ -15,67 +17,148 @@ namespace {
 // Most tries; in the second one fewer vertices may move. Repair adds no intersections but those in
 // one plane or by rounding.
 constexpr int most_tries = 2;
-
-MeshCurves curves_of(const Domain& domain) {
-    return {*domain.whole, domain.prepared.input(), domain.plan->network.network};
-}
+// Around bad triangles: edits reach some edges far, and vertices to spare are found there.
+constexpr Index rings_of_places = 8;
 
 }  // namespace
 
-std::optional<ImprovableMesh> find_improvable(const Domain& domain, const PlacedDual& placed,
-                                              const RemeshOptions& options) {
-    if (options.sites || domain.has_junctions()) return std::nullopt;
-    // Bounds of the distance are met by vertices where they are missing: one that is taken away
-    // elsewhere comes back in the next round.
-    if (std::holds_alternative<MaxDistance>(options.sizing.count)) return std::nullopt;
-    ImprovableMesh result;
-    const GluedMesh& glued = placed.patches->glued;
-    for (const auto& [from, to] : rim_of(placed.mesh.triangles)) {
-        result.hard.emplace_back(glued.vertex[from], glued.vertex[to]);
-    }
-    result.mesh = {take(placed.mesh.points, glued.representative),
-                   take(placed.mesh.offsets, glued.representative), glued.triangles};
-    std::vector<bool> is_on_edge(result.mesh.points.size(), false);
-    for (const auto& [from, to] : result.hard) is_on_edge[from] = is_on_edge[to] = true;
-    const MeshCurves curves = curves_of(domain);
-    for (Index v = 0; v < result.mesh.points.size(); ++v) {
-        const CurvePlace place = curves.place_of(result.mesh.points[v]);
-        Mobility mobility = place.is_free()           ? Mobility::Free
-                            : place.curve != no_index ? Mobility::Boundary
-                            : domain.has_locked()     ? Mobility::Fixed
-                                                      : Mobility::Node;
+std::vector<Mobility> find_mobility(const CurvedSurface& curved, const MeshCurves& curves,
+                                    const JoinedMesh& joined) {
+    const auto& [network, patches, given] = *curved.plan;
+    const auto is_locked = [&](Index node) {
+        return std::ranges::binary_search(network.locked.vertices, network.network.nodes[node]);
+    };
+    std::vector<bool> is_on_edge(joined.mesh.points.size(), false);
+    for (const auto& [from, to] : joined.hard) is_on_edge[from] = is_on_edge[to] = true;
+    std::vector<Mobility> result;
+    result.reserve(joined.mesh.points.size());
+    for (Index v = 0; v < joined.mesh.points.size(); ++v) {
+        const CurvePlace place = curves.place_of(joined.mesh.points[v]);
+        Mobility mobility = place.is_free()            ? Mobility::Free
+                            : place.curve != no_index  ? Mobility::Boundary
+                            : is_locked(place.node)    ? Mobility::Fixed
+                                                       : Mobility::Node;
         // A mesh may pass by a vertex on a curve, and a rim may lie off the boundary.
         if (!is_on_edge[v]) {
             if (place.node == no_index) mobility = Mobility::Free;
         } else if (mobility == Mobility::Free) {
             mobility = Mobility::Boundary;
         }
-        result.mobility.push_back(mobility);
+        result.push_back(mobility);
     }
     return result;
 }
 
-bool improve(const Domain& domain, CrossingFinder& finder, ImprovableMesh& improvable,
+void improve_in_places(const CurvedSurface& curved, JoinedMesh& joined,
+                       const StageContext& context) {
+    const StageClock clock(Stage::Place, context.result);
+    const MeshCurves curves(*curved.whole, curved.cut(), curved.plan->network.network);
+    PlacedMesh& mesh = joined.mesh;
+    std::vector<Index> seeds;
+    const auto at = [&](Index v) { return mesh.position(curved.whole->mesh.view(), v); };
+    for (const auto& [a, b, c] : mesh.triangles) {
+        if (shape_quality(at(a), at(b), at(c)) < low_quality) seeds.insert(seeds.end(), {a, b, c});
+    }
+    if (seeds.empty()) return;
+    const std::vector<Index> ring =
+        rings_around(mesh.triangles, mesh.points.size(), distinct(std::move(seeds)), rings_of_places);
+    std::vector<Index> triangles, vertices;
+    for (Index t = 0; t < mesh.triangles.size(); ++t) {
+        const bool is_near = std::ranges::all_of(mesh.triangles[t],
+                                                 [&](Index v) { return ring[v] != no_index; });
+        if (!is_near) continue;
+        triangles.push_back(t);
+        vertices.insert(vertices.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
+    }
+    vertices = distinct(std::move(vertices));
+    JoinedMesh part{{take(mesh.points, vertices), take(mesh.offsets, vertices), {}}, {}};
+    for (const Index t : triangles) {
+        Triangle& made = part.mesh.triangles.emplace_back(mesh.triangles[t]);
+        for (Index& v : made) v = rank_of(vertices, v);
+    }
+    for (const auto& [from, to] : joined.hard) {
+        if (ring[from] == no_index || ring[to] == no_index) continue;
+        part.hard.emplace_back(rank_of(vertices, from), rank_of(vertices, to));
+    }
+    std::vector<Mobility> mobility = find_mobility(curved, curves, part);
+    for (const auto& [from, to] : rim_of(part.mesh.triangles)) {
+        part.hard.emplace_back(from, to);
+        if (ring[vertices[from]] == rings_of_places) mobility[from] = Mobility::Fixed;
+    }
+    const std::vector<Index> numbers = repair_shape(
+        curves, mobility, part.hard, part.mesh, progress_at(Stage::Place, context.options, 1),
+        faces_around(curved.cut(), part.mesh.points, 2 * curved.spacing));
+    if (numbers.empty()) return;
+    // New vertices take the places of those that are gone.
+    std::vector<std::uint8_t> is_left(vertices.size(), 0);
+    for (const Index number : numbers) {
+        if (number < is_left.size()) is_left[number] = 1;
+    }
+    std::vector<Index> place;
+    place.reserve(numbers.size());
+    Index gone = 0;
+    for (Index i = 0; i < numbers.size(); ++i) {
+        Index number = numbers[i];
+        if (number >= is_left.size()) {
+            while (is_left[gone] != 0) ++gone;
+            number = gone++;
+        }
+        place.push_back(vertices[number]);
+        mesh.points[place[i]] = part.mesh.points[i];
+        mesh.offsets[place[i]] = part.mesh.offsets[i];
+    }
+    // Along the boundary an edge may have been added, or have gone.
+    std::vector<Triangle> all;
+    all.reserve(mesh.triangles.size());
+    for (Index t = 0, next = 0; t < mesh.triangles.size(); ++t) {
+        if (next < triangles.size() && triangles[next] == t) {
+            ++next;
+        } else {
+            all.push_back(mesh.triangles[t]);
+        }
+    }
+    for (const auto& [a, b, c] : part.mesh.triangles) all.push_back({place[a], place[b], place[c]});
+    mesh.triangles = std::move(all);
+}
+
+JoinedMesh joined_mesh(const PlacedDual& placed) {
+    JoinedMesh result;
+    const GluedMesh& glued = placed.patches->glued;
+    for (const auto& [from, to] : rim_of(placed.mesh.triangles)) {
+        result.hard.emplace_back(glued.vertex[from], glued.vertex[to]);
+    }
+    result.mesh = {take(placed.mesh.points, glued.representative),
+                   take(placed.mesh.offsets, glued.representative), glued.triangles};
+    return result;
+}
+
+bool is_improvable(const CurvedSurface& curved, const RemeshOptions& options) {
+    return is_relaxed(options) && !options.sites && !curved.has_junctions() &&
+           !std::holds_alternative<MaxDistance>(options.sizing.count);
+}
+
+bool improve(const CurvedSurface& curved, CrossingFinder& finder, JoinedMesh& joined,
              std::optional<CrossingCounts>& crossings, const StageContext& context) {
-    const MeshCurves curves = curves_of(domain);
+    const MeshCurves curves(*curved.whole, curved.cut(), curved.plan->network.network);
+    std::vector<Mobility> mobility = find_mobility(curved, curves, joined);
     for (int round = 0; round < most_tries; ++round) {
-        PlacedDual improved{improvable.mesh, {}};
+        PlacedDual improved{joined.mesh, {}};
         std::vector<Index> numbers;
         {
             const StageClock clock(Stage::Place, context.result);
-            numbers = repair_shape(curves, improvable.mobility, improvable.hard, improved.mesh,
+            numbers = repair_shape(curves, mobility, joined.hard, improved.mesh,
                                    progress_at(Stage::Place, context.options, 1));
         }
         if (numbers.empty()) return false;
         std::optional<FacePairs> pairs = finder.find(improved);
         if (!pairs || pairs->size() <= crossings->all) {
             if (pairs) crossings = finder.tell_added(improved, *std::move(pairs)).counts();
-            improvable.mesh = std::move(improved.mesh);
+            joined.mesh = std::move(improved.mesh);
             return true;
         }
         for_each_corner(*pairs, improved.mesh.triangles, [&](Index v) {
             const Index before = numbers[v];
-            if (before < improvable.mobility.size()) improvable.mobility[before] = Mobility::Fixed;
+            if (before < mobility.size()) mobility[before] = Mobility::Fixed;
         });
     }
     return false;

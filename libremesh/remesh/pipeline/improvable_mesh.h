@@ -8,32 +8,40 @@
 namespace remesh::detail {
 
 class CrossingFinder;
-struct Domain;
+struct CurvedSurface;
 struct StageContext;
 
-//! A mesh and which of its vertices improvement may move.
-struct ImprovableMesh {
+//! A mesh whose patches are joined, and its edges along the curves.
+struct JoinedMesh {
     PlacedMesh mesh;
-    std::vector<Mobility> mobility;  //!< #V
-    std::vector<DirectedEdge> hard;  //!< Along the curves.
+    std::vector<DirectedEdge> hard;  //!< Those of the boundary included.
 };
 
-//! All vertices may move but those at nodes of the network, which may only be merged with others.
-//! Those on a curve slide along it.
-//! \return nothing with given sites, whose vertices stay, where sheets meet, and with
-//!         VertexCount::Add.
-//! Cost: O(#surface + #mesh).
-[[nodiscard]] std::optional<ImprovableMesh> find_improvable(const Domain& domain,
-                                                            const PlacedDual& placed,
-                                                            const RemeshOptions& options);
+//! Joins the patches of a mesh. Cost: O(n log n).
+[[nodiscard]] JoinedMesh joined_mesh(const PlacedDual& placed);
+
+//! Whether vertices may move: not with given sites, whose vertices stay, where sheets meet, and
+//! with MaxDistance, where vertices were added so that its bound is met.
+[[nodiscard]] bool is_improvable(const CurvedSurface& curved, const RemeshOptions& options);
+
+//! #V: all vertices may move but those at nodes of the network, which may only be merged with
+//! others, and locked ones. Those on a curve slide along it. Cost: O(#mesh log #curves).
+[[nodiscard]] std::vector<Mobility> find_mobility(const CurvedSurface& curved,
+                                                  const MeshCurves& curves,
+                                                  const JoinedMesh& joined);
 
 //! Improves narrow triangles (repair_shape). If more of the improved triangles intersect than
 //! before, fixes their corners and tries again, once.
-//! \param improvable   its mesh becomes the improved one.
+//! \param joined  its mesh becomes the improved one.
 //! \param crossings  of the mesh, then of the improved one; unset without CGAL.
 //! \return false: no improved mesh is better, and `crossings` is as before.
-//! Cost: that of repair_shape, twice at most.
-[[nodiscard]] bool improve(const Domain& domain, CrossingFinder& finder, ImprovableMesh& improvable,
+//! Cost: O(#surface), and that of repair_shape, twice at most.
+[[nodiscard]] bool improve(const CurvedSurface& curved, CrossingFinder& finder, JoinedMesh& joined,
                            std::optional<CrossingCounts>& crossings, const StageContext& context);
+
+//! The same for the bad triangles of a large mesh and some rings around them; crossings are not
+//! searched. Cost: O(#surface), and that of repair_shape there.
+void improve_in_places(const CurvedSurface& curved, JoinedMesh& joined,
+                       const StageContext& context);
 
 }  // namespace remesh::detail

@@ -205,16 +205,16 @@ TriangleMesh whole_mesh(const Surface& whole, const PlacedDual& placed) {
     return {take(positions, glued.first_of_group), glued.triangles};
 }
 
-TriangleMesh welded_mesh(const Domain& domain, const PlacedDual& placed) {
+TriangleMesh welded_mesh(const CurvedSurface& curved, const PlacedDual& placed) {
     TriangleMesh mesh;
-    if (domain.has_junctions()) {
+    if (curved.has_junctions()) {
         const GluedMesh& glued = placed.patches->glued;
-        mesh = {positions_of(*domain.whole, placed.mesh),
+        mesh = {positions_of(*curved.whole, placed.mesh),
                 rename_vertices(glued.triangles, glued.first_of_group)};
     } else {
-        mesh = whole_mesh(*domain.whole, placed);
+        mesh = whole_mesh(*curved.whole, placed);
     }
-    if (domain.has_locked()) mesh.triangles = join_positions(mesh);
+    if (curved.has_locked()) mesh.triangles = join_positions(mesh);
     return mesh;
 }
 

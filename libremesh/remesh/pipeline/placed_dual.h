@@ -8,6 +8,7 @@
 
 namespace remesh::detail {
 
+struct CurvedSurface;
 struct Domain;
 struct StageContext;
 struct ValidDual;
@@ -54,7 +55,7 @@ void add_vertices(const Domain& domain, std::vector<SurfacePoint> points, Index 
 
 //! The same to search for self-intersections: sheets share vertices where they meet, and so do
 //! parts at locked positions. Some vertices may be in no triangle.
-[[nodiscard]] TriangleMesh welded_mesh(const Domain& domain, const PlacedDual& placed);
+[[nodiscard]] TriangleMesh welded_mesh(const CurvedSurface& curved, const PlacedDual& placed);
 
 //! The triangles with the first vertex at its position in place of each vertex. Cost: O(n).
 [[nodiscard]] std::vector<Triangle> join_positions(const MeshView& mesh);

@@ -42,11 +42,12 @@ class DistanceGuard {
 public:
     //! \param mesh  outlives this.
     //! \param surface  whole, with the faces that the vertices of the mesh lie in.
+    //! \param near     its faces near the mesh, if it is a part of one; empty: all.
     //! Cost: O(#surface + #faces log #faces).
-    DistanceGuard(const EditedMesh& mesh, const Surface& surface)
+    DistanceGuard(const EditedMesh& mesh, const Surface& surface, std::span<const Index> near)
         : mesh_(mesh), samples_at_(mesh.num_faces()) {
         const FaceLabels parts = label_components(surface.twin);
-        add_samples(surface, parts.of_face);
+        add_samples(surface, near, parts.of_face);
         std::vector<std::vector<Index>> faces(parts.count);
         for (Index f = 0; f < mesh.num_faces(); ++f) {
             const Index v = mesh.face(f).corner[0];
@@ -142,15 +143,21 @@ private:
     }
 
     // Points that divide faces evenly, and vertices: tips are among these.
-    void add_samples(const Surface& surface, std::span<const Index> parts) {
+    void add_samples(const Surface& surface, std::span<const Index> near,
+                     std::span<const Index> parts) {
         const auto& p = surface.mesh.positions;
-        const double area = surface_area(surface);
+        const auto for_each_face = [&](const auto& each) {
+            for (const Index f : near) each(f);
+            for (Index f = 0; near.empty() && f < surface.num_faces(); ++f) each(f);
+        };
+        double area = 0;
+        for_each_face([&](Index f) { area += face_area(surface, f); });
         std::vector<double> around(surface.num_vertices(), 0);
         std::vector<Vec3> normal_at(surface.num_vertices(), Vec3::Zero());
         std::vector<Index> part_of(surface.num_vertices(), 0);
         const double count = samples_for_each * mesh_.num_vertices();
         double due = 0;  // Samples that the faces so far should have.
-        for (Index f = 0; f < surface.num_faces(); ++f) {
+        for_each_face([&](Index f) {
             const auto& [a, b, c] = surface.mesh.triangles[f];
             const double own = face_area(surface, f);
             const Vec3 normal = normal_of({p[a], p[b], p[c]});
@@ -161,13 +168,16 @@ private:
             }
             const double before = std::floor(due);
             due += count * own / area;
-            if (!(std::floor(due) > before)) continue;
+            if (!(std::floor(due) > before)) return;
             const auto rows = static_cast<int>(std::ceil(std::sqrt(std::floor(due) - before)));
             const double weight = area / count * (std::floor(due) - before) / (rows * rows);
             add_in_face({p[a], p[b], p[c]}, rows, {{}, weight, parts[f], Side::of(normal)});
-        }
-        const auto stride = static_cast<Index>(1 + surface.num_vertices() / count);
-        for (Index v = 0; v < surface.num_vertices(); v += stride) {
+        });
+        const auto num_near = static_cast<double>(
+            std::count_if(around.begin(), around.end(), [](double own) { return own > 0; }));
+        const auto stride = static_cast<Index>(1 + num_near / count);
+        for (Index v = 0, rank = 0; v < surface.num_vertices(); ++v) {
+            if (!(around[v] > 0) || rank++ % stride != 0) continue;
             samples_.push_back({p[v], stride * around[v], part_of[v], Side::of(normal_at[v])});
         }
     }

@@ -29,8 +29,8 @@ constexpr double worth_elsewhere = 4e-4;
 // The changes that may stay: those that neither add intersections nor leave the surface.
 class EditGuard {
 public:
-    EditGuard(const EditedMesh& mesh, const Surface& surface)
-        : mesh_(mesh), crossings_(mesh), distances_(mesh, surface) {}
+    EditGuard(const EditedMesh& mesh, const Surface& surface, std::span<const Index> faces)
+        : mesh_(mesh), crossings_(mesh), distances_(mesh, surface, faces) {}
 
     [[nodiscard]] bool accepts(const EditedMesh::Mark& mark, double worth) {
         const std::vector<Index> changed = mesh_.changed_since(mark);
@@ -365,7 +365,7 @@ private:
 std::vector<Index> repair_shape(const detail::MeshCurves& curves,
                                 std::span<const Mobility> mobility,
                                 std::span<const DirectedEdge> hard, PlacedMesh& mesh,
-                                const Progress& progress) {
+                                const Progress& progress, std::span<const Index> faces) {
     Poller poller(progress);
     Ticker ticker(poller);
     std::vector<Index> numbers;
@@ -375,7 +375,7 @@ std::vector<Index> repair_shape(const detail::MeshCurves& curves,
         is_good = is_good && edited.face(f).quality >= goals.back();
     }
     if (is_good) return numbers;
-    EditGuard guard(edited, curves.whole());
+    EditGuard guard(edited, curves.whole(), faces);
     const EditedMesh::Mark start = edited.mark();
     std::vector<std::uint8_t> is_settled;
     for (std::size_t i = 0; i < goals.size(); ++i) {

@@ -1,0 +1,23 @@
+//! \file
+//! Takes the trace of tiles away.
+#pragma once
+
+#include "remesh/pipeline/domain.h"
+#include "remesh/pipeline/improvable_mesh.h"
+#include "remesh/pipeline/stage_context.h"
+
+namespace remesh::detail {
+
+//! Vertices of a mesh at which tiles meet.
+struct TileBorders {
+    std::vector<Index> vertices;  //!< Ascending.
+    std::vector<Index> nodes;     //!< Of these the ones at which more than two meet.
+};
+
+//! Relaxes the vertices near borders, which are free now, on their triangles, and fits them to the
+//! surface again. Those on curves stay, as do the topology and the number of triangles.
+//! Cost: that of base, labels and fit for the surface within some rings of the borders.
+void free_borders(const CurvedSurface& curved, const TileBorders& borders, JoinedMesh& joined,
+                  const StageContext& context);
+
+}  // namespace remesh::detail

@@ -1,0 +1,33 @@
+//! \file
+//! Large results in tiles: each is meshed on its own, as if it were an input, and all are joined.
+#pragma once
+
+#include "remesh/pipeline/domain.h"
+#include "remesh/pipeline/improvable_mesh.h"
+#include "remesh/pipeline/remesh.h"
+
+namespace remesh::detail {
+
+//! Vertices of a tile: its data fit into the caches of a core, and its border takes few of them.
+inline constexpr Index vertices_per_tile = 8192;
+
+//! Whether a run is made in tiles.
+[[nodiscard]] bool is_tiled(const CurvedSurface& curved, const RemeshOptions& options);
+
+//! The mesh of all tiles.
+struct TiledMesh {
+    PlacedMesh mesh;
+    Index num_vertices = 0;
+    //! On the cleaned surface: see NetworkSites.
+    std::vector<SurfacePoint> narrow_points = {};
+};
+
+//! Divides the surface into tiles and meshes them side by side. Adds what the stages tell of each
+//! tile to the result.
+//! \return unset: a tile has no mesh with so few vertices, or is too narrow to be cut.
+//! Cost: that of the stages. In memory are the tiles in work, one for each thread.
+[[nodiscard]] std::optional<TiledMesh> mesh_tiles(const CurvedSurface& curved,
+                                                  const StageContext& context,
+                                                  Index per_tile = vertices_per_tile);
+
+}  // namespace remesh::detail
