@@ -56,6 +56,7 @@ struct Arguments : cli::DiagramArguments {
     bool no_clobber = false;
     std::string to;  // Format of the outputs; empty: by the extension.
     int relax_steps = remesh::RemeshOptions{}.relax_steps;
+    agvd::Index samples_per_tile = remesh::RemeshOptions{}.samples_per_tile;
     bool keep_sites = false;
     std::optional<bool> fit;
     fs::path report;  // Empty: none; "-": stdout.
@@ -208,6 +209,12 @@ void add_options(CLI::App& app, Arguments& arguments) {
         ->capture_default_str();
     app.add_flag("--keep-sites", arguments.keep_sites, "Do not relax the sites of --sites")
         ->needs("--sites");
+    app.add_option("--tile", arguments.samples_per_tile,
+                   "Vertices of a tile, at most: results of more than 5/4 as many are made in "
+                   "tiles, which takes less memory and keeps threads busy; 0: in one piece")
+        ->check(CLI::Range(0, 1'000'000'000).description(""))
+        ->type_name("N")
+        ->capture_default_str();
     CLI::Option* const fit = app.add_flag_callback(
         "--fit", [&arguments] { arguments.fit = true; },
         "Let vertices leave the surface so that the triangles lie nearer to it; the default if "
@@ -377,6 +384,7 @@ Input prepare(const Arguments& arguments, cli::Console& console) {
                                   .seed = arguments.sampling.seed,
                                   .relax_steps = arguments.relax_steps,
                                   .keep_sites = arguments.keep_sites,
+                                  .samples_per_tile = arguments.samples_per_tile,
                                   .fit = arguments.fit,
                                   .propagation = arguments.propagation,
                                   .delaunay = arguments.delaunay,

@@ -58,6 +58,7 @@ remesh::RemeshResult example_result() {
     result.sizing = {.num_samples = 77, .mean_edge = 1};
     result.certified_error = 1.23e-4;
     result.coarse_faces = 64'000;
+    result.tiles = 4;
     result.propagation_bytes = 12'300'000;
     result.refined_faces = 4321;
     result.delaunay = {.inner_edges = 200,
@@ -181,6 +182,7 @@ TEST(RemeshReport, GivesEveryFieldOfTheResult) {
     EXPECT_EQ(report["delaunay"]["finished"], false);
     EXPECT_EQ(report["certified_error"], 1.23e-4);
     EXPECT_EQ(report["coarse_faces"], 64'000);
+    EXPECT_EQ(report["tiles"], 4);
     EXPECT_EQ(report["propagation_bytes"], 12'300'000);
     EXPECT_EQ(report["refined_faces"], 4321);
     EXPECT_EQ(report["stage_seconds"]["clean_s"], 0.25);

@@ -267,6 +267,7 @@ Json to_json(const RemeshOptions& options, Index num_samples) {
     object["given_sites"] = options.sites ? Json(options.sites->size()) : Json();
     object["relax_steps"] = options.relax_steps;
     object["keep_sites"] = options.keep_sites;
+    object["samples_per_tile"] = options.samples_per_tile;
     object["fit"] = options.fit.value_or(detail::is_relaxed(options));
     object["engine"] = engine_name(options.propagation.engine);
     object["max_error"] = max_error ? Json(*max_error) : Json();
@@ -333,6 +334,7 @@ std::string to_json(const RemeshResult& result, const RunInfo& info) {
         result.self_intersections ? Json(result.new_self_intersections) : Json();
     object["certified_error"] = result.certified_error;
     object["coarse_faces"] = result.coarse_faces;
+    object["tiles"] = result.tiles;
     object["propagation_bytes"] = result.propagation_bytes;
     Json& stages = object["stage_seconds"] = Json::object();
     for (const auto& [stage, seconds] : result.seconds) {

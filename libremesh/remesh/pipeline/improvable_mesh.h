@@ -39,8 +39,10 @@ struct JoinedMesh {
 [[nodiscard]] bool improve(const CurvedSurface& curved, CrossingFinder& finder, JoinedMesh& joined,
                            std::optional<CrossingCounts>& crossings, const StageContext& context);
 
-//! The same for the bad triangles of a large mesh and some rings around them; crossings are not
-//! searched. Cost: O(#surface), and that of repair_shape there.
+//! Improves the bad triangles of a mesh that is large, or a tile of one: only what lies within some
+//! rings of them is looked at and changed. Crossings are not searched. Vertices that stay keep their
+//! numbers; `hard` is not kept up.
+//! Cost: O(#surface), and that of repair_shape there.
 void improve_in_places(const CurvedSurface& curved, JoinedMesh& joined,
                        const StageContext& context);
 

@@ -31,22 +31,17 @@ struct MeshedTile {
     RemeshResult told = {};
 };
 
-// Whether an edge of the mesh runs along a crease.
-bool is_on_crease(const MeshCurves& curves, const SurfacePoint& from, const SurfacePoint& to) {
-    const CurvePlace a = curves.place_of(from), b = curves.place_of(to);
-    if (a.is_free() || b.is_free()) return false;
-    if (a.curve != no_index && b.curve != no_index && a.curve != b.curve) return false;
-    const Index curve = curves.curve_between(a, b);
-    return curve != no_index && curves.is_sharp({curve, 0, no_index});
-}
-
 // In both directions.
 std::vector<DirectedEdge> edges_on_creases(const MeshCurves& curves, const PlacedMesh& mesh) {
+    std::vector<CurvePlace> place;
+    place.reserve(mesh.points.size());
+    for (const SurfacePoint& point : mesh.points) place.push_back(curves.place_of(point));
     std::vector<DirectedEdge> edges;
     for (const Triangle& t : mesh.triangles) {
         for (Index k = 0; k < 3; ++k) {
             const Index from = t[k], to = t[(k + 1) % 3];
-            if (is_on_crease(curves, mesh.points[from], mesh.points[to])) {
+            if (!place[from].is_free() && !place[to].is_free() &&
+                curves.are_on_crease(place[from], place[to])) {
                 edges.emplace_back(from, to);
             }
         }
@@ -138,23 +133,16 @@ private:
     // Improves the mesh of a tile and takes it to the whole surface.
     static void take(const PlacedDual& placed, const CurveSites& sites, const Domain& domain,
                      const Tile& tile, const StageContext& context, MeshedTile& made) {
-        const StageClock clock(Stage::Place, context.result);
         JoinedMesh joined = joined_mesh(placed);
-        std::vector<Index> site(joined.mesh.points.size(), no_index);
+        made.border_site.assign(joined.mesh.points.size(), no_index);
         const std::vector<Index>& nodes = domain.plan->network.network.nodes;
         const JoinedPatches& patches = *placed.patches;
         for (Index v = 0; v < patches.group.size(); ++v) {
             if (patches.group[v] >= sites.num_nodes()) continue;
-            site[patches.glued.vertex[v]] = tile.border_site[nodes[patches.group[v]]];
+            made.border_site[patches.glued.vertex[v]] = tile.border_site[nodes[patches.group[v]]];
         }
+        improve_in_places(domain, joined, context);
         const MeshCurves curves(*domain.whole, domain.cut(), domain.plan->network.network);
-        const std::vector<Index> numbers =
-            repair_shape(curves, find_mobility(domain, curves, joined), joined.hard, joined.mesh,
-                         progress_at(Stage::Place, context.options, 1));
-        if (numbers.empty()) made.border_site = std::move(site);
-        for (const Index before : numbers) {
-            made.border_site.push_back(before < site.size() ? site[before] : no_index);
-        }
         made.rim = rim_of(joined.mesh.triangles);
         made.creases = edges_on_creases(curves, joined.mesh);
         for (SurfacePoint& point : joined.mesh.points) point = tile.parts.to_whole(point);
@@ -223,8 +211,8 @@ JoinedMesh join(const CurvedSurface& curved, std::vector<MeshedTile>& tiles, Ind
     for (DirectedEdge& edge : rim) {
         to_glued(edge);
         if (std::ranges::binary_search(boundary, edge) ||
-            is_on_crease(curves, joined.mesh.points[edge.first],
-                         joined.mesh.points[edge.second])) {
+            curves.are_on_crease(curves.place_of(joined.mesh.points[edge.first]),
+                                 curves.place_of(joined.mesh.points[edge.second]))) {
             joined.hard.push_back(edge);
         }
     }
@@ -271,14 +259,14 @@ void add_told(const RemeshResult& tile, double share, RemeshResult& sum) {
 }  // namespace
 
 bool is_tiled(const CurvedSurface& curved, const RemeshOptions& options) {
-    return options.num_samples >= vertices_per_tile + vertices_per_tile / 4 && is_relaxed(options) && !options.sites &&
-           options.boundary == Boundary::Keep && curved.sizes == nullptr &&
+    const std::uint64_t per_tile = options.samples_per_tile;
+    return per_tile > 0 && options.num_samples > per_tile + per_tile / 4 && is_relaxed(options) &&
+           !options.sites && options.boundary == Boundary::Keep && curved.sizes == nullptr &&
            !curved.has_junctions() && !curved.has_locked() &&
            !std::holds_alternative<MaxDistance>(options.sizing.count);
 }
 
-std::optional<TiledMesh> mesh_tiles(const CurvedSurface& curved, const StageContext& context,
-                                    Index per_tile) {
+std::optional<TiledMesh> mesh_tiles(const CurvedSurface& curved, const StageContext& context) {
     const auto& [options, result] = context;
     const std::vector<std::uint8_t> is_crease = mark_creases(curved);
     Tiling tiling;
@@ -287,7 +275,7 @@ std::optional<TiledMesh> mesh_tiles(const CurvedSurface& curved, const StageCont
         try {
             tiling = divide_into_tiles(*curved.whole, is_crease,
                                        {.num_vertices = options.num_samples,
-                                        .per_tile = per_tile,
+                                        .per_tile = options.samples_per_tile,
                                         .spacing = curved.plan->network.spacing,
                                         .progress = progress_at(Stage::Clean, options, 1)});
         } catch (const InvalidInput&) {
@@ -319,6 +307,7 @@ std::optional<TiledMesh> mesh_tiles(const CurvedSurface& curved, const StageCont
         for (const auto& [stage, of_stage] : tile.told.seconds) seconds += of_stage;
     }
     TiledMesh made;
+    result.tiles = tiling.num_tiles;
     result.refined_faces = 0;
     result.certified_error = 0;
     result.relaxation.clear();
@@ -332,12 +321,12 @@ std::optional<TiledMesh> mesh_tiles(const CurvedSurface& curved, const StageCont
     tiling = {};
     TileBorders borders;
     JoinedMesh joined = join(curved, tiles, num_sites, borders);
-    free_borders(curved, borders, joined, context);
-    improve_in_places(curved, joined, context);
-    made.num_vertices = static_cast<Index>(joined.mesh.points.size());
     std::vector<Index> on_curves;
     for (const auto& [from, to] : joined.hard) on_curves.push_back(from);
     result.features.vertices = static_cast<Index>(distinct(std::move(on_curves)).size());
+    free_borders(curved, borders, joined, context);
+    improve_in_places(curved, joined, context);
+    made.num_vertices = static_cast<Index>(joined.mesh.points.size());
     made.mesh = std::move(joined.mesh);
     return made;
 }

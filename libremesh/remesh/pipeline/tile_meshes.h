@@ -8,9 +8,6 @@
 
 namespace remesh::detail {
 
-//! Vertices of a tile: its data fit into the caches of a core, and its border takes few of them.
-inline constexpr Index vertices_per_tile = 8192;
-
 //! Whether a run is made in tiles.
 [[nodiscard]] bool is_tiled(const CurvedSurface& curved, const RemeshOptions& options);
 
@@ -27,7 +24,6 @@ struct TiledMesh {
 //! \return unset: a tile has no mesh with so few vertices, or is too narrow to be cut.
 //! Cost: that of the stages. In memory are the tiles in work, one for each thread.
 [[nodiscard]] std::optional<TiledMesh> mesh_tiles(const CurvedSurface& curved,
-                                                  const StageContext& context,
-                                                  Index per_tile = vertices_per_tile);
+                                                  const StageContext& context);
 
 }  // namespace remesh::detail

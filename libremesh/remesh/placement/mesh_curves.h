@@ -84,6 +84,22 @@ public:
         return no_index;
     }
 
+    //! Whether an edge of the mesh between two places, free or not, can run along a curve with several
+    //! sides.
+    [[nodiscard]] bool are_on_crease(const CurvePlace& a, const CurvePlace& b) const {
+        const auto is_on = [&](const CurvePlace& place, Index curve) {
+            const Curve& c = network_.curves[curve];
+            return place.node != no_index ? place.node == c.begin || place.node == c.end
+                                          : place.curve == curve;
+        };
+        const auto is_crease = [&](Index curve) {
+            return network_.curves[curve].sides.size() > 1 && is_on(a, curve) && is_on(b, curve);
+        };
+        if (a.curve != no_index) return is_crease(a.curve);
+        if (b.curve != no_index) return is_crease(b.curve);
+        return std::ranges::any_of(ends_, [&](const Ends& e) { return is_crease(e.curve); });
+    }
+
     //! Positions of the ends of an edge on its curve. On a closed curve one may be beyond its
     //! length, so that the edge lies between them.
     [[nodiscard]] std::pair<double, double> interval(Index curve, const CurvePlace& a,

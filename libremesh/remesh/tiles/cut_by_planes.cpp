@@ -1,5 +1,6 @@
-// Each face goes down the tree as a convex polygon, which the planes divide. A point on a side has
-// the ends of that side and the plane as its name, so both faces at an edge find the same one.
+// Each face goes down the tree as a convex polygon. Its sides are divided first, by all planes that
+// they cross; so are the chords along which planes divide it. What divides a side depends on its
+// ends and the tree alone, so both faces at an edge have the same points there.
 #include "remesh/tiles/cut_by_planes.h"
 
 #include <algorithm>
@@ -32,135 +33,148 @@ public:
     }
 
 private:
-    struct Piece {
-        Polygon polygon;
-        Index cell;
-    };
-
     void cut_face(Index f) {
         const Triangle& t = mesh_.triangles[f];
-        pieces_.clear();
-        divided_.clear();
-        divide(tree_.root(), {{t[0], whole_face[0]}, {t[1], whole_face[1]}, {t[2], whole_face[2]}});
-        if (pieces_.size() == 1 && divided_.empty()) {
-            made_.mesh.triangles.push_back(t);
-            made_.parts.add_whole(f);
-            made_.cell.push_back(pieces_[0].cell);
-            return;
+        Polygon polygon;
+        for (Index k = 0; k < 3; ++k) {
+            const Index next = (k + 1) % 3;
+            append_side({t[k], whole_face[k]}, {t[next], whole_face[next]}, tree_.root(), polygon);
         }
-        for (const Piece& piece : pieces_) add_piece(f, piece);
+        divide(f, tree_.root(), polygon);
     }
 
-    // The distances from the plane, as -1, 0, 1. A polygon that crosses the plane has two zeros, or
-    // sides across, in places that part it; zeros beside these count for the side that they join.
-    // \return whether it crosses.
-    bool find_signs(const PlaneTree::Node& node, const Polygon& polygon) {
+    // The distance of a vertex from a plane; 0: it lies on it.
+    [[nodiscard]] double height(const PlaneTree::Node& node, Index vertex) const {
+        const double height = node.normal.dot(made_.mesh.positions[vertex]) - node.offset;
+        return std::abs(height) <= snap_ ? 0 : height;
+    }
+
+    // Appends the first end and the points where planes divide the way to the second one. A side
+    // in a plane belongs to what is on both sides of it.
+    void append_side(const PartPoint& from, const PartPoint& to, PlaneTree::Side side,
+                     Polygon& points) {
+        if (side.is_cell) {
+            points.push_back(from);
+            return;
+        }
+        const PlaneTree::Node& node = tree_.nodes[side.index];
+        const double at_from = height(node, from.vertex), at_to = height(node, to.vertex);
+        if (at_from == 0 && at_to == 0) {
+            Polygon below;
+            append_side(from, to, node.below, below);
+            below.push_back(to);
+            for (std::size_t i = 1; i < below.size(); ++i) {
+                append_side(below[i - 1], below[i], node.above, points);
+            }
+        } else if (at_from * at_to < 0) {
+            const PartPoint middle = point_between(side.index, from, to, at_from, at_to);
+            append_side(from, middle, at_from < 0 ? node.below : node.above, points);
+            append_side(middle, to, at_to < 0 ? node.below : node.above, points);
+        } else {
+            append_side(from, to, at_from + at_to < 0 ? node.below : node.above, points);
+        }
+    }
+
+    // Where a side crosses the plane of a node.
+    PartPoint point_between(Index node, const PartPoint& from, const PartPoint& to, double at_from,
+                            double at_to) {
+        if (from.vertex > to.vertex) return point_between(node, to, from, at_to, at_from);
+        const double share = at_from / (at_from - at_to);
+        std::vector<Vec3>& positions = made_.mesh.positions;
+        const auto [found, is_new] = vertex_at_.try_emplace(
+            {from.vertex, to.vertex, node}, static_cast<Index>(positions.size()));
+        if (is_new) {
+            positions.emplace_back((1 - share) * positions[from.vertex] +
+                                   share * positions[to.vertex]);
+            made_at_.push_back(node);
+        }
+        return {found->second, between(from.weights, to.weights, share)};
+    }
+
+    // On which sides of a plane the corners of a polygon lie: -1, 0, 1. Where corners in the plane
+    // part those below from those above, the nearest one of them is 0; others in the plane go with
+    // their neighbours. Those that a later node made do not part: append_side() did not know them.
+    // \return whether the plane divides the polygon.
+    bool find_signs(Index number, const Polygon& polygon, std::vector<int>& sign) const {
+        const PlaneTree::Node& node = tree_.nodes[number];
         const std::size_t n = polygon.size();
-        distance_.clear();
-        sign_.clear();
+        sign.clear();
         bool is_below = false, is_above = false;
         for (const PartPoint& p : polygon) {
-            const double d = node.normal.dot(made_.mesh.positions[p.vertex]) - node.offset;
-            distance_.push_back(std::abs(d));
-            sign_.push_back(std::abs(d) <= snap_ ? 0 : d < 0 ? -1 : 1);
-            is_below = is_below || sign_.back() < 0;
-            is_above = is_above || sign_.back() > 0;
+            const double at = height(node, p.vertex);
+            sign.push_back(at < 0 ? -1 : at > 0 ? 1 : 0);
+            is_below = is_below || at < 0;
+            is_above = is_above || at > 0;
         }
         if (!is_below || !is_above) return false;
+        const auto distance = [&](std::size_t i) {
+            const Index vertex = polygon[i % n].vertex;
+            const auto first_made = static_cast<Index>(mesh_.positions.size());
+            if (vertex >= first_made && made_at_[vertex - first_made] > number) return infinity;
+            return std::abs(node.normal.dot(made_.mesh.positions[vertex]) - node.offset);
+        };
         std::size_t start = 0;
-        while (sign_[start] == 0) ++start;
-        for (std::size_t i = 1; i <= n;) {
-            if (sign_[(start + i) % n] != 0) {
-                ++i;
-                continue;
-            }
+        while (sign[start] == 0) ++start;
+        for (std::size_t i = start + 1; i < start + n; ++i) {
+            if (sign[i % n] != 0) continue;
             std::size_t end = i, nearest = i;
-            for (; sign_[(start + end) % n] == 0; ++end) {
-                if (distance_[(start + end) % n] < distance_[(start + nearest) % n]) nearest = end;
+            for (; sign[end % n] == 0; ++end) {
+                if (distance(end) < distance(nearest)) nearest = end;
             }
-            const int before = sign_[(start + i - 1) % n], after = sign_[(start + end) % n];
-            for (std::size_t j = i; j < end; ++j) {
-                if (before != after && j == nearest) continue;
-                sign_[(start + j) % n] = j < nearest ? before : after;
+            const int before = sign[(i - 1) % n], after = sign[end % n];
+            for (; i < end; ++i) {
+                if (before != after && i == nearest) continue;
+                sign[i % n] = i < nearest ? before : after;
             }
-            i = end;
         }
         return true;
     }
 
-    void divide(PlaneTree::Side side, const Polygon& polygon) {
+    void divide(Index f, PlaneTree::Side side, const Polygon& polygon) {
         if (side.is_cell) {
-            pieces_.push_back({polygon, side.index});
+            add_piece(f, polygon, side.index);
             return;
         }
         const PlaneTree::Node& node = tree_.nodes[side.index];
-        if (!find_signs(node, polygon)) {
-            const bool is_below = std::find(sign_.begin(), sign_.end(), -1) != sign_.end();
-            divide(is_below ? node.below : node.above, polygon);
+        std::vector<int> sign;
+        if (!find_signs(side.index, polygon, sign)) {
+            const bool is_below = std::find(sign.begin(), sign.end(), -1) != sign.end();
+            divide(f, is_below ? node.below : node.above, polygon);
             return;
         }
-        Polygon below, above;
-        for (std::size_t i = 0; i < polygon.size(); ++i) {
-            const std::size_t next = (i + 1) % polygon.size();
-            if (sign_[i] <= 0) below.push_back(polygon[i]);
-            if (sign_[i] >= 0) above.push_back(polygon[i]);
-            if (sign_[i] * sign_[next] >= 0) continue;
-            const PartPoint added = point_on_side(side.index, polygon, i, next);
-            below.push_back(added);
-            above.push_back(added);
-        }
-        divide(node.below, below);
-        divide(node.above, above);
+        const auto first = static_cast<std::size_t>(std::find(sign.begin(), sign.end(), 0) -
+                                                    sign.begin());
+        const auto second = static_cast<std::size_t>(
+            std::find(sign.begin() + static_cast<std::ptrdiff_t>(first) + 1, sign.end(), 0) -
+            sign.begin());
+        // From the first corner to the second one, and on to the first.
+        Polygon one(polygon.begin() + static_cast<std::ptrdiff_t>(first),
+                    polygon.begin() + static_cast<std::ptrdiff_t>(second));
+        Polygon other(polygon.begin() + static_cast<std::ptrdiff_t>(second), polygon.end());
+        other.insert(other.end(), polygon.begin(),
+                     polygon.begin() + static_cast<std::ptrdiff_t>(first));
+        append_side(polygon[second], polygon[first], side, one);
+        append_side(polygon[first], polygon[second], side, other);
+        const bool is_one_below = sign[first + 1] < 0;
+        divide(f, node.below, is_one_below ? one : other);
+        divide(f, node.above, is_one_below ? other : one);
     }
 
-    // Where a side crosses the plane of a node.
-    PartPoint point_on_side(Index node, const Polygon& polygon, std::size_t from, std::size_t to) {
-        if (polygon[from].vertex > polygon[to].vertex) std::swap(from, to);
-        const PartPoint &a = polygon[from], &b = polygon[to];
-        const double share = distance_[from] / (distance_[from] + distance_[to]);
-        std::vector<Vec3>& positions = made_.mesh.positions;
-        const auto [found, is_new] =
-            vertex_at_.try_emplace({a.vertex, b.vertex, node}, static_cast<Index>(positions.size()));
-        if (is_new) {
-            positions.emplace_back((1 - share) * positions[a.vertex] + share * positions[b.vertex]);
-        }
-        PartPoint added{found->second, between(a.weights, b.weights, share)};
-        divided_.push_back({a.vertex, b.vertex, added});
-        return added;
-    }
-
-    // A side of one piece may be two sides of those behind it.
-    void append_side(const PartPoint& from, const PartPoint& to, Polygon& polygon) const {
-        const auto [low, high] = std::minmax(from.vertex, to.vertex);
-        const auto found = std::find_if(divided_.begin(), divided_.end(), [&](const Divided& d) {
-            return d.low == low && d.high == high;
-        });
-        if (found == divided_.end()) {
-            polygon.push_back(from);
+    void add_piece(Index f, const Polygon& polygon, Index cell) {
+        if (polygon.size() == 3 && polygon[0].weights == whole_face[0] &&
+            polygon[1].weights == whole_face[1] && polygon[2].weights == whole_face[2]) {
+            made_.mesh.triangles.push_back(mesh_.triangles[f]);
+            made_.parts.add_whole(f);
+            made_.cell.push_back(cell);
             return;
-        }
-        append_side(from, found->middle, polygon);
-        append_side(found->middle, to, polygon);
-    }
-
-    void add_piece(Index f, const Piece& piece) {
-        Polygon polygon;
-        const std::size_t n = piece.polygon.size();
-        for (std::size_t i = 0; i < n; ++i) {
-            append_side(piece.polygon[i], piece.polygon[(i + 1) % n], polygon);
         }
         for (const auto& [i, j, k] : triangulate_part(corners_of(mesh_, f), polygon)) {
             made_.mesh.triangles.push_back(
                 {polygon[i].vertex, polygon[j].vertex, polygon[k].vertex});
             made_.parts.add(f, {polygon[i].weights, polygon[j].weights, polygon[k].weights});
-            made_.cell.push_back(piece.cell);
+            made_.cell.push_back(cell);
         }
     }
-
-    struct Divided {
-        Index low, high;  // Ends of a side.
-        PartPoint middle;
-    };
 
     const MeshView mesh_;
     const PlaneTree& tree_;
@@ -168,12 +182,7 @@ private:
     Ticker& ticker_;
     CutMesh made_;
     std::map<std::tuple<Index, Index, Index>, Index> vertex_at_;  // By ends and node.
-    // Of the face in work.
-    std::vector<Piece> pieces_;
-    std::vector<Divided> divided_;
-    // Of the polygon in work.
-    std::vector<double> distance_;
-    std::vector<int> sign_;
+    std::vector<Index> made_at_;  // Of each new vertex: the first node that made it.
 };
 
 }  // namespace

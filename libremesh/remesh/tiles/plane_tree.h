@@ -25,7 +25,9 @@ struct PlaneTree {
         Side below, above;  //!< Where normal.dot(p) is less, and more.
     };
 
-    std::vector<Node> nodes;  //!< The first one is the root; empty: there is one cell.
+    //! The root, then the nodes below it, then those above; these in the same order. Empty: there
+    //! is one cell.
+    std::vector<Node> nodes;
     Index num_cells = 1;
 
     [[nodiscard]] Side root() const { return {0, nodes.empty()}; }

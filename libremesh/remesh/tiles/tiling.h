@@ -11,7 +11,7 @@ namespace remesh {
 
 struct TilingOptions {
     Index num_vertices = 0;  //!< Of the mesh that is to be made.
-    Index per_tile = 8192;   //!< Vertices of a tile, at most.
+    Index per_tile = 0;      //!< > 0: vertices of a tile, at most.
     double spacing = 0;      //!< > 0, mesh units: of neighbouring vertices.
     Progress progress = {};
 };

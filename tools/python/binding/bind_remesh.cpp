@@ -167,6 +167,7 @@ void bind_remesh(py::module_& module) {
     options.def_readwrite("texture_seams", &RemeshOptions::texture_seams);
     options.def_readwrite("seed", &RemeshOptions::seed);
     options.def_readwrite("relax_steps", &RemeshOptions::relax_steps);
+    options.def_readwrite("samples_per_tile", &RemeshOptions::samples_per_tile);
     options.def_readwrite("keep_sites", &RemeshOptions::keep_sites);
     options.def_readwrite("fit", &RemeshOptions::fit);
     options.def_readwrite("num_threads", &RemeshOptions::num_threads);

@@ -28,6 +28,7 @@ constexpr Term terms[] = {
     {"face_lengths", "face_sizing"},
     {"densities", "density"},
     {"relax_steps", "relax"},
+    {"samples_per_tile", "tile"},
     {"feature_angle", "features"},
     {"texture_seams", "uv"},
 };

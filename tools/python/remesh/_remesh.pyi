@@ -34,6 +34,7 @@ class Options:
     texture_seams: list[list[int]]
     seed: int
     relax_steps: int
+    samples_per_tile: int
     keep_sites: bool
     fit: bool | None
     num_threads: int

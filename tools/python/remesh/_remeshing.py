@@ -95,6 +95,7 @@ def remesh(
     keep_sites: bool = False,
     init: str = "blue-noise",
     relax: int = 60,
+    tile: int = 8192,
     fit: bool | None = None,
     engine: str = "window",
     max_error: float | None = None,
@@ -162,6 +163,7 @@ def remesh(
       corner has none.
 
     How: ``init`` (``"blue-noise"``, ``"farthest"``, ``"random"``), ``relax`` steps, ``fit``,
+    ``tile`` (vertices of a tile, at most: large results are made in tiles; 0: in one piece),
     ``engine`` (``"window"``, ``"steiner"``), ``max_error``, ``steiner_points``,
     ``delaunay`` (``"intrinsic"``, ``"extrinsic"``, ``"off"``), ``seed``, ``threads`` (0: all
     cores; the same bytes for any number).
@@ -224,6 +226,7 @@ def remesh(
     options.fill_holes = _arrays.whole(fill_holes, "fill_holes")
     options.init = init
     options.relax_steps = _arrays.whole(relax, "relax", 0, 1_000_000)
+    options.samples_per_tile = _arrays.whole(tile, "tile", 0, 1_000_000_000)
     options.fit = None if fit is None else bool(fit)
     options.engine = engine
     options.max_error = None if max_error is None else _arrays.number(max_error, "max_error")
