@@ -5,7 +5,9 @@ function(agvd_flags target)
         UNITY_BUILD ${AGVD_UNITY} UNITY_BUILD_BATCH_SIZE 8)
     # Roots without errno or traps keep their values and are half as long.
     target_compile_options(${target} PRIVATE
-        -ffp-contract=off -fno-math-errno -fno-trapping-math -Wall -Wextra -Wshadow -Wconversion $<$<BOOL:${AGVD_WERROR}>:-Werror>)
+        -ffp-contract=off -fno-math-errno -fno-trapping-math -Wall -Wextra -Wshadow $<$<BOOL:${AGVD_WERROR}>:-Werror>)
+    # Where sizes have 32 bits, more conversions change something.
+    target_compile_options(${target} PRIVATE $<$<NOT:$<PLATFORM_ID:Emscripten>>:-Wconversion>)
     # Vectorised, sums of three have another order. What users compile with is aligned to 16 bytes.
     target_compile_definitions(${target} PRIVATE EIGEN_DONT_VECTORIZE EIGEN_MAX_STATIC_ALIGN_BYTES=16)
     # Despite -ffp-contract=off, gcc's vectorizer fuses products and sums where the processor can.
