@@ -150,8 +150,8 @@ SourceFile load_file(const std::filesystem::path& path, Poller& poller) {
     while (true) {
         constexpr std::size_t most_at_once = 1 << 24;  // Some milliseconds.
         wait_for_bytes(in.fd, poller);
-        const ssize_t got = ::read(in.fd, bytes.data() + length,
-                                   std::min(most_at_once, bytes.size() - length));
+        const ssize_t got =
+            ::read(in.fd, bytes.data() + length, std::min(most_at_once, bytes.size() - length));
         if (got < 0 && (errno == EINTR || errno == EAGAIN)) continue;
         if (got < 0) fail_to_read(path, errno);
         if (got == 0) break;

@@ -28,14 +28,12 @@ remesh_shortest_digits(double value, int is_float, char* digits);
 namespace std {  // NOLINT(cert-dcl58-cpp)
 
 template <typename To, typename From>
-    requires(sizeof(To) == sizeof(From))
-constexpr To bit_cast(const From& from) noexcept {
+requires(sizeof(To) == sizeof(From)) constexpr To bit_cast(const From& from) noexcept {
     return __builtin_bit_cast(To, from);
 }
 
 template <typename Array>
-    requires is_unbounded_array_v<Array>
-unique_ptr<Array> make_unique_for_overwrite(size_t count) {
+requires is_unbounded_array_v<Array> unique_ptr<Array> make_unique_for_overwrite(size_t count) {
     return unique_ptr<Array>(new remove_extent_t<Array>[count]);
 }
 
@@ -66,7 +64,7 @@ template <typename Value>
 atomic_ref(Value&) -> atomic_ref<Value>;
 
 template <typename Value, size_t size>
-    requires requires(const Value& value) { value <=> value; }
+requires requires(const Value& value) { value <=> value; }
 constexpr auto operator<=>(const array<Value, size>& a, const array<Value, size>& b) {
     using Order = decltype(a[0] <=> b[0]);
     for (size_t i = 0; i < size; ++i) {
