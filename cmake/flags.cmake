@@ -31,7 +31,8 @@ function(agvd_flags target)
     endif()
 endfunction()
 
-# agvd_less_optimized(target): for sources without hot loops. They compile in two thirds of the time.
+# agvd_less_optimized(target): for sources without hot loops. They compile in two thirds of the time, or are small where
+# they are sent to browsers.
 function(agvd_less_optimized target)
-    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:$<IF:$<PLATFORM_ID:Emscripten>,-Os,-O1>>)
 endfunction()

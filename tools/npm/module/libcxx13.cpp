@@ -61,8 +61,19 @@ to_chars_result to_chars(char* first, char* last, float value) {
     return write_shortest(first, last, value, 1);
 }
 
-to_chars_result to_chars(char* first, char* last, double value, chars_format, int precision) {
-    return print(first, last, "%.*g", precision, value);
+to_chars_result to_chars(char* first, char* last, double value, chars_format format,
+                         int precision) {
+    const char* const form = format == chars_format::fixed        ? "%.*f"
+                             : format == chars_format::scientific ? "%.*e"
+                                                                  : "%.*g";
+    return print(first, last, form, precision, value);
+}
+
+template <>
+weak_ordering weak_order(const double& a, const double& b) {
+    const auto rank = [](double x) { return isnan(x) ? (signbit(x) ? -1 : 1) : 0; };
+    if (rank(a) != rank(b)) return rank(a) <=> rank(b);
+    return a < b ? weak_ordering::less : a > b ? weak_ordering::greater : weak_ordering::equivalent;
 }
 
 }  // namespace std

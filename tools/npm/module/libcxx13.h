@@ -162,7 +162,11 @@ constexpr auto max(const Range& range) {
 //! one. `last` is 32 or more behind `first`.
 to_chars_result to_chars(char* first, char* last, double value);
 to_chars_result to_chars(char* first, char* last, float value);
-//! As printf: only chars_format::general.
+//! As printf; not chars_format::hex.
 to_chars_result to_chars(char* first, char* last, double value, chars_format format, int precision);
+
+//! All NaN of one sign are equivalent.
+template <>
+weak_ordering weak_order(const double& a, const double& b);
 
 }  // namespace std
