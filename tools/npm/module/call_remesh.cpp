@@ -241,6 +241,21 @@ RemeshOptions options_of(const Request& request, Options& given, const MeshFile&
     return options;
 }
 
+// Of the values that the result gets; unset: all.
+std::optional<std::set<std::string>> names_to_transfer(Options& given) {
+    const Json* const names = given.find("transfer");
+    if (names == nullptr) return std::nullopt;
+    return names->get<std::set<std::string>>();
+}
+
+void keep_wanted(const std::set<std::string>& wanted, remesh::MeshAttributes& attributes) {
+    for (auto* kind : {&attributes.of_vertices, &attributes.of_faces}) {
+        std::erase_if(*kind, [&](const Attribute& one) { return !wanted.contains(one.name); });
+    }
+    if (!wanted.contains("material")) attributes.materials = {};
+    attributes.normals.reset();
+}
+
 // Where the vertices of the result lie on the input.
 void add_places(std::span<const agvd::SurfacePoint> places, Answer& answer) {
     std::vector<Index> faces;
@@ -258,13 +273,16 @@ void add_places(std::span<const agvd::SurfacePoint> places, Answer& answer) {
 Answer call_remesh(const Request& request) {
     Options given(request.json()["options"]);
     MeshFile input = mesh_of(request);
+    const auto wanted = names_to_transfer(given);
     remesh::TextureCoordinates& texture = input.attributes.texture;
+    if (wanted && !wanted->contains("uv")) texture = {};
     if (!texture.empty()) {
         texture.seams = remesh::find_texture_seams(input.mesh.view(), texture.corners);
     }
     RemeshOptions options = options_of(request, given, input);
     const bool is_strict = given.flag("strict");
     given.require_known();
+    if (wanted) keep_wanted(*wanted, input.attributes);
     const agvd::MeshView mesh = input.mesh.view();
     const std::size_t num_samples = cli::estimated_samples(options, mesh);
     Run run(cli::stages_of_remesh(mesh.triangles.size(), num_samples, true, options),

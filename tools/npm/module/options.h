@@ -50,10 +50,10 @@ public:
     //! \throw agvd::InvalidOption  an option was given that was not read.
     void require_known() const;
 
-private:
-    // The value; nullptr: not given.
+    //! The value; nullptr: not given.
     [[nodiscard]] const Json* find(const char* name);
 
+private:
     const Json& given_;
     std::set<std::string> known_;
 };
