@@ -10,9 +10,12 @@
 namespace npm {
 namespace {
 
-// As JavaScript would print it.
+// What JSON does not hold comes in parentheses: "(NaN)", "(function)".
 std::string shown(const Json& value) {
-    return value.is_string() ? "'" + value.get<std::string>() + "'" : value.dump();
+    if (!value.is_string()) return value.dump();
+    const std::string text = value.get<std::string>();
+    const bool is_special = text.starts_with('(') && text.ends_with(')');
+    return is_special ? text.substr(1, text.size() - 2) : "'" + text + "'";
 }
 
 [[noreturn]] void refuse(const char* name, const Json& value, const std::string& remedy) {

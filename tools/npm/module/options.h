@@ -15,7 +15,8 @@
 
 namespace npm {
 
-//! Reads options one by one; each read option is known. Numbers that are not finite come as texts.
+//! Reads options one by one; each read option is known. What JSON does not hold
+//! comes as a text in parentheses, such as "(NaN)".
 class Options {
 public:
     //! \param given  an object; outlives this.

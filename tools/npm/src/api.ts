@@ -2,7 +2,9 @@
 import { Answer, Request } from "./engine.js";
 import { refuse, RemeshError } from "./errors.js";
 import { addMesh, addShape, kindOf, Mesh, MeshInput, meshOf } from "./mesh.js";
-import { addOptions, addSites, DistanceOptions, namesToTransfer, RemeshOptions, requireObject, Sites } from "./options.js";
+import {
+  addOptions, addSites, DistanceOptions, namesToTransfer, plain, RemeshOptions, requireObject, Sites,
+} from "./options.js";
 
 /** How a call runs. */
 export interface RunOptions {
@@ -118,7 +120,7 @@ async function unpacked(bytes: Uint8Array, name: string): Promise<Uint8Array> {
 }
 
 const without = (text: string | undefined): string | undefined =>
-  text?.toLowerCase().endsWith(gzip) ? text.slice(0, -gzip.length) : text;
+  typeof text === "string" && text.toLowerCase().endsWith(gzip) ? text.slice(0, -gzip.length) : text;
 
 function checkRun(run: unknown): void {
   requireObject(run, "the third argument");
@@ -140,7 +142,7 @@ export function makeApi(runner: Runner): Api {
     const request = emptyRequest(call);
     addShape(mesh, request);
     addSites(sites, request);
-    request.options = { ...options };
+    request.options = plain(options);
     return request;
   };
   const api: Api = {
@@ -152,7 +154,7 @@ export function makeApi(runner: Runner): Api {
       addOptions({ ...options, transfer: namesToTransfer(mesh, options.transfer) }, counts, request);
       const answer = await runner.run(request, run);
       const { sourceFace, barycentric, keptVertices, keptFaces } = answer.arrays as Record<string, any>;
-      const made = meshOf(answer);
+      const made = meshOf(answer, "of type");
       if (mesh.positions instanceof Float32Array) made.positions = Float32Array.from(made.positions);
       const { report, warnings } = answer.json;
       return { ...made, sourceFace, barycentric, keptVertices, keptFaces, report, warnings } as Result;
@@ -177,12 +179,12 @@ export function makeApi(runner: Runner): Api {
       if (!(given instanceof Uint8Array)) refuse(`the bytes are ${kindOf(bytes)}; give a Uint8Array or an ArrayBuffer`);
       const request = emptyRequest("read");
       request.arrays.bytes = await unpacked(given, options.name ?? "the file");
-      request.options = { ...options };
+      request.options = plain(options);
       if (request.arrays.bytes !== given) {
-        Object.assign(request.options, { name: without(options.name), format: without(options.format) });
+        Object.assign(request.options, plain({ name: without(options.name), format: without(options.format) }));
       }
       const answer = await runner.run(request, run);
-      return { ...meshOf(answer), warnings: answer.json.warnings };
+      return { ...meshOf(answer, "all"), warnings: answer.json.warnings };
     },
 
     async writeMesh(mesh, options, run = {}) {
@@ -191,7 +193,7 @@ export function makeApi(runner: Runner): Api {
       const request = emptyRequest("write");
       addMesh(mesh, request);
       const target = options.format ?? options.name;
-      request.options = { ...options, name: without(options.name), format: without(options.format) };
+      request.options = plain({ ...options, name: without(options.name), format: without(options.format) });
       const answer = await runner.run(request, run);
       const bytes = answer.arrays.bytes as Uint8Array;
       const isPacked = typeof target === "string" && without(target) !== target;

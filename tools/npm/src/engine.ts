@@ -59,7 +59,7 @@ export class Engine {
       for (const [name, array] of Object.entries(request.arrays)) {
         arrays[name] = { at: this.place(array, used), count: array.length };
       }
-      const text = new TextEncoder().encode(JSON.stringify({ ...request, arrays }, withoutGaps));
+      const text = new TextEncoder().encode(JSON.stringify({ ...request, arrays }));
       const length = this.exports.call(this.place(text, used), text.length);
       return this.read(length);
     } finally {
@@ -133,13 +133,6 @@ export class Engine {
       },
     };
   }
-}
-
-// JSON has no NaN and no functions: they go as texts, which the module refuses by name.
-function withoutGaps(_key: string, value: unknown): unknown {
-  if (typeof value === "number" && !Number.isFinite(value)) return String(value);
-  if (typeof value === "function" || typeof value === "symbol" || typeof value === "bigint") return `[${typeof value}]`;
-  return value;
 }
 
 /**

@@ -12,6 +12,8 @@ export type Values = NumberArray | {
   names?: string[];
   /** A part of a colour, from 0 to 1, of a text format. */
   isIntensity?: boolean;
+  /** The type in files, if the array has more digits: those of a text. */
+  type?: "float32";
 };
 
 /** What remesh() and the like take. Nothing of it is changed. */
@@ -154,23 +156,26 @@ function addValues(data: Record<string, Values> | undefined, kind: string, count
 }
 
 /** The mesh of an answer. */
-export function meshOf({ json, arrays }: Answer): Mesh {
+export function meshOf({ json, arrays }: Answer, digits: "all" | "of type"): Mesh {
   const { vertexData, faceData, ...told } = json.mesh;
   const { positions, triangles, uv } = arrays;
   const kept = Object.entries(arrays).filter(([name]) => /^(image\.|facePolygon|featureEdges|lockedEdges|locked$)/.test(name));
   return {
     positions: positions as Float64Array, triangles: triangles as Uint32Array,
-    vertexData: valuesOf(vertexData, "vertexData", arrays), faceData: valuesOf(faceData, "faceData", arrays),
+    vertexData: valuesOf(vertexData, "vertexData", arrays, digits), faceData: valuesOf(faceData, "faceData", arrays, digits),
     ...(uv && { uv: uv as Float64Array }),
     file: { json: told, arrays: Object.fromEntries(kept) },
   };
 }
 
-function valuesOf(described: any[], kind: string, arrays: Answer["arrays"]): Record<string, Values> {
+function valuesOf(described: any[], kind: string, arrays: Answer["arrays"], digits: "all" | "of type"): Record<string, Values> {
   return Object.fromEntries(described.map(({ name, type, ...told }, i) => {
     const ArrayType = arrayTypes[type as keyof typeof arrayTypes];
-    const given = arrays[`${kind}.${i}`];
-    const values = given instanceof ArrayType ? given : ArrayType.from(given as Float64Array);
+    const given = arrays[`${kind}.${i}`] as Float64Array;
+    if (digits === "all" && type === "float32" && !given.every((x) => Object.is(x, Math.fround(x)))) {
+      return [name, { values: given, type, ...told }];
+    }
+    const values = given instanceof ArrayType ? given : ArrayType.from(given);
     return [name, Object.keys(told).length > 0 ? { values, ...told } : values];
   }));
 }

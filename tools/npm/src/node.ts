@@ -15,7 +15,9 @@ export async function compile(): Promise<WebAssembly.Module> {
 }
 
 function startWorker(): WorkerHandle {
-  const worker = new Worker(new URL("./worker.node.js", import.meta.url));
+  const worker = new Worker(new URL("./worker.node.js", import.meta.url), {
+    execArgv: [],  // Those of the process may not suit it.
+  });
   return {
     post: (message) => worker.postMessage(message),
     onMessage: (listen) => worker.on("message", (message: Message) => listen(message)),

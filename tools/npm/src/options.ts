@@ -75,6 +75,15 @@ export interface DistanceOptions {
   keepSlits?: boolean;
 }
 
+/** As JSON holds them. It has no NaN and no functions: they go as texts, which the module refuses by name. */
+export function plain(options: object): Record<string, unknown> {
+  return JSON.parse(JSON.stringify(options, (_key, value) => {
+    if (typeof value === "number" && !Number.isFinite(value)) return `(${value})`;
+    if (typeof value === "function" || typeof value === "symbol" || typeof value === "bigint") return `(${typeof value})`;
+    return value;
+  }));
+}
+
 export function requireObject(value: unknown, name: string): void {
   if (typeof value !== "object" || value === null || Array.isArray(value)) {
     refuse(`${name} is ${kindOf(value)}; give an object, such as { n: 2000 }`);
@@ -137,6 +146,7 @@ export function addOptions(options: RemeshOptions, counts: Counts, request: Requ
   }
   delete request.options.lock;
   delete request.options.featureEdges;
+  request.options = plain(request.options);
   if (sites === undefined) return;
   for (const name of ["n", "faces", "edgeLength", "maxDistance"]) {
     if (request.options[name] !== undefined) {

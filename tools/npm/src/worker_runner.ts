@@ -41,16 +41,15 @@ const mostMemory = 256 * 2 ** 20;
 
 export class WorkerRunner implements Runner {
   private module: Promise<WebAssembly.Module> | null = null;
+  /** The worker, once it is there. */
   private worker: WorkerHandle | null = null;
+  private starting: Promise<WorkerHandle> | null = null;
   private current: Job | null = null;
   private readonly waiting: Job[] = [];
 
   constructor(private readonly host: Host) {}
 
-  async start(): Promise<void> {
-    await this.load();
-    this.worker ??= await this.begin();
-  }
+  async start(): Promise<void> { await this.ready(); }
 
   stop(): void {
     this.dropWorker();
@@ -81,9 +80,19 @@ export class WorkerRunner implements Runner {
     return this.module;
   }
 
-  private async begin(): Promise<WorkerHandle> {
+  private ready(): Promise<WorkerHandle> {
+    if (this.starting) return this.starting;
+    const starting: Promise<WorkerHandle> = this.begin(() => this.starting === starting);
+    this.starting = starting;
+    starting.catch(() => { if (this.starting === starting) this.starting = null; });
+    return starting;
+  }
+
+  /** @param isWanted  false if it was dropped in between */
+  private async begin(isWanted: () => boolean): Promise<WorkerHandle> {
     const module = await this.load();
     const worker = this.host.startWorker();
+    if (isWanted()) this.worker = worker;
     worker.onMessage((message) => this.listen(worker, message));
     worker.onFailure((text) => this.fail(worker, new RemeshError("Error", text)));
     worker.hold(false);
@@ -95,13 +104,8 @@ export class WorkerRunner implements Runner {
     if (this.current || this.waiting.length === 0) return;
     const job = this.current = this.waiting.shift()!;
     try {
-      const worker = this.worker ?? await this.begin();
-      // It may have been ended in between.
-      if (this.current !== job) {
-        if (this.worker !== worker) worker.end();
-        return;
-      }
-      this.worker = worker;
+      const worker = await this.ready();
+      if (this.current !== job) return;  // It was ended in between.
       worker.hold(true);
       worker.post({ request: withOwnBuffers(job.request) });
     } catch (error) {
@@ -155,7 +159,8 @@ export class WorkerRunner implements Runner {
   }
 
   private dropWorker(): void {
-    this.worker?.end();
+    this.starting?.then((worker) => worker.end(), () => {});
+    this.starting = null;
     this.worker = null;
   }
 

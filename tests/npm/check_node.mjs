@@ -1,0 +1,58 @@
+// The package in Node: the bytes of the program, in a worker and on this thread, and all cases.
+//   node check_node.mjs PACKAGE REMESH DATA MESHES WORK
+import assert from "node:assert/strict";
+import { spawnSync } from "node:child_process";
+import { existsSync, mkdirSync, rmSync } from "node:fs";
+import { join, resolve } from "node:path";
+import { pathToFileURL } from "node:url";
+import { cases, workerCases } from "./cases.mjs";
+import { checksum, nativeRuns } from "./native.mjs";
+
+const [folder, program, data, meshes, work] = process.argv.slice(2).map((path) => resolve(path));
+if (!existsSync(join(folder, "remesh.wasm")) || !existsSync(program)) {
+  console.log("SKIPPED: the npm package has not been built; run scripts/wasm");
+  process.exit(77);
+}
+rmSync(work, { recursive: true, force: true });
+mkdirSync(work, { recursive: true });
+const { runs, read } = nativeRuns(program, [data, meshes], work);
+
+let passed = 0, failed = 0;
+async function test(name, body) {
+  try {
+    await body();
+    ++passed;
+    console.log(`passed: ${name}`);
+  } catch (error) {
+    ++failed;
+    console.log(`FAILED: ${name}\n${error.stack ?? error}`);
+  }
+}
+
+for (const entry of ["index.node.js", "direct.node.js"]) {
+  const remesh = await import(pathToFileURL(join(folder, entry)).href);
+  for (const { mesh, words, options, format, transfer, checksum: wanted } of runs) {
+    await test(`${entry}: remesh ${mesh} ${words.join(" ")} out.${format}: the program's bytes`, async () => {
+      const input = await remesh.readMesh(read(mesh), { name: mesh });
+      const made = await remesh.remesh(input, { ...options, ...(transfer && { transfer }) });
+      const { bytes } = await remesh.writeMesh(made, { format });
+      assert.equal(checksum(bytes), wanted);
+    });
+  }
+  for (const [name, body] of Object.entries({ ...cases, ...(entry.startsWith("index") && workerCases) })) {
+    await test(`${entry}: ${name}`, () => body(remesh, read));
+  }
+  remesh.stop();
+}
+
+await test("the process ends by itself", () => {
+  const script = `import { prepare } from ${JSON.stringify(pathToFileURL(join(folder, "index.node.js")).href)}; await prepare();`;
+  const { status, error } = spawnSync(process.execPath, ["--input-type=module", "-e", script], { timeout: 60_000 });
+  assert.deepEqual([status, error], [0, undefined]);
+});
+
+const wanted = 2 * runs.length + 2 * Object.keys(cases).length + Object.keys(workerCases).length + 1;
+assert.equal(passed + failed, wanted, "cases that ran");
+assert.ok(runs.length >= 15 && Object.keys(cases).length >= 10, "cases are missing");
+console.log(`${passed} of ${wanted} cases passed`);
+process.exit(failed > 0 ? 1 : 0);
