@@ -31,8 +31,7 @@ function(agvd_flags target)
     endif()
 endfunction()
 
-# agvd_less_optimized(target): for sources without hot loops. They compile in two thirds of the time, or are small where
-# they are sent to browsers.
+# agvd_less_optimized(target): for sources without hot loops. They compile in two thirds of the time.
 function(agvd_less_optimized target)
-    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:$<IF:$<PLATFORM_ID:Emscripten>,-Os,-O1>>)
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()

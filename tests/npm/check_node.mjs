@@ -2,7 +2,7 @@
 //   node check_node.mjs PACKAGE REMESH DATA MESHES WORK
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
-import { existsSync, mkdirSync, rmSync } from "node:fs";
+import { existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 import { cases, workerCases } from "./cases.mjs";
@@ -51,8 +51,22 @@ await test("the process ends by itself", () => {
   assert.deepEqual([status, error], [0, undefined]);
 });
 
-const wanted = 2 * runs.length + 2 * Object.keys(cases).length + Object.keys(workerCases).length + 1;
+// The examples of the document, each a program of its own.
+const documented = [...readFileSync(new URL("../../docs/javascript.md", import.meta.url), "utf8").matchAll(/```js\n(.*?)```/gs)];
+for (const [i, [, example]] of documented.entries()) {
+  await test(`example ${i + 1} of docs/javascript.md`, () => {
+    const file = join(work, `example${i}.mjs`);
+    const entry = pathToFileURL(join(folder, "index.node.js")).href;
+    writeFileSync(file, example.replace('"remesh-wasm"', JSON.stringify(entry)));
+    const { status, stdout, stderr } = spawnSync(process.execPath, [file], { encoding: "utf8", cwd: join(data, ".."), timeout: 60_000 });
+    assert.equal(status, 0, stderr);
+    const comments = [...example.matchAll(/console.log\(.*\/\/ (.*)/g)].map((match) => match[1]);
+    for (const comment of comments) assert.ok(stdout.includes(comment.split(",")[0]), `'${comment}' is not in '${stdout}'`);
+  });
+}
+
+const wanted = 2 * runs.length + 2 * Object.keys(cases).length + Object.keys(workerCases).length + 1 + documented.length;
 assert.equal(passed + failed, wanted, "cases that ran");
-assert.ok(runs.length >= 15 && Object.keys(cases).length >= 10, "cases are missing");
+assert.ok(runs.length >= 15 && documented.length >= 3 && Object.keys(cases).length >= 10, "cases are missing");
 console.log(`${passed} of ${wanted} cases passed`);
 process.exit(failed > 0 ? 1 : 0);
