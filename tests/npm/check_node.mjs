@@ -2,9 +2,9 @@
 //   node check_node.mjs PACKAGE REMESH DATA MESHES WORK
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
-import { existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { copyFileSync, existsSync, mkdirSync, readFileSync, rmSync, symlinkSync, writeFileSync } from "node:fs";
 import { join, resolve } from "node:path";
-import { pathToFileURL } from "node:url";
+import { fileURLToPath, pathToFileURL } from "node:url";
 import { cases, workerCases } from "./cases.mjs";
 import { checksum, nativeRuns } from "./native.mjs";
 
@@ -51,13 +51,27 @@ await test("the process ends by itself", () => {
   assert.deepEqual([status, error], [0, undefined]);
 });
 
+// As npm installs it.
+mkdirSync(join(work, "node_modules"));
+symlinkSync(folder, join(work, "node_modules/remesh-wasm"));
+
+await test("the types fit", () => {
+  copyFileSync(new URL("types.ts", import.meta.url), join(work, "types.ts"));
+  writeFileSync(join(work, "tsconfig.json"), JSON.stringify({
+    compilerOptions: { strict: true, noEmit: true, target: "ES2022", module: "nodenext", lib: ["ES2023", "DOM"], types: [] }, files: ["types.ts"],
+  }));
+  writeFileSync(join(work, "package.json"), '{ "type": "module" }');
+  const tsc = fileURLToPath(new URL("../../tools/viewer/node_modules/typescript/bin/tsc", import.meta.url));
+  const { status, stdout } = spawnSync(process.execPath, [tsc, "-p", work], { encoding: "utf8" });
+  assert.equal(status, 0, stdout);
+});
+
 // The examples of the document, each a program of its own.
 const documented = [...readFileSync(new URL("../../docs/javascript.md", import.meta.url), "utf8").matchAll(/```js\n(.*?)```/gs)];
 for (const [i, [, example]] of documented.entries()) {
   await test(`example ${i + 1} of docs/javascript.md`, () => {
     const file = join(work, `example${i}.mjs`);
-    const entry = pathToFileURL(join(folder, "index.node.js")).href;
-    writeFileSync(file, example.replace('"remesh-wasm"', JSON.stringify(entry)));
+    writeFileSync(file, example);
     const { status, stdout, stderr } = spawnSync(process.execPath, [file], { encoding: "utf8", cwd: join(data, ".."), timeout: 60_000 });
     assert.equal(status, 0, stderr);
     const comments = [...example.matchAll(/console.log\(.*\/\/ (.*)/g)].map((match) => match[1]);
@@ -65,7 +79,7 @@ for (const [i, [, example]] of documented.entries()) {
   });
 }
 
-const wanted = 2 * runs.length + 2 * Object.keys(cases).length + Object.keys(workerCases).length + 1 + documented.length;
+const wanted = 2 * runs.length + 2 * Object.keys(cases).length + Object.keys(workerCases).length + 2 + documented.length;
 assert.equal(passed + failed, wanted, "cases that ran");
 assert.ok(runs.length >= 15 && documented.length >= 3 && Object.keys(cases).length >= 10, "cases are missing");
 console.log(`${passed} of ${wanted} cases passed`);

@@ -104,7 +104,7 @@ export class Engine {
     return {
       env: {
         progress: (at: number, length: number, fraction: number) => {
-          const stage = new TextDecoder().decode(bytes().subarray(at, at + length));
+          const stage = new TextDecoder().decode(bytes().subarray(at >>> 0, (at >>> 0) + length));
           return this.tell(fraction, stage) ? 1 : 0;
         },
         shortest_digits: (value: number, isFloat: number, at: number) => {

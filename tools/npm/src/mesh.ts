@@ -134,6 +134,8 @@ export function addMesh(mesh: MeshInput, request: Request): Counts {
     faceData: addValues(mesh.faceData, "faceData", counts.faces, request),
   };
   Object.assign(request.arrays, mesh.file?.arrays);
+  // The faces are no longer those of the file.
+  if (request.arrays.facePolygon?.length !== counts.faces) delete request.arrays.facePolygon;
   if (mesh.uv !== undefined) {
     const uv = toDoubles(mesh.uv, "uv");
     if (uv.length !== 6 * counts.faces) {
