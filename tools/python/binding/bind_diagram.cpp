@@ -5,6 +5,7 @@
 #include "agvd/propagation/propagate.h"
 #include "binding/arrays.h"
 #include "binding/bindings.h"
+#include "binding/python_progress.h"
 #include "choices.h"
 #include "drawn_diagram.h"
 

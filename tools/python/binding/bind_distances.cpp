@@ -5,6 +5,7 @@
 
 #include "binding/arrays.h"
 #include "binding/bindings.h"
+#include "binding/python_progress.h"
 #include "given_surface.h"
 
 namespace python {

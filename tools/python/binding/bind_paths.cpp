@@ -3,6 +3,7 @@
 #include "agvd/propagation/propagate.h"
 #include "binding/arrays.h"
 #include "binding/bindings.h"
+#include "binding/python_progress.h"
 #include "given_surface.h"
 
 namespace python {

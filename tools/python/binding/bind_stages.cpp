@@ -4,6 +4,7 @@
 #include "agvd/mesh/closest_point.h"
 #include "binding/arrays.h"
 #include "binding/bindings.h"
+#include "binding/python_progress.h"
 #include "choices.h"
 #include "given_surface.h"
 #include "remesh/sites/prepared_surface.h"
