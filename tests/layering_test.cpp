@@ -34,7 +34,7 @@ struct Package {
 
 constexpr Package packages[] = {
     {"Eigen/", R"(agvd/core/types\.h)"},
-    {"tbb/", R"(agvd/core/parallel\.cpp)"},
+    {"tbb/", R"(agvd/core/shared_loop\.cpp)"},
     {"CGAL/", R"(remesh/clean/hole_triangles\.cpp|remesh/quality/.*\.cpp)"},
     {"OpenMesh/", R"(remesh/meshfile/(.*\.cpp|openmesh_exchange\.h))"},
     {"nlohmann/", R"(remesh/meshfile/(.*\.cpp|gltf_document\.h|materials\.h))"},

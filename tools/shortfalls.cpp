@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <string>
 
 #include "agvd/core/error.h"
+#include "agvd/core/number_text.h"
 
 namespace cli {
 namespace {
@@ -121,11 +121,9 @@ double spacing_of(const remesh::RemeshResult& result) {
 }  // namespace
 
 std::string welded_slit_text(double length) {
-    std::ostringstream text;
-    text << "a slit of length " << length
-         << " in mesh units was welded, as its two sides lie at one place; use --keep-slits to "
-            "leave it open, unless it is a seam of a texture";
-    return text.str();
+    return "a slit of length " + agvd::number_text(length) +
+           " in mesh units was welded, as its two sides lie at one place; use --keep-slits to "
+           "leave it open, unless it is a seam of a texture";
 }
 
 std::vector<std::string> shortfalls_of(const remesh::RemeshResult& result,

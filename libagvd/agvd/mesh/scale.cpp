@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "agvd/core/error.h"
+#include "agvd/core/number_text.h"
 #include "agvd/core/parallel.h"
 
 namespace agvd {
@@ -54,10 +54,9 @@ bool is_in_scale(double longest_side) {
 void check_scale(const MeshBox& box) {
     const double side = box.longest_side();
     if (is_in_scale(side)) return;
-    std::ostringstream text;
-    text << "the mesh is " << side << " long; scale it to a length between "
-         << std::ldexp(1.0, -max_scale) << " and " << std::ldexp(1.0, max_scale);
-    throw InvalidInput(text.str());
+    throw InvalidInput("the mesh is " + number_text(side) + " long; scale it to a length between " +
+                       number_text(std::ldexp(1.0, -max_scale)) + " and " +
+                       number_text(std::ldexp(1.0, max_scale)));
 }
 
 void check_digits(const MeshBox& box) {
@@ -65,11 +64,11 @@ void check_digits(const MeshBox& box) {
     const double farthest = std::max(box.high.maxCoeff(), -box.low.minCoeff());
     constexpr int most_lost = std::numeric_limits<double>::digits - least_bits;
     if (box.longest_side() >= std::ldexp(farthest, -most_lost)) return;
-    std::ostringstream text;
-    text << "the mesh is " << box.longest_side() << " long, but lies " << farthest
-         << " from the origin, so that its coordinates have too few digits for its shape; "
-            "move it to the origin before you save it";
-    throw InvalidInput(text.str());
+    throw InvalidInput(
+        "the mesh is " + number_text(box.longest_side()) + " long, but lies " +
+        number_text(farthest) +
+        " from the origin, so that its coordinates have too few digits for its shape; move it to "
+        "the origin before you save it");
 }
 
 void check_spread(const MeshView& mesh, const MeshBox& box) {
@@ -100,11 +99,11 @@ void check_spread(const MeshView& mesh, const MeshBox& box) {
             if (distance(mesh.positions[v]) > distance(mesh.positions[farthest])) farthest = v;
         }
     }
-    std::ostringstream text;
-    text << "vertex " << farthest << " is " << distance(mesh.positions[farthest]) / most
-         << " times as far from the middle of the mesh as three quarters of its vertices; correct "
-            "its coordinates, or remove its faces";
-    throw InvalidInput(text.str());
+    throw InvalidInput(
+        "vertex " + std::to_string(farthest) + " is " +
+        number_text(distance(mesh.positions[farthest]) / most) +
+        " times as far from the middle of the mesh as three quarters of its vertices; correct its "
+        "coordinates, or remove its faces");
 }
 
 void check_width(const MeshView& mesh, Ticker& ticker) {
@@ -126,11 +125,11 @@ void check_width(const MeshView& mesh, Ticker& ticker) {
         longest_needle = f;
     }
     if (!(area_of_needles > area / 2)) return;
-    std::ostringstream text;
-    text << "most of the surface consists of needles, such as face " << longest_needle
-         << ", which is narrower than " << least_width
-         << " of its length; correct the coordinates of its corners, or remove such faces";
-    throw InvalidInput(text.str());
+    throw InvalidInput("most of the surface consists of needles, such as face " +
+                       std::to_string(longest_needle) + ", which is narrower than " +
+                       number_text(least_width) +
+                       " of its length; correct the coordinates of its corners, or remove such "
+                       "faces");
 }
 
 TriangleMesh scaled(const MeshView& mesh, int exponent) {

@@ -108,7 +108,8 @@ private:
         const auto begin =
             std::lower_bound(levels_.begin(), levels_.end(), low - longest, is_lower);
         const auto end = std::lower_bound(begin, levels_.end(), high + longest, is_lower);
-        return {begin, end};
+        return std::span(levels_).subspan(static_cast<std::size_t>(begin - levels_.begin()),
+                                          static_cast<std::size_t>(end - begin));
     }
     [[nodiscard]] std::optional<Index> first_without_relays() const {
         Index next = 0;  // Of the mixed faces.

@@ -67,7 +67,8 @@ private:
                              [](const PlacedSite& p, Index f) { return p.point.face.value() < f; });
         auto last = first;
         while (last != placed_.end() && last->point.face.value() == face) ++last;
-        return {first, last};
+        return std::span(placed_).subspan(static_cast<std::size_t>(first - placed_.begin()),
+                                          static_cast<std::size_t>(last - first));
     }
 
     std::vector<PlacedSite> placed_;  // By (face, site).

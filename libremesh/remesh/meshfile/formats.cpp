@@ -32,6 +32,13 @@ constexpr MeshFormat formats[] = {
     {"gltf", read_gltf, format_gltf, gltf_holds, true, TexturePlace::Corners, any_float,
      MaterialPlace::All, "meter"}};
 
+MeshFile read_source(const MeshFormat& format, SourceFile file, const ReadOptions& options) {
+    file.is_lenient = options.is_lenient;
+    file.with_attributes = options.with_attributes;
+    if (is_gzip(file.bytes)) unpack_gzip(file);
+    return format.read(std::move(file));
+}
+
 }  // namespace
 
 std::string lower_extension(const std::filesystem::path& path) {
@@ -114,11 +121,14 @@ MeshFile read_mesh(const std::filesystem::path& path, const ReadOptions& options
     Poller poller(options.progress);
     poller.poll();
     const MeshFormat& format = require_format({path, options.format});
-    SourceFile file = load_file(path, poller);
-    file.is_lenient = options.is_lenient;
-    file.with_attributes = options.with_attributes;
-    if (is_gzip(file.bytes)) unpack_gzip(file);
-    return format.read(std::move(file));
+    return read_source(format, load_file(path, poller), options);
+}
+
+MeshFile read_mesh_bytes(std::string bytes, const std::filesystem::path& name,
+                         const ReadOptions& options) {
+    Poller poller(options.progress);
+    const MeshFormat& format = require_format({name, options.format});
+    return read_source(format, take_bytes(name, std::move(bytes), poller), options);
 }
 
 MeshFile read_mesh(const std::filesystem::path& path, const Progress& progress) {

@@ -83,13 +83,15 @@ void GltfDocument::read_chunks() {
         file_.fail_damaged(glb_header_size, "the first chunk is not JSON");
     }
     require_size(json_begin + json_size);
-    const std::size_t next = json_begin + json_size;
+    const auto next = static_cast<std::size_t>(json_begin + json_size);
     if (next + glb_chunk_header_size <= bytes.size() &&
         load<std::uint32_t>(&bytes[next + 4]) == bin_chunk) {
-        bin_ = {next + glb_chunk_header_size, load<std::uint32_t>(&bytes[next])};
-        require_size(bin_.begin + bin_.size);
+        const std::uint64_t size = load<std::uint32_t>(&bytes[next]);
+        const std::size_t begin = next + glb_chunk_header_size;
+        require_size(begin + size);
+        bin_ = {begin, static_cast<std::size_t>(size)};
     }
-    text_ = {json_begin, json_size};
+    text_ = {json_begin, next - json_begin};
 }
 
 void GltfDocument::read_buffers() {
@@ -153,7 +155,7 @@ GltfDocument::Range GltfDocument::range_of_view(const nlohmann::json& view,
     if (begin > all.size || size > all.size - begin) {
         fail(name, " does not lie within the data of the file");
     }
-    return {all.begin + begin, size};
+    return {all.begin + static_cast<std::size_t>(begin), static_cast<std::size_t>(size)};
 }
 
 const nlohmann::json& GltfDocument::at(const char* list_name, std::uint64_t index) const {

@@ -214,6 +214,12 @@ struct ReadOptions {
 //! The same with options.
 [[nodiscard]] MeshFile read_mesh(const std::filesystem::path& path, const ReadOptions& options);
 
+//! The same from the bytes of a file.
+//! \param name  for texts, and for the format if options.format is empty; a .gltf may not name files
+//!              beside it that are not there.
+[[nodiscard]] MeshFile read_mesh_bytes(std::string bytes, const std::filesystem::path& name,
+                                       const ReadOptions& options = {});
+
 //! Appends the corners.size() - 2 triangles of one polygon, oriented like it.
 //!
 //! A quad is cut along the shorter of the diagonals that lie inside; a larger polygon by clipping

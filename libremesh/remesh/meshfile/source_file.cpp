@@ -136,7 +136,6 @@ std::string SourceFile::judge_rest(std::size_t offset, const std::string& kind,
 }
 
 SourceFile load_file(const std::filesystem::path& path, Poller& poller) {
-    SourceFile file{.path = path, .bytes = {}, .ticker = Ticker(poller)};
     const Descriptor in = open_for_reading(path);
     if (in.fd < 0) fail_to_read(path, errno);
     struct stat status {};
@@ -146,13 +145,13 @@ SourceFile load_file(const std::filesystem::path& path, Poller& poller) {
 
     // One byte more than the size, so that the end is seen without a second growth. The size of a
     // pipe is unknown: its buffer grows.
-    file.bytes.resize(static_cast<std::size_t>(std::max<off_t>(status.st_size, 1 << 16)) + 1);
+    std::string bytes(static_cast<std::size_t>(std::max<off_t>(status.st_size, 1 << 16)) + 1, '\0');
     std::size_t length = 0;
     while (true) {
         constexpr std::size_t most_at_once = 1 << 24;  // Some milliseconds.
         wait_for_bytes(in.fd, poller);
-        const ssize_t got = ::read(in.fd, file.bytes.data() + length,
-                                   std::min(most_at_once, file.bytes.size() - length));
+        const ssize_t got =
+            ::read(in.fd, bytes.data() + length, std::min(most_at_once, bytes.size() - length));
         if (got < 0 && (errno == EINTR || errno == EAGAIN)) continue;
         if (got < 0) fail_to_read(path, errno);
         if (got == 0) break;
@@ -162,10 +161,15 @@ SourceFile load_file(const std::filesystem::path& path, Poller& poller) {
                 joined(path.string(), ": the file does not end within ", most >> 20,
                        " MB; name a file that ends, or save what a pipe brings to a file"));
         }
-        if (length == file.bytes.size()) file.bytes.resize(std::min(2 * length, most + 1));
+        if (length == bytes.size()) bytes.resize(std::min(2 * length, most + 1));
     }
-    file.bytes.resize(length);
-    if (length == 0) {
+    bytes.resize(length);
+    return take_bytes(path, std::move(bytes), poller);
+}
+
+SourceFile take_bytes(const std::filesystem::path& path, std::string bytes, Poller& poller) {
+    SourceFile file{.path = path, .bytes = std::move(bytes), .ticker = Ticker(poller)};
+    if (file.bytes.empty()) {
         throw IoError(joined(path.string(), ": the file is empty; export the file again"));
     }
     if (const auto order = utf16_order(file.bytes)) {

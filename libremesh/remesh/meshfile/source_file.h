@@ -54,6 +54,12 @@ struct SourceFile {
 //! \throw Cancelled  the poller asked for it, also while waiting for a pipe.
 [[nodiscard]] SourceFile load_file(const std::filesystem::path& path, Poller& poller);
 
+//! The same for bytes that were read before.
+//! \param path  for texts.
+//! \throw IoError  there are none.
+[[nodiscard]] SourceFile take_bytes(const std::filesystem::path& path, std::string bytes,
+                                    Poller& poller);
+
 //! With ASCII letters in lower case, whatever the locale.
 [[nodiscard]] std::string in_lower_case(std::string_view text);
 

@@ -3,14 +3,12 @@
 #pragma once
 
 #include <charconv>
-#include <iomanip>
 #include <iterator>
-#include <locale>
-#include <sstream>
 #include <string>
 #include <string_view>
 #include <type_traits>
 
+#include "agvd/core/number_text.h"
 #include "remesh/names.h"
 
 namespace remesh {
@@ -25,24 +23,13 @@ namespace detail {
     return std::to_string(count) + ' ' + (count == 1 ? noun : plural);
 }
 
-//! The number as a stream with this manipulator writes it, without a locale's comma.
-[[nodiscard]] inline std::string written(double value, int digits,
-                                         std::ios_base& (*form)(std::ios_base&)) {
-    std::ostringstream out;
-    out.imbue(std::locale::classic());
-    out << form << std::setprecision(digits) << value;
-    return out.str();
-}
-
 //! printf's %.*f.
 [[nodiscard]] inline std::string fixed(double value, int digits) {
-    return written(value, digits, std::fixed);
+    return number_text(value, digits, std::chars_format::fixed);
 }
 
 //! printf's %.4g.
-[[nodiscard]] inline std::string significant(double value) {
-    return written(value, 4, std::defaultfloat);
-}
+[[nodiscard]] inline std::string significant(double value) { return number_text(value, 4); }
 
 }  // namespace detail
 

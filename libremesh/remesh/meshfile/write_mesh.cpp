@@ -101,7 +101,7 @@ double shortest_edge(const MeshView& mesh, Ticker& ticker) {
     return shortest < std::numeric_limits<double>::infinity() ? shortest : 0;
 }
 
-std::string short_number(double value) { return detail::written(value, 3, std::defaultfloat); }
+std::string short_number(double value) { return number_text(value, 3); }
 
 }  // namespace
 

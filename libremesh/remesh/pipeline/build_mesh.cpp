@@ -33,9 +33,8 @@ void take_crossings(const std::optional<CrossingFaces>& crossings, const PlacedD
                     BuiltMesh& built) {
     if (!crossings) return;
     built.self_intersections = crossings->counts();
-    for_each_corner(crossings->added, placed.mesh.triangles, [&](Index v) {
-        built.crossing_corners.push_back(placed.mesh.points[v]);
-    });
+    for_each_corner(crossings->added, placed.mesh.triangles,
+                    [&](Index v) { built.crossing_corners.push_back(placed.mesh.points[v]); });
 }
 
 class MeshBuilder {
@@ -86,7 +85,8 @@ private:
             num_wanted = num_copies + static_cast<Index>(num_owning) - num_other_copies_;
             result.sites_dropped = static_cast<Index>(options.sites->size()) - num_wanted;
         }
-        if (options.vertex_count == VertexCount::Add) num_wanted = std::max(num_wanted, num_vertices());
+        if (options.vertex_count == VertexCount::Add)
+            num_wanted = std::max(num_wanted, num_vertices());
         return num_wanted;
     }
 
@@ -103,8 +103,7 @@ private:
             if (num_vertices() > num_wanted_) reduce();
             if (num_vertices() > num_wanted_) return num_vertices();
             if (!context_.options.sites) {
-                add_vertices(domain_, points_of_vertices(), num_wanted_ - num_vertices(),
-                             dual_);
+                add_vertices(domain_, points_of_vertices(), num_wanted_ - num_vertices(), dual_);
             }
             flip_edges();
             if (split_repeated(domain_, placed_.curves, points_of_vertices(), dual_) == 0) {
@@ -144,8 +143,8 @@ private:
         }
         const std::vector<Vec3> positions = positions_of_vertices();
         const StageClock clock(Stage::Dual, context_.result);
-        (void)reduce_vertices(positions, dual_.triangles, num_wanted_ + num_other_copies_,
-                              is_last, progress_of(Stage::Dual, context_.options));
+        (void)reduce_vertices(positions, dual_.triangles, num_wanted_ + num_other_copies_, is_last,
+                              progress_of(Stage::Dual, context_.options));
         const std::vector<Index> left =
             drop_unused(static_cast<Index>(dual_.points.size()), dual_.triangles);
         dual_.points = take(dual_.points, left);
@@ -190,7 +189,7 @@ private:
             before.push_back(v);
         }
         built.mesh = {take(built.mesh.positions, before),
-                       rename_vertices(built.mesh.triangles, after)};
+                      rename_vertices(built.mesh.triangles, after)};
         built.sites = take(built.sites, before);
     }
 

@@ -1,10 +1,10 @@
 #include "remesh/pipeline/domain.h"
 
 #include <algorithm>
-#include <sstream>
 #include <utility>
 
 #include "agvd/core/error.h"
+#include "agvd/core/number_text.h"
 #include "remesh/pipeline/cleaned_input.h"
 #include "remesh/pipeline/stage_context.h"
 
@@ -23,13 +23,12 @@ namespace {
         most = narrow;
         narrowest = Surface::face(h);
     }
-    std::ostringstream text;
-    text.precision(1);
-    text << "face " << (cleaned.face_origin.empty() ? narrowest : cleaned.face_origin[narrowest])
-         << " is " << std::scientific << most
-         << " times as long as high, and coordinates in double have too few digits for distances "
-            "on such parts; remove this part, and others like it, or make them wider";
-    throw InvalidInput(text.str());
+    const Index face = cleaned.face_origin.empty() ? narrowest : cleaned.face_origin[narrowest];
+    throw InvalidInput(
+        "face " + std::to_string(face) + " is " +
+        number_text(most, 1, std::chars_format::scientific) +
+        " times as long as high, and coordinates in double have too few digits for distances on "
+        "such parts; remove this part, and others like it, or make them wider");
 }
 
 }  // namespace

@@ -149,10 +149,10 @@ private:
             if (zone.is_fixed[i] == 0) placed.offsets[i].setZero();
         }
         if (context_.options.fit.value_or(true)) {
-            fit_vertices(prepared.base, nearest,
-                         sample_cells(prepared, nearest,
-                                      static_cast<Index>(zone.vertices.size()), progress),
-                         placed, 1, progress, rounding * curved_.spacing, zone.is_fixed);
+            fit_vertices(
+                prepared.base, nearest,
+                sample_cells(prepared, nearest, static_cast<Index>(zone.vertices.size()), progress),
+                placed, 1, progress, rounding * curved_.spacing, zone.is_fixed);
         }
         return placed;
     }

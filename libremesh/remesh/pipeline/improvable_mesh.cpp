@@ -34,10 +34,10 @@ std::vector<Mobility> find_mobility(const CurvedSurface& curved, const MeshCurve
     result.reserve(joined.mesh.points.size());
     for (Index v = 0; v < joined.mesh.points.size(); ++v) {
         const CurvePlace place = curves.place_of(joined.mesh.points[v]);
-        Mobility mobility = place.is_free()            ? Mobility::Free
-                            : place.curve != no_index  ? Mobility::Boundary
-                            : is_locked(place.node)    ? Mobility::Fixed
-                                                       : Mobility::Node;
+        Mobility mobility = place.is_free()           ? Mobility::Free
+                            : place.curve != no_index ? Mobility::Boundary
+                            : is_locked(place.node)   ? Mobility::Fixed
+                                                      : Mobility::Node;
         // A mesh may pass by a vertex on a curve, and a rim may lie off the boundary.
         if (!is_on_edge[v]) {
             if (place.node == no_index) mobility = Mobility::Free;
@@ -60,12 +60,12 @@ void improve_in_places(const CurvedSurface& curved, JoinedMesh& joined,
         if (shape_quality(at(a), at(b), at(c)) < low_quality) seeds.insert(seeds.end(), {a, b, c});
     }
     if (seeds.empty()) return;
-    const std::vector<Index> ring =
-        rings_around(mesh.triangles, mesh.points.size(), distinct(std::move(seeds)), rings_of_places);
+    const std::vector<Index> ring = rings_around(mesh.triangles, mesh.points.size(),
+                                                 distinct(std::move(seeds)), rings_of_places);
     std::vector<Index> triangles, vertices;
     for (Index t = 0; t < mesh.triangles.size(); ++t) {
-        const bool is_near = std::ranges::all_of(mesh.triangles[t],
-                                                 [&](Index v) { return ring[v] != no_index; });
+        const bool is_near =
+            std::ranges::all_of(mesh.triangles[t], [&](Index v) { return ring[v] != no_index; });
         if (!is_near) continue;
         triangles.push_back(t);
         vertices.insert(vertices.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());

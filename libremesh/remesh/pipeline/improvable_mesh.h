@@ -40,9 +40,8 @@ struct JoinedMesh {
                            std::optional<CrossingCounts>& crossings, const StageContext& context);
 
 //! Improves the bad triangles of a mesh that is large, or a tile of one: only what lies within some
-//! rings of them is looked at and changed. Crossings are not searched. Vertices that stay keep their
-//! numbers; `hard` is not kept up.
-//! Cost: O(#surface), and that of repair_shape there.
+//! rings of them is looked at and changed. Crossings are not searched. Vertices that stay keep
+//! their numbers; `hard` is not kept up. Cost: O(#surface), and that of repair_shape there.
 void improve_in_places(const CurvedSurface& curved, JoinedMesh& joined,
                        const StageContext& context);
 

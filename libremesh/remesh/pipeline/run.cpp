@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "agvd/core/number_text.h"
 #include "remesh/pipeline/build_mesh.h"
 #include "remesh/pipeline/coarse_input.h"
 #include "remesh/pipeline/crossings.h"
@@ -299,13 +300,6 @@ EnoughSamples find_enough(const CleanedInput& cleaned, const RemeshResult& after
     return {.count = more.num_samples, .is_too_few = true};
 }
 
-// In any locale.
-std::string three_digits(double value) {
-    char text[32];
-    const auto end = std::to_chars(text, std::end(text), value, std::chars_format::general, 3);
-    return {text, end.ptr};
-}
-
 // What is too little, and what would do, in the terms of the options.
 std::string describe_too_few(const TooFewSamples& failure, const EnoughSamples& enough,
                              const CleanedInput& cleaned, const RemeshOptions& options) {
@@ -318,13 +312,13 @@ std::string describe_too_few(const TooFewSamples& failure, const EnoughSamples& 
     const std::string least = enough.is_too_few ? "more than " : "";
     const auto* mean = std::get_if<MeanEdge>(&sizing.count);
     if (!options.sites && mean != nullptr) {
-        return "an edge length of " + three_digits(mean->length) + " is too long" + what + most +
-               three_digits(rounds_down * edge_length_for(enough.count, cleaned, options));
+        return "an edge length of " + number_text(mean->length, 3) + " is too long" + what + most +
+               number_text(rounds_down * edge_length_for(enough.count, cleaned, options), 3);
     }
     if (!options.sites && std::holds_alternative<CountOfLengths>(sizing.count)) {
         const double share = std::sqrt(static_cast<double>(failure.asked) / enough.count);
         return "the edge lengths given are too long" + what + "lengths " + most +
-               three_digits(rounds_down * share) + " times as long";
+               number_text(rounds_down * share, 3) + " times as long";
     }
     const auto* faces = std::get_if<NumFaces>(&sizing.count);
     if (!options.sites && faces != nullptr) {

@@ -84,8 +84,8 @@ public:
         return no_index;
     }
 
-    //! Whether an edge of the mesh between two places, free or not, can run along a curve with several
-    //! sides.
+    //! Whether an edge of the mesh between two places, free or not, can run along a curve with
+    //! several sides.
     [[nodiscard]] bool are_on_crease(const CurvePlace& a, const CurvePlace& b) const {
         const auto is_on = [&](const CurvePlace& place, Index curve) {
             const Curve& c = network_.curves[curve];

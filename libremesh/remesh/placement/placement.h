@@ -90,8 +90,7 @@ class MeshCurves;
 std::vector<Index> repair_shape(const detail::MeshCurves& curves,
                                 std::span<const detail::Mobility> mobility,
                                 std::span<const DirectedEdge> hard, PlacedMesh& mesh,
-                                const Progress& progress = {},
-                                std::span<const Index> faces = {});
+                                const Progress& progress = {}, std::span<const Index> faces = {});
 
 //! Whether a triangle has no area, as its corners lie on one line up to rounding: it is less than
 //! 1e-10 times as high as it is long.

@@ -81,8 +81,8 @@ private:
         if (from.vertex > to.vertex) return point_between(node, to, from, at_to, at_from);
         const double share = at_from / (at_from - at_to);
         std::vector<Vec3>& positions = made_.mesh.positions;
-        const auto [found, is_new] = vertex_at_.try_emplace(
-            {from.vertex, to.vertex, node}, static_cast<Index>(positions.size()));
+        const auto [found, is_new] = vertex_at_.try_emplace({from.vertex, to.vertex, node},
+                                                            static_cast<Index>(positions.size()));
         if (is_new) {
             positions.emplace_back((1 - share) * positions[from.vertex] +
                                    share * positions[to.vertex]);
@@ -142,8 +142,8 @@ private:
             divide(f, is_below ? node.below : node.above, polygon);
             return;
         }
-        const auto first = static_cast<std::size_t>(std::find(sign.begin(), sign.end(), 0) -
-                                                    sign.begin());
+        const auto first =
+            static_cast<std::size_t>(std::find(sign.begin(), sign.end(), 0) - sign.begin());
         const auto second = static_cast<std::size_t>(
             std::find(sign.begin() + static_cast<std::ptrdiff_t>(first) + 1, sign.end(), 0) -
             sign.begin());

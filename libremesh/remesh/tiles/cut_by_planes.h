@@ -10,7 +10,7 @@ namespace remesh {
 //! A mesh whose faces lie in one cell each.
 struct CutMesh {
     TriangleMesh mesh;        //!< Its first vertices are those of the mesh that was cut.
-    FaceOrigins parts;          //!< Where its faces lie on that mesh.
+    FaceOrigins parts;        //!< Where its faces lie on that mesh.
     std::vector<Index> cell;  //!< #F: up to `snap` in which cell of the tree each lies.
 };
 

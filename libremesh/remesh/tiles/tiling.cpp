@@ -35,7 +35,8 @@ public:
             if (cell_[f] == cell_[g]) part_.unite(f, g);
         });
         area_.assign(surface_.num_faces(), 0);
-        for (Index f = 0; f < surface_.num_faces(); ++f) area_[part_.root(f)] += face_area(surface_, f);
+        for (Index f = 0; f < surface_.num_faces(); ++f)
+            area_[part_.root(f)] += face_area(surface_, f);
         std::vector<Index> tile(cell_.begin(), cell_.end());  // Of a root.
         while (join_small(tile)) {
         }
@@ -61,8 +62,8 @@ private:
             const Index a = part_.root(f), b = part_.root(g);
             if (a == b) return;
             for (const auto& [small, other] : {std::pair(a, b), std::pair(b, a)}) {
-                const bool is_smaller = area_[small] < area_[other] ||
-                                        (area_[small] == area_[other] && small > other);
+                const bool is_smaller =
+                    area_[small] < area_[other] || (area_[small] == area_[other] && small > other);
                 if (area_[small] < least_area_ && is_smaller) {
                     border[{small, other}] += surface_.length[e];
                 }
@@ -120,12 +121,11 @@ private:
         area_ = surface_area(given_);
         const double tile_area = area_ * options_.per_tile / options_.num_vertices;
         const PlaneTree tree = divide_by_planes(middle, weight, tile_area, ticker_);
-        CutMesh cut = cut_by_planes(given_.mesh.view(), tree, snap_to_plane * options_.spacing,
-                                    ticker_);
+        CutMesh cut =
+            cut_by_planes(given_.mesh.view(), tree, snap_to_plane * options_.spacing, ticker_);
         made_.surface = build_surface(cut.mesh, 1, options_.progress);
         made_.parts = std::move(cut.parts);
-        made_.tile =
-            TileJoiner(made_.surface, cut.cell, least_share * tile_area, ticker_).run();
+        made_.tile = TileJoiner(made_.surface, cut.cell, least_share * tile_area, ticker_).run();
         const std::vector<Index> used = distinct(made_.tile);
         for (Index& t : made_.tile) t = rank_of(used, t);
         made_.num_tiles = static_cast<Index>(used.size());
@@ -196,9 +196,8 @@ private:
         const Surface& surface = made_.surface;
         if (curve.is_closed()) at -= curve.length() * std::floor(at / curve.length());
         const auto after = std::upper_bound(curve.up_to.begin(), curve.up_to.end(), at);
-        const std::size_t i =
-            std::clamp<std::ptrdiff_t>(after - curve.up_to.begin() - 1, 0,
-                                       static_cast<std::ptrdiff_t>(curve.num_edges()) - 1);
+        const std::size_t i = std::clamp<std::ptrdiff_t>(
+            after - curve.up_to.begin() - 1, 0, static_cast<std::ptrdiff_t>(curve.num_edges()) - 1);
         const double from_begin = at - curve.up_to[i], to_end = curve.up_to[i + 1] - at;
         const double snap = snap_to_vertex * options_.spacing;
         if (from_begin < snap || to_end < snap) {
@@ -207,8 +206,7 @@ private:
         }
         const Index e = surface.edge[curve.sides.front().half_edges[i]];
         const double share = share_before(at, curve.up_to[i], curve.up_to[i + 1]);
-        const bool is_along =
-            surface.tail(surface.edge_half[e]) == curve.vertex(surface, i);
+        const bool is_along = surface.tail(surface.edge_half[e]) == curve.vertex(surface, i);
         made_.sites.push_back({e, is_along ? share : 1 - share, made_.num_sites++});
     }
 
@@ -276,11 +274,14 @@ Tile take_tile(const Tiling& tiling, std::span<const Index> faces, Ticker ticker
             const Index h = 3 * patch.faces[f] + k, next = (k + 1) % 3;
             const auto& [from, to] = std::pair(mesh.triangles[f][k], mesh.triangles[f][next]);
             polygon.push_back({from, whole_face[k]});
-            const auto sites = std::ranges::equal_range(tiling.sites, tiling.surface.edge[h], {},
-                                                        &BorderSite::edge);
-            const bool is_along = tiling.surface.edge_half[tiling.surface.edge[h]] == h;
+            const Index edge = tiling.surface.edge[h];
+            const bool is_along = tiling.surface.edge_half[edge] == h;
             const auto first = polygon.end() - polygon.begin();
-            for (const BorderSite& site : sites) {
+            auto next_site =
+                std::lower_bound(tiling.sites.begin(), tiling.sites.end(), edge,
+                                 [](const BorderSite& site, Index e) { return site.edge < e; });
+            for (; next_site != tiling.sites.end() && next_site->edge == edge; ++next_site) {
+                const BorderSite& site = *next_site;
                 if (site.share == 0 || site.share == 1) {
                     tile.border_site[(site.share == 0) == is_along ? from : to] = site.number;
                     continue;
@@ -309,8 +310,7 @@ Tile take_tile(const Tiling& tiling, std::span<const Index> faces, Ticker ticker
             Triangle& made = tile.mesh.triangles.emplace_back();
             for (Index k = 0; k < 3; ++k) {
                 made[k] = polygon[t[k]].vertex;
-                corners[k] = tiling.parts
-                                 .to_whole({FaceId(patch.faces[f]), polygon[t[k]].weights})
+                corners[k] = tiling.parts.to_whole({FaceId(patch.faces[f]), polygon[t[k]].weights})
                                  .barycentric;
             }
             tile.parts.add(tiling.parts.face(patch.faces[f]), corners);

@@ -18,20 +18,20 @@ struct TilingOptions {
 
 //! A point of a border that becomes a vertex of the tiles on both sides.
 struct BorderSite {
-    Index edge;     //!< Of Tiling::surface.
-    double share;   //!< In [0, 1]: from the tail of its `edge_half`. 0 and 1: at the vertex there.
-    Index number;   //!< Of the site: sites at vertices are listed for each edge of the border there.
+    Index edge;    //!< Of Tiling::surface.
+    double share;  //!< In [0, 1]: from the tail of its `edge_half`. 0 and 1: at the vertex there.
+    Index number;  //!< Of the site: sites at vertices are listed for each edge of the border there.
 };
 
 //! Parts of a surface and the sites on their borders.
 struct Tiling {
-    Surface surface;                 //!< The given one, its faces cut where tiles meet.
-    FaceOrigins parts;                 //!< Where its faces lie on the given surface.
-    std::vector<Index> tile;         //!< #F.
+    Surface surface;          //!< The given one, its faces cut where tiles meet.
+    FaceOrigins parts;        //!< Where its faces lie on the given surface.
+    std::vector<Index> tile;  //!< #F.
     Index num_tiles = 0;
     std::vector<std::uint8_t> is_border;  //!< #E: 1 between two tiles.
     std::vector<BorderSite> sites;        //!< By edge, then along it.
-    Index num_sites = 0;             //!< On all borders.
+    Index num_sites = 0;                  //!< On all borders.
     std::vector<Index> num_inner;         //!< #tiles: vertices that are none of these sites.
 };
 
@@ -51,7 +51,7 @@ struct Tiling {
 //! its faces meet in several fans is a vertex for each fan.
 struct Tile {
     TriangleMesh mesh;
-    FaceOrigins parts;                 //!< Where its faces lie on the surface that was divided.
+    FaceOrigins parts;               //!< Where its faces lie on the surface that was divided.
     std::vector<Index> border_site;  //!< #V: its number; no_index: none.
 };
 

@@ -187,3 +187,27 @@ TEST(ReadMesh, RealMeshesHaveTheirCountsAndTopology) {
         EXPECT_EQ(topology.boundary_loops(), loops) << name;
     }
 }
+
+TEST(ReadMesh, BytesAreReadAsTheFileThatHoldsThem) {
+    const files::TemporaryFolder folder;
+    const std::string text = "OFF\r\n3 1 0\n0 0 0\n1 0 0\n0 1 0.5\n3 0 1 2\n";
+    std::string wide = "\xFF\xFE";  // The same in UTF-16.
+    for (const char c : text) wide += {c, '\0'};
+    for (const std::string& bytes : {text, wide}) {
+        files::write(folder / "a.off", bytes);
+        const remesh::MeshFile file = remesh::read_mesh(folder / "a.off");
+        const remesh::MeshFile read = remesh::read_mesh_bytes(bytes, "a.off");
+        EXPECT_EQ(read.mesh.positions, file.mesh.positions);
+        EXPECT_EQ(read.mesh.triangles, file.mesh.triangles);
+        const remesh::MeshFile named = remesh::read_mesh_bytes(bytes, "a", {.format = "off"});
+        EXPECT_EQ(named.mesh.positions, file.mesh.positions);
+    }
+    try {
+        static_cast<void>(remesh::read_mesh_bytes("OFF\n3 1 0\n", "sent.off"));
+        ADD_FAILURE() << "a truncated file has been read";
+    } catch (const IoError& error) {
+        EXPECT_EQ(std::string(error.what()).rfind("sent.off: line ", 0), 0U) << error.what();
+    }
+    EXPECT_THROW(static_cast<void>(remesh::read_mesh_bytes("", "a.off")), IoError);
+    EXPECT_THROW(static_cast<void>(remesh::read_mesh_bytes(text, "a.step")), IoError);
+}

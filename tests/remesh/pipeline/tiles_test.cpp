@@ -31,7 +31,8 @@ double mean_quality(const TriangleMesh& mesh) {
         const Vec3 u = mesh.positions[b] - mesh.positions[a],
                    v = mesh.positions[c] - mesh.positions[a], w = v - u;
         const double longest = std::max({u.norm(), v.norm(), w.norm()});
-        sum += 2 * std::sqrt(3.0) * u.cross(v).norm() / ((u.norm() + v.norm() + w.norm()) * longest);
+        sum +=
+            2 * std::sqrt(3.0) * u.cross(v).norm() / ((u.norm() + v.norm() + w.norm()) * longest);
     }
     return sum / static_cast<double>(mesh.triangles.size());
 }
@@ -61,8 +62,8 @@ TEST(Tiles, KeepTheTopologyOfRandomSurfaces) {
         const TriangleMesh mesh = random_surfaces::make(family, 1);
         const RemeshResult result = remesh::remesh(mesh.view(), with_samples(1500));
         EXPECT_EQ(result.mesh.positions.size(), 1500u);
-        EXPECT_TRUE(agvd::same_topology(agvd::analyze_topology(result.mesh.view()),
-                                        result.input_topology));
+        EXPECT_TRUE(
+            agvd::same_topology(agvd::analyze_topology(result.mesh.view()), result.input_topology));
         ++num_tried;
         num_tiled += result.tiles > 0 ? 1 : 0;
     }
@@ -161,8 +162,7 @@ TEST(Tiles, SizesThatAreTooSmallAreRefused) {
         (void)remesh::remesh(shapes::sphere(3).view(), options);
         FAIL();
     } catch (const agvd::InvalidOption& error) {
-        EXPECT_STREQ(error.what(),
-                     "samples_per_tile is 499; use 0, for one piece, or 500 or more");
+        EXPECT_STREQ(error.what(), "samples_per_tile is 499; use 0, for one piece, or 500 or more");
     }
 }
 

@@ -77,10 +77,9 @@ int check_cut(const TriangleMesh& mesh, const PlaneTree& tree, double snap) {
 }
 
 TEST(CutByPlanes, KeepsTheSurface) {
-    const std::vector<TriangleMesh> meshes{shapes::cube(),        shapes::sphere(2),
-                                           shapes::torus(12, 8),  shapes::tube(9, 4),
-                                           shapes::grid(1),       shapes::tetrahedron(),
-                                           shapes::lips(12, 8, 3)};
+    const std::vector<TriangleMesh> meshes{
+        shapes::cube(),  shapes::sphere(2),     shapes::torus(12, 8),  shapes::tube(9, 4),
+        shapes::grid(1), shapes::tetrahedron(), shapes::lips(12, 8, 3)};
     int num_cut = 0;
     for (const TriangleMesh& mesh : meshes) {
         for (const double num_cells : {2.0, 7.0, 60.0}) {

@@ -60,8 +60,7 @@ TEST(TriangulatePart, PointsOnSidesLeaveNoFlatTriangle) {
                                                            i / (1.0 + added[k]))});
                     }
                 }
-                const std::vector<Triangle> triangles =
-                    remesh::triangulate_part(corners, polygon);
+                const std::vector<Triangle> triangles = remesh::triangulate_part(corners, polygon);
                 EXPECT_EQ(triangles.size(), polygon.size() - 2);
                 double sum = 0;
                 for (const Triangle& t : triangles) {

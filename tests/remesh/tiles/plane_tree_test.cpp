@@ -65,8 +65,8 @@ TEST(PlaneTree, HasOneCellWhereThereIsNothingToDivide) {
 
 // Faces across an axis are common, and a plane along one would part them along jagged edges.
 TEST(PlaneTree, NoPlaneRunsAlongAnAxis) {
-    const PlaneTree tree = remesh::divide_by_planes(
-        shapes::sphere(3).positions, std::vector<double>(642, 1), 40, Ticker());
+    const PlaneTree tree = remesh::divide_by_planes(shapes::sphere(3).positions,
+                                                    std::vector<double>(642, 1), 40, Ticker());
     ASSERT_GE(tree.nodes.size(), 15u);
     for (const PlaneTree::Node& node : tree.nodes) {
         EXPECT_NEAR(node.normal.norm(), 1, 1e-15);

@@ -50,7 +50,8 @@ std::vector<TriangleMesh> meshes() {
 std::vector<std::uint8_t> sharp_edges(const Surface& surface) {
     std::vector<std::uint8_t> is_crease;
     const auto normal = [&](Index h) {
-        return agvd::doubled_normal(surface.mesh.positions, surface.mesh.triangles[Surface::face(h)])
+        return agvd::doubled_normal(surface.mesh.positions,
+                                    surface.mesh.triangles[Surface::face(h)])
             .normalized();
     };
     for (Index e = 0; e < surface.num_edges(); ++e) {

@@ -5,7 +5,8 @@
 
 #include "binding/arrays.h"
 #include "binding/bindings.h"
-#include "binding/given_surface.h"
+#include "binding/python_progress.h"
+#include "given_surface.h"
 
 namespace python {
 namespace {
@@ -14,7 +15,8 @@ using agvd::Index;
 using agvd::SurfacePoint;
 
 // #V: the least distance of the surface's vertices at the place of each vertex of the caller.
-std::vector<double> of_given_vertices(const GivenSurface& given, const agvd::Distances& found) {
+std::vector<double> of_given_vertices(const cli::GivenSurface& given,
+                                      const agvd::Distances& found) {
     std::vector<double> distances(given.surface().num_vertices(), agvd::infinity);
     for (std::size_t i = 0; i < found.vertices.size(); ++i) {
         distances[found.vertices[i]] = found.vertex_distance[i];
@@ -37,8 +39,9 @@ py::array_t<double> run_distances_at(const Doubles& positions, const Indices& tr
     if (has_targets) targets = points_of(target_faces, target_barycentric);
     PythonProgress progress(function, {{"clean", 1}, {"propagate", 3}});
     return to_array<double>(progress.run([&] {
-        const GivenSurface given(mesh, {.keep_slits = keep_slits, .num_threads = num_threads},
-                                 progress);
+        const cli::GivenSurface given(mesh, {.keep_slits = keep_slits,
+                                             .num_threads = num_threads,
+                                             .progress = progress.of("clean")});
         const agvd::Distances found = agvd::find_distances(given.surface(), given.to_surface(sites),
                                                            given.to_surface(targets),
                                                            {.max_distance = radius,
@@ -55,7 +58,7 @@ struct Ranks {
     std::vector<double> distances;
 };
 
-Ranks of_given_vertices(const GivenSurface& given, const agvd::KNearest& found) {
+Ranks of_given_vertices(const cli::GivenSurface& given, const agvd::KNearest& found) {
     std::vector<double> first;
     for (std::size_t i = 0; i < found.distance.size(); i += found.k) {
         first.push_back(found.distance[i]);
@@ -80,8 +83,9 @@ py::tuple run_nearest_sites(const Doubles& positions, const Indices& triangles,
     const std::vector<SurfacePoint> sites = points_of(faces, barycentric);
     PythonProgress progress(function, {{"clean", 1}, {"propagate", 3}});
     Ranks ranks = progress.run([&] {
-        const GivenSurface given(mesh, {.keep_slits = keep_slits, .num_threads = num_threads},
-                                 progress);
+        const cli::GivenSurface given(mesh, {.keep_slits = keep_slits,
+                                             .num_threads = num_threads,
+                                             .progress = progress.of("clean")});
         return of_given_vertices(given,
                                  agvd::k_nearest_sites(given.surface(), given.to_surface(sites), k,
                                                        {.max_error = max_error,

@@ -4,8 +4,8 @@
 #include "agvd/core/progress.h"
 #include "binding/arrays.h"
 #include "binding/bindings.h"
-#include "binding/choose.h"
 #include "binding/python_progress.h"
+#include "choose.h"
 #include "declined.h"
 #include "remesh/meshfile/atomic_file.h"
 #include "remesh/meshfile/mesh_file.h"
@@ -26,7 +26,7 @@ const char* type_name(NumberType type) {
 
 NumberType type_of(const std::string& name) {
     using enum NumberType;
-    return choose<NumberType>(
+    return cli::choose<NumberType>(
         "the type", name, {Int8, UInt8, Int16, UInt16, Int32, UInt32, Float32, Float64}, type_name);
 }
 

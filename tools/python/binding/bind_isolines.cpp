@@ -5,7 +5,8 @@
 
 #include "binding/arrays.h"
 #include "binding/bindings.h"
-#include "binding/given_surface.h"
+#include "binding/python_progress.h"
+#include "given_surface.h"
 
 namespace python {
 namespace {
@@ -60,8 +61,9 @@ py::dict run_isolines(const Doubles& positions, const Indices& triangles, const 
     const std::vector<SurfacePoint> sites = points_of(faces, barycentric);
     PythonProgress progress(function, {{"clean", 1}, {"propagate", 4}, {"isolines", 1}});
     DrawnLines lines = progress.run([&] {
-        const GivenSurface given(mesh, {.keep_slits = keep_slits, .num_threads = num_threads},
-                                 progress);
+        const cli::GivenSurface given(mesh, {.keep_slits = keep_slits,
+                                             .num_threads = num_threads,
+                                             .progress = progress.of("clean")});
         const agvd::Surface& surface = given.surface();
         const agvd::Propagation propagation =
             agvd::propagate(surface, given.to_surface(sites),

@@ -3,7 +3,8 @@
 #include "agvd/propagation/propagate.h"
 #include "binding/arrays.h"
 #include "binding/bindings.h"
-#include "binding/given_surface.h"
+#include "binding/python_progress.h"
+#include "given_surface.h"
 
 namespace python {
 namespace {
@@ -44,8 +45,9 @@ py::dict run_paths_to_sites(const Doubles& positions, const Indices& triangles,
     const std::vector<SurfacePoint> given_sites = points_of(site_faces, site_barycentric);
     PythonProgress progress(function, {{"clean", 1}, {"propagate", 4}, {"paths", 1}});
     return to_dict(progress.run([&] {
-        const GivenSurface given(mesh, {.keep_slits = keep_slits, .num_threads = num_threads},
-                                 progress);
+        const cli::GivenSurface given(mesh, {.keep_slits = keep_slits,
+                                             .num_threads = num_threads,
+                                             .progress = progress.of("clean")});
         const agvd::Surface& surface = given.surface();
         const std::vector<SurfacePoint> sites = given.to_surface(given_sites);
         const agvd::Propagation propagation =
@@ -74,8 +76,9 @@ py::dict run_paths_between(const Doubles& positions, const Indices& triangles, c
     const std::vector<SurfacePoint> ends = points_of(end_faces, end_barycentric);
     PythonProgress progress(function, {{"clean", 1}, {"paths", 5}});
     return to_dict(progress.run([&] {
-        const GivenSurface given(mesh, {.keep_slits = keep_slits, .num_threads = num_threads},
-                                 progress);
+        const cli::GivenSurface given(mesh, {.keep_slits = keep_slits,
+                                             .num_threads = num_threads,
+                                             .progress = progress.of("clean")});
         const std::vector<SurfacePoint> from = given.to_surface(starts);
         const std::vector<SurfacePoint> to = given.to_surface(ends);
         std::vector<agvd::PointPair> pairs;

@@ -3,9 +3,9 @@
 
 #include "binding/arrays.h"
 #include "binding/bindings.h"
-#include "binding/option_names.h"
 #include "binding/python_progress.h"
-#include "binding/terms.h"
+#include "binding/python_terms.h"
+#include "choices.h"
 #include "expected_stages.h"
 #include "remesh/pipeline/remesh.h"
 #include "remesh/transfer/transfer.h"
@@ -30,7 +30,7 @@ void add_choice(OptionsClass& options, const char* name, Choice RemeshOptions::*
     options.def_property(
         name, [=](const RemeshOptions& self) { return std::string(name_of(self.*field)); },
         [=](RemeshOptions& self, const std::string& value) {
-            self.*field = choose(name, value, choices, name_of);
+            self.*field = cli::choose(name, value, choices, name_of);
         });
 }
 
@@ -59,7 +59,7 @@ void add_choices(OptionsClass& options) {
     add_choice(options, "topology", &RemeshOptions::vertex_count,
                {VertexCount::Exact, VertexCount::Add}, vertex_count_name);
     add_choice(options, "boundary", &RemeshOptions::boundary, {Boundary::Keep, Boundary::Free},
-               boundary_name);
+               cli::boundary_name);
     add_choice(options, "init", &RemeshOptions::init,
                {Init::BlueNoise, Init::Farthest, Init::Random}, remesh::init_name);
     add_choice(options, "features", &RemeshOptions::features,
@@ -77,7 +77,7 @@ void add_propagation(OptionsClass& options) {
             return std::string(agvd::engine_name(self.propagation.engine));
         },
         [](RemeshOptions& self, const std::string& name) {
-            self.propagation.engine = engine_of(name);
+            self.propagation.engine = cli::engine_of(name);
         });
     options.def_property(
         "max_error", [](const RemeshOptions& self) { return self.propagation.max_error; },

@@ -4,8 +4,9 @@
 #include "agvd/mesh/closest_point.h"
 #include "binding/arrays.h"
 #include "binding/bindings.h"
-#include "binding/given_surface.h"
-#include "binding/option_names.h"
+#include "binding/python_progress.h"
+#include "choices.h"
+#include "given_surface.h"
 #include "remesh/sites/prepared_surface.h"
 #include "remesh/sites/sites.h"
 #include "report/report_common.h"
@@ -36,13 +37,14 @@ py::tuple run_sample(const Doubles& positions, const Indices& triangles, agvd::I
     const agvd::MeshView mesh = view_of(positions, triangles);
     PythonProgress progress(function, {{"clean", 1}, {"sample", 1}});
     const remesh::SamplingOptions options{.num_samples = num_samples,
-                                          .init = init_of(init),
-                                          .boundary = boundary_of(boundary),
+                                          .init = cli::init_of(init),
+                                          .boundary = cli::boundary_of(boundary),
                                           .seed = seed,
                                           .num_threads = num_threads,
                                           .progress = progress.of("sample")};
     return to_arrays(progress.run([&] {
-        const GivenSurface given(mesh, {.num_threads = num_threads}, progress);
+        const cli::GivenSurface given(
+            mesh, {.num_threads = num_threads, .progress = progress.of("clean")});
         return given.to_given(remesh::sample_sites(given.surface(), options));
     }));
 }
@@ -79,12 +81,13 @@ py::tuple run_relax(const Doubles& positions, const Indices& triangles, const In
                                        .tolerance = tolerance,
                                        .goes_on = rule.goes_on(),
                                        .is_fixed = std::move(is_fixed),
-                                       .boundary = boundary_of(boundary),
+                                       .boundary = cli::boundary_of(boundary),
                                        .num_threads = num_threads,
                                        .progress = progress.of("relax")};
     std::vector<double> energies;
     const py::tuple places = to_arrays(progress.run([&] {
-        const GivenSurface given(mesh, {.num_threads = num_threads}, progress);
+        const cli::GivenSurface given(
+            mesh, {.num_threads = num_threads, .progress = progress.of("clean")});
         const remesh::PreparedSurface prepared(given.surface(),
                                                remesh::mean_spacing(given.surface(), sites.size()),
                                                num_threads, progress.of("relax"));

@@ -1,7 +1,7 @@
 #include "binding/errors.h"
 
 #include "agvd/core/error.h"
-#include "binding/terms.h"
+#include "binding/python_terms.h"
 #include "memory_limit.h"
 
 namespace python {

@@ -7,8 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
+#include "agvd/core/number_text.h"
 #include "agvd/mesh/surface.h"
 #include "agvd/propagation/steiner/steiner_front.h"
 
@@ -154,13 +154,13 @@ bool is_in_reach(double error, double max_error, Index most_points) {
 
 [[noreturn]] void refuse(double max_error, const VertexErrors& errors, int rounds,
                          const SteinerCounts& counts, Index num_edges, const char* reason) {
-    std::ostringstream text;
-    text << "the Steiner engine cannot keep a maximal error of " << max_error << ": after round "
-         << rounds << ", with up to " << counts.most() << " Steiner points on an edge ("
-         << counts.total() / num_edges << " on average), the distance of vertex " << errors.worst
-         << " is off by " << errors.now[errors.worst] << ", and " << reason
-         << "; allow a larger error, or use the window engine";
-    throw ConstraintUnmet(text.str());
+    throw ConstraintUnmet(
+        "the Steiner engine cannot keep a maximal error of " + number_text(max_error) +
+        ": after round " + std::to_string(rounds) + ", with up to " +
+        std::to_string(counts.most()) + " Steiner points on an edge (" +
+        std::to_string(counts.total() / num_edges) + " on average), the distance of vertex " +
+        std::to_string(errors.worst) + " is off by " + number_text(errors.now[errors.worst]) +
+        ", and " + reason + "; allow a larger error, or use the window engine");
 }
 
 Propagation propagate_steiner_within(const Surface& surface, std::span<const SurfacePoint> sites,

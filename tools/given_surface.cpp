@@ -1,28 +1,16 @@
-#include "binding/given_surface.h"
+#include "given_surface.h"
 
 #include "remesh/clean/carry.h"
 
-namespace python {
+namespace cli {
 
 using agvd::Index;
 using agvd::SurfacePoint;
 
-namespace {
-
-remesh::CleanResult clean(const agvd::MeshView& mesh, remesh::CleanOptions cleaning,
-                          PythonProgress& progress) {
-    cleaning.progress = progress.of("clean");
-    return remesh::clean_input(mesh, cleaning);
-}
-
-}  // namespace
-
-GivenSurface::GivenSurface(const agvd::MeshView& mesh, remesh::CleanOptions cleaning,
-                           PythonProgress& progress)
+GivenSurface::GivenSurface(const agvd::MeshView& mesh, const remesh::CleanOptions& cleaning)
     : mesh_(mesh),
-      clean_(clean(mesh, cleaning, progress)),
-      surface_(
-          agvd::build_surface(clean_.mesh.view(), cleaning.num_threads, progress.of("clean"))) {}
+      clean_(remesh::clean_input(mesh, cleaning)),
+      surface_(agvd::build_surface(clean_.mesh.view(), cleaning.num_threads, cleaning.progress)) {}
 
 std::vector<SurfacePoint> GivenSurface::to_surface(const std::vector<SurfacePoint>& points) const {
     return remesh::to_cleaned(points, mesh_, clean_);
@@ -46,4 +34,4 @@ std::vector<Index> GivenSurface::vertices_of_least(std::span<const double> value
     return result;
 }
 
-}  // namespace python
+}  // namespace cli

@@ -1,23 +1,21 @@
 //! \file
-//! The caller's mesh, cleaned, as a surface.
+//! The caller's mesh, cleaned, as a surface: of the Python module and the npm package.
 #pragma once
 
 #include "agvd/mesh/mesh.h"
 #include "agvd/mesh/surface.h"
-#include "binding/python_progress.h"
 #include "remesh/clean/clean_input.h"
 
-namespace python {
+namespace cli {
 
 //! What all stages but remesh() work on. Points are carried between the caller's faces and those of
 //! the surface.
 class GivenSurface {
 public:
     //! \param mesh      outlives this.
-    //! \param cleaning  its progress is ignored.
+    //! \param cleaning  its progress is that of this whole.
     //! \throw as remesh::clean_input.
-    GivenSurface(const agvd::MeshView& mesh, remesh::CleanOptions cleaning,
-                 PythonProgress& progress);
+    GivenSurface(const agvd::MeshView& mesh, const remesh::CleanOptions& cleaning);
 
     [[nodiscard]] const agvd::Surface& surface() const { return surface_; }
     [[nodiscard]] std::vector<agvd::SurfacePoint> to_surface(
@@ -36,4 +34,4 @@ private:
     agvd::Surface surface_;
 };
 
-}  // namespace python
+}  // namespace cli

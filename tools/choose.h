@@ -1,5 +1,5 @@
 //! \file
-//! Choices of an option by their names.
+//! Choices of an option by their names, of the Python module and the npm package.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 #include "agvd/core/error.h"
 
-namespace python {
+namespace cli {
 
 //! \throw agvd::InvalidOption  no choice has this name; the text lists them.
 template <typename Choice>
@@ -23,4 +23,4 @@ template <typename Choice>
     throw agvd::InvalidOption(std::string(option) + " is '" + name + "'; use " + names);
 }
 
-}  // namespace python
+}  // namespace cli

@@ -1,12 +1,13 @@
 //! \file
-//! The choices of the libraries by name, as on the command line.
+//! The choices of the libraries by name, as on the command line: of the Python module and the npm
+//! package.
 #pragma once
 
 #include "agvd/propagation/propagate.h"
-#include "binding/choose.h"
+#include "choose.h"
 #include "remesh/sites/sites.h"
 
-namespace python {
+namespace cli {
 
 [[nodiscard]] inline remesh::Init init_of(const std::string& name) {
     using remesh::Init;
@@ -28,4 +29,4 @@ namespace python {
     return choose<Engine>("engine", name, {Engine::Window, Engine::Steiner}, agvd::engine_name);
 }
 
-}  // namespace python
+}  // namespace cli

@@ -1,0 +1,11 @@
+// Loops for a build without oneTBB, and so without threads.
+#include "agvd/core/shared_loop.h"
+
+namespace agvd {
+
+void run_shared(Index num_chunks, int, const std::function<void(Index chunk)>& run,
+                Poller& poller) {
+    run_in_order(num_chunks, run, poller);
+}
+
+}  // namespace agvd

@@ -1,0 +1,85 @@
+#include "drawn_diagram.h"
+
+#include "based_diagram.h"
+#include "given_surface.h"
+#include "remesh/dual/build_dual.h"
+
+namespace cli {
+namespace {
+
+using agvd::Index;
+
+// Values of the surface's vertices for those of the caller.
+template <typename Value>
+std::vector<Value> carry(const std::vector<Index>& places, const std::vector<Value>& values,
+                         Value none) {
+    std::vector<Value> result;
+    result.reserve(places.size());
+    for (const Index place : places) {
+        result.push_back(place == agvd::no_index ? none : values[place]);
+    }
+    return result;
+}
+
+Polylines draw(const agvd::Diagram& diagram, const agvd::MeshView& mesh) {
+    Polylines lines;
+    lines.offsets.push_back(0);
+    const auto add = [&](Index point) {
+        lines.points.push_back(agvd::position(mesh, diagram.points[point]));
+        lines.distances.push_back(diagram.point_distance[point]);
+    };
+    for (std::size_t e = 0; e < diagram.edges.size(); ++e) {
+        const Index begin = diagram.edge_points[e], end = diagram.edge_points[e + 1];
+        for (Index point = begin; point < end; ++point) add(point);
+        if (diagram.edges[e].tail == agvd::no_index && begin < end) add(begin);
+        lines.offsets.push_back(static_cast<Index>(lines.points.size()));
+    }
+    return lines;
+}
+
+}  // namespace
+
+DrawnDiagram draw_diagram(const agvd::MeshView& mesh,
+                          const std::vector<agvd::SurfacePoint>& given_sites,
+                          const agvd::PropagationOptions& options, bool keep_slits,
+                          const StageProgress& progress_of) {
+    const GivenSurface given(mesh, {.keep_slits = keep_slits,
+                                    .num_threads = options.num_threads,
+                                    .progress = progress_of("clean")});
+    const agvd::Surface& surface = given.surface();
+    const std::vector<agvd::SurfacePoint> sites = given.to_surface(given_sites);
+    BasedDiagram based = based_diagram(surface, sites, options, progress_of);
+    DrawnDiagram drawn;
+    drawn.diagram = std::move(based.diagram);
+    drawn.certified_error = based.certified_error;
+    drawn.cells = agvd::build_cells(drawn.diagram);
+    drawn.dual = remesh::build_dual(surface, drawn.diagram, progress_of("dual"));
+    drawn.lines = draw(drawn.diagram, surface.mesh.view());
+    for (const agvd::SurfacePoint& site : sites) {
+        drawn.site_positions.push_back(agvd::position(surface.mesh.view(), site));
+    }
+    const std::vector<Index> places = given.vertices_of_least(drawn.diagram.nearest_distance);
+    drawn.labels = carry(places, drawn.diagram.nearest_site, agvd::SiteId());
+    drawn.distances = carry(places, drawn.diagram.nearest_distance, agvd::infinity);
+    return drawn;
+}
+
+std::vector<double> vertex_distances(const agvd::MeshView& mesh,
+                                     const std::vector<agvd::SurfacePoint>& given_sites,
+                                     agvd::PropagationOptions options, bool keep_slits,
+                                     const StageProgress& progress_of) {
+    const GivenSurface given(mesh, {.keep_slits = keep_slits,
+                                    .num_threads = options.num_threads,
+                                    .progress = progress_of("clean")});
+    const std::vector<agvd::SurfacePoint> sites = given.to_surface(given_sites);
+    const agvd::IntrinsicTriangulation base =
+        base_for(given.surface(), sites.size(), progress_of("clean"));
+    options.progress = progress_of("propagate");
+    const agvd::Propagation propagation =
+        agvd::propagate(base.surface(), base.to_intrinsic(sites), options);
+    // The base's vertices begin with those of the surface.
+    return carry(given.vertices_of_least(propagation.vertex_distance), propagation.vertex_distance,
+                 agvd::infinity);
+}
+
+}  // namespace cli

@@ -1,0 +1,53 @@
+//! \file
+//! Diagrams and distances in the terms of the caller's mesh: of the Python module and the npm
+//! package.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "agvd/diagram/diagram.h"
+#include "agvd/propagation/propagate.h"
+
+namespace cli {
+
+//! A callback for each stage, by its name.
+using StageProgress = std::function<agvd::Progress(const char*)>;
+
+//! The edges of a diagram as polylines in space: closed ones end with their first point.
+struct Polylines {
+    std::vector<agvd::Vec3> points;
+    std::vector<double> distances;     //!< Of each point from its sites.
+    std::vector<agvd::Index> offsets;  //!< #edges + 1.
+};
+
+//! What a diagram is computed to: on the surface, and for the caller's vertices.
+struct DrawnDiagram {
+    agvd::Diagram diagram;
+    double certified_error = 0;
+    agvd::Cells cells;
+    std::vector<agvd::Triangle> dual;
+    Polylines lines;
+    std::vector<agvd::Vec3> site_positions;
+    //! #V: the nearest site; invalid where none reaches.
+    std::vector<agvd::SiteId> labels;
+    std::vector<double> distances;  //!< #V: infinity where no site reaches.
+};
+
+//! \param sites    on the caller's faces.
+//! \param options  their progress is ignored.
+//! \throw as remesh::clean_input, remesh::to_cleaned and agvd::propagate.
+[[nodiscard]] DrawnDiagram draw_diagram(const agvd::MeshView& mesh,
+                                        const std::vector<agvd::SurfacePoint>& sites,
+                                        const agvd::PropagationOptions& options, bool keep_slits,
+                                        const StageProgress& progress_of);
+
+//! #V: the distance of each of the caller's vertices from the nearest site; infinity where none
+//! reaches. Parameters and errors as above.
+[[nodiscard]] std::vector<double> vertex_distances(const agvd::MeshView& mesh,
+                                                   const std::vector<agvd::SurfacePoint>& sites,
+                                                   agvd::PropagationOptions options,
+                                                   bool keep_slits,
+                                                   const StageProgress& progress_of);
+
+}  // namespace cli
