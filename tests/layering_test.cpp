@@ -21,10 +21,10 @@ namespace {
 
 // The folders in the order in which the data passes through them.
 constexpr const char* folders[] = {
-    "agvd/core",        "agvd/mesh",      "agvd/intrinsic",  "agvd/propagation",
-    "agvd/diagram",     "agvd/paths",     "remesh",          "remesh/meshfile",
-    "remesh/clean",     "remesh/curves",  "remesh/dual",     "remesh/sites",
-    "remesh/tiles",     "remesh/placement", "remesh/quality", "remesh/transfer", "remesh/pipeline",
+    "agvd/core",       "agvd/mesh",       "agvd/intrinsic",  "agvd/propagation", "agvd/diagram",
+    "agvd/paths",      "remesh",          "remesh/meshfile", "remesh/clean",     "remesh/curves",
+    "remesh/dual",     "remesh/sites",    "remesh/tiles",    "remesh/placement", "remesh/quality",
+    "remesh/transfer", "remesh/pipeline",
 };
 
 struct Package {

@@ -24,10 +24,6 @@ constexpr Index rings_of_places = 8;
 
 std::vector<Mobility> find_mobility(const CurvedSurface& curved, const MeshCurves& curves,
                                     const JoinedMesh& joined) {
-    const auto& [network, patches, given] = *curved.plan;
-    const auto is_locked = [&](Index node) {
-        return std::ranges::binary_search(network.locked.vertices, network.network.nodes[node]);
-    };
     std::vector<bool> is_on_edge(joined.mesh.points.size(), false);
     for (const auto& [from, to] : joined.hard) is_on_edge[from] = is_on_edge[to] = true;
     std::vector<Mobility> result;
@@ -36,7 +32,7 @@ std::vector<Mobility> find_mobility(const CurvedSurface& curved, const MeshCurve
         const CurvePlace place = curves.place_of(joined.mesh.points[v]);
         Mobility mobility = place.is_free()           ? Mobility::Free
                             : place.curve != no_index ? Mobility::Boundary
-                            : is_locked(place.node)   ? Mobility::Fixed
+                            : curved.has_locked()     ? Mobility::Fixed
                                                       : Mobility::Node;
         // A mesh may pass by a vertex on a curve, and a rim may lie off the boundary.
         if (!is_on_edge[v]) {

@@ -44,7 +44,7 @@ public:
     //! \param surface  whole, with the faces that the vertices of the mesh lie in.
     //! \param near     its faces near the mesh, if it is a part of one; empty: all.
     //! Cost: O(#surface + #faces log #faces).
-    DistanceGuard(const EditedMesh& mesh, const Surface& surface, std::span<const Index> near)
+    DistanceGuard(const EditedMesh& mesh, const Surface& surface, std::span<const Index> near = {})
         : mesh_(mesh), samples_at_(mesh.num_faces()) {
         const FaceLabels parts = label_components(surface.twin);
         add_samples(surface, near, parts.of_face);

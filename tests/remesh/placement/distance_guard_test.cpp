@@ -89,6 +89,28 @@ TEST(DistanceGuard, ARidgeStaysUnlessItIsPaidFor) {
     EXPECT_TRUE(accepts(at(5, 4), 1));
 }
 
+// Of a part of the surface: what happens elsewhere is not seen.
+TEST(DistanceGuard, LooksAtTheGivenFacesAlone) {
+    const Guarded mesh(ridge(0.2));
+    const agvd::Vec3 centre = mesh.surface.mesh.positions[at(4, 4)];
+    std::vector<Index> near, far;
+    for (Index f = 0; f < mesh.surface.num_faces(); ++f) {
+        const auto [a, b, c] = corners_of(mesh.surface.mesh.view(), f);
+        (((a + b + c) / 3 - centre).norm() < 0.4 ? near : far).push_back(f);
+    }
+    ASSERT_GT(near.size(), 20u);
+    ASSERT_GT(far.size(), 20u);
+    const auto accepts = [&](const std::vector<Index>& faces) {
+        EditedMesh edited = mesh.edited();
+        DistanceGuard guard(edited, mesh.surface, faces);
+        const EditedMesh::Mark before = edited.mark();
+        EXPECT_TRUE(edited.collapse(at(4, 4), at(5, 4)));
+        return guard.accepts(edited.changed_since(before), 0);
+    };
+    EXPECT_FALSE(accepts(near));
+    EXPECT_TRUE(accepts(far));
+}
+
 // However much it is worth, no sample gets farther than 0.4 mean edges: here 0.057.
 TEST(DistanceGuard, ASampleStaysNear) {
     const auto accepts = [](double height) {
