@@ -41,7 +41,8 @@ std::vector<Index> faces_around(const Surface& surface, std::span<const SurfaceP
         if (seen.insert(f).second) open.emplace_back(f, position(mesh, point));
     }
     for (std::size_t i = 0; i < open.size(); ++i) {
-        const auto [face, start] = open[i];
+        const Index face = open[i].first;
+        const Vec3 start = open[i].second;
         for (Index h = 3 * face; h < 3 * face + 3; ++h) {
             if (surface.twin[h] == no_index) continue;
             const Index next = Surface::face(surface.twin[h]);

@@ -267,7 +267,8 @@ bool is_tiled(const CurvedSurface& curved, const RemeshOptions& options) {
 }
 
 std::optional<TiledMesh> mesh_tiles(const CurvedSurface& curved, const StageContext& context) {
-    const auto& [options, result] = context;
+    const RemeshOptions& options = context.options;
+    RemeshResult& result = context.result;
     const std::vector<std::uint8_t> is_crease = mark_creases(curved);
     Tiling tiling;
     {

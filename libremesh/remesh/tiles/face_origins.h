@@ -24,7 +24,7 @@ inline constexpr PartCorners whole_face{Weights{1, 0, 0}, Weights{0, 1, 0}, Weig
 //! A point between two others: those on one edge of the face stay exactly on it.
 [[nodiscard]] inline Weights between(const Weights& a, const Weights& b, double share) {
     Weights point;
-    for (int k = 0; k < 3; ++k) point[k] = (1 - share) * a[k] + share * b[k];
+    for (Index k = 0; k < 3; ++k) point[k] = (1 - share) * a[k] + share * b[k];
     return point;
 }
 
@@ -68,8 +68,8 @@ public:
         if (part_[part] == no_index) return {FaceId(face_[part]), point.barycentric};
         const PartCorners& corners = corners_[part_[part]];
         Weights sum{};
-        for (int k = 0; k < 3; ++k) {
-            for (int i = 0; i < 3; ++i) sum[i] += point.barycentric[k] * corners[k][i];
+        for (Index k = 0; k < 3; ++k) {
+            for (Index i = 0; i < 3; ++i) sum[i] += point.barycentric[k] * corners[k][i];
         }
         return {FaceId(face_[part]), sum};
     }

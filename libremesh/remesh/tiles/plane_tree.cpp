@@ -48,7 +48,7 @@ private:
     // \return the number of those that have about half of the weight; 0: they are at one place.
     std::size_t sort_to_half(std::span<Index> points, double half) {
         std::array<double, 3> spread{};
-        for (int d = 0; d < 3; ++d) {
+        for (Index d = 0; d < 3; ++d) {
             double sum = 0, squares = 0, weight = 0;
             for_each_ticked(points, ticker_, [&](Index p) {
                 const double at = directions[d].dot(points_[p] - points_[points[0]]);
@@ -58,7 +58,8 @@ private:
             });
             spread[d] = squares - sum * sum / weight;
         }
-        direction_ = std::max_element(spread.begin(), spread.end()) - spread.begin();
+        direction_ = static_cast<std::size_t>(std::max_element(spread.begin(), spread.end()) -
+                                              spread.begin());
         const Vec3& normal = directions[direction_];
         sort_ticked(points, ticker_, [&](Index a, Index b) {
             const double at_a = normal.dot(points_[a]), at_b = normal.dot(points_[b]);
@@ -76,7 +77,7 @@ private:
     const std::span<const double> weights_;
     const double most_weight_;
     Ticker& ticker_;
-    std::ptrdiff_t direction_ = 0;
+    std::size_t direction_ = 0;
     PlaneTree tree_;
 };
 

@@ -196,8 +196,9 @@ private:
         const Surface& surface = made_.surface;
         if (curve.is_closed()) at -= curve.length() * std::floor(at / curve.length());
         const auto after = std::upper_bound(curve.up_to.begin(), curve.up_to.end(), at);
-        const std::size_t i = std::clamp<std::ptrdiff_t>(
-            after - curve.up_to.begin() - 1, 0, static_cast<std::ptrdiff_t>(curve.num_edges()) - 1);
+        const auto last = static_cast<std::ptrdiff_t>(curve.num_edges()) - 1;
+        const auto i = static_cast<std::size_t>(
+            std::clamp<std::ptrdiff_t>(after - curve.up_to.begin() - 1, 0, last));
         const double from_begin = at - curve.up_to[i], to_end = curve.up_to[i + 1] - at;
         const double snap = snap_to_vertex * options_.spacing;
         if (from_begin < snap || to_end < snap) {
