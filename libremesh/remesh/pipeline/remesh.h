@@ -99,7 +99,7 @@ struct RemeshOptions {
     //! Results of more than 5/4 as many samples are made in tiles of at most so many: less memory,
     //! and threads work side by side. 500 or more, or 0: in one piece. Only where sites are relaxed, edges equally
     //! long, and there are no given sites, locked elements, junctions, nor Boundary::Free.
-    Index samples_per_tile = 8192;
+    Index samples_per_tile = 12'288;
     //! Whether vertices may leave the surface so that the triangles lie nearer to it. Unset: only
     //! if sites are relaxed.
     std::optional<bool> fit = {};

@@ -60,8 +60,8 @@ TEST(Tiles, KeepTheTopologyOfRandomSurfaces) {
     for (const char* family : random_surfaces::families()) {
         SCOPED_TRACE(family);
         const TriangleMesh mesh = random_surfaces::make(family, 1);
-        const RemeshResult result = remesh::remesh(mesh.view(), with_samples(1500));
-        EXPECT_EQ(result.mesh.positions.size(), 1500u);
+        const RemeshResult result = remesh::remesh(mesh.view(), with_samples(800));
+        EXPECT_EQ(result.mesh.positions.size(), 800u);
         EXPECT_TRUE(
             agvd::same_topology(agvd::analyze_topology(result.mesh.view()), result.input_topology));
         ++num_tried;
@@ -138,7 +138,7 @@ TEST(Tiles, BoundaryVerticesLieOnTheBoundary) {
 // Of all that excludes tiles one at a time.
 TEST(Tiles, AreNotMadeWhereTheyWouldBreakPromises) {
     const TriangleMesh mesh = shapes::sphere(4);
-    RemeshOptions few = with_samples(700), sampled = with_samples(2000), adaptive = sampled,
+    RemeshOptions few = with_samples(600), sampled = with_samples(800), adaptive = sampled,
                   locked = sampled, free = sampled, one = sampled;
     sampled.relax_steps = 0;
     adaptive.sizing.edges = remesh::AdaptiveEdges{};
@@ -151,7 +151,7 @@ TEST(Tiles, AreNotMadeWhereTheyWouldBreakPromises) {
         ++count;
     }
     EXPECT_EQ(count, 6);
-    EXPECT_EQ(remesh::remesh(shapes::round_pipe_on_plate(12).view(), with_samples(2000)).tiles, 0u);
+    EXPECT_EQ(remesh::remesh(shapes::round_pipe_on_plate(12).view(), with_samples(800)).tiles, 0u);
     EXPECT_GT(remesh::remesh(mesh.view(), with_samples(751)).tiles, 1u);
 }
 
