@@ -97,8 +97,9 @@ struct RemeshOptions {
     int relax_steps = RelaxOptions{}.steps;
     bool keep_sites = false;  //!< Given sites are not relaxed.
     //! Results of more than 5/4 as many samples are made in tiles of at most so many: less memory,
-    //! and threads work side by side. 500 or more, or 0: in one piece. Only where sites are relaxed, edges equally
-    //! long, and there are no given sites, locked elements, junctions, nor Boundary::Free.
+    //! and threads work side by side. 500 or more, or 0: in one piece. Only where sites are
+    //! relaxed, edges equally long, and there are no given sites, locked elements, junctions, nor
+    //! Boundary::Free.
     Index samples_per_tile = 12'288;
     //! Whether vertices may leave the surface so that the triangles lie nearer to it. Unset: only
     //! if sites are relaxed.
@@ -213,7 +214,7 @@ struct RemeshResult {
     double certified_error = std::numeric_limits<double>::infinity();
     //! Faces of the coarse surface that stood for the input (see docs/algorithm.md); 0: none did.
     Index coarse_faces = 0;
-    Index tiles = 0;  //!< In which the surface was meshed; 0: in one piece.
+    Index tiles = 0;                    //!< In which the surface was meshed; 0: in one piece.
     std::size_t propagation_bytes = 0;  //!< Peak of the last propagation, beyond the mesh.
     std::vector<std::pair<Stage, double>> seconds = {};  //!< Wall time spent in each stage.
 };
