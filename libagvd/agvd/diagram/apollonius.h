@@ -65,6 +65,25 @@ public:
         draw(breakpoints);
     }
 
+    //! Takes the inner points from those of its arcs that cross, O(n^2) for n pieces.
+    //! \return false: there are none.
+    [[nodiscard]] bool straighten() {
+        assert(chords_.size() == out_.arcs.size() - start_.arcs);
+        // Two segments that share an end do not cross.
+        if (chords_.size() + out_.points.size() - start_.points < 3) return false;
+        collect_segments();
+        bool is_any = false;
+        for (std::size_t i = 0; i < segments_.size(); ++i) {
+            for (std::size_t j = i + 1; j < segments_.size(); ++j) {
+                if (!do_cross(segments_[i], segments_[j])) continue;
+                out_.arcs[segments_[i].arc].num_points = 0;
+                out_.arcs[segments_[j].arc].num_points = 0;
+                is_any = true;
+            }
+        }
+        return is_any;
+    }
+
 private:
     // Steps that the distances contradict by more (share of the size) are drawn straight.
     static constexpr double largest_violation = 1e-3;
@@ -151,24 +170,6 @@ private:
             return (from < 0 && to > 0) || (from > 0 && to < 0);
         };
         return divides(s, t) && divides(t, s);
-    }
-
-    // Takes the inner points from arcs that cross, O(n^2) for n pieces. False: there are none.
-    [[nodiscard]] bool straighten() {
-        assert(chords_.size() == out_.arcs.size() - start_.arcs);
-        // Two segments that share an end do not cross.
-        if (chords_.size() + out_.points.size() - start_.points < 3) return false;
-        collect_segments();
-        bool is_any = false;
-        for (std::size_t i = 0; i < segments_.size(); ++i) {
-            for (std::size_t j = i + 1; j < segments_.size(); ++j) {
-                if (!do_cross(segments_[i], segments_[j])) continue;
-                out_.arcs[segments_[i].arc].num_points = 0;
-                out_.arcs[segments_[j].arc].num_points = 0;
-                is_any = true;
-            }
-        }
-        return is_any;
     }
 
     // Whether both sites are as near as the edge says.

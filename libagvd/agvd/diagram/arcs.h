@@ -2,11 +2,14 @@
 //! Arcs of bisectors inside triangles, and Voronoi edges as chains of them.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <span>
 #include <vector>
 
 #include "agvd/core/progress.h"
+#include "agvd/diagram/bisector_arc.h"
+#include "agvd/diagram/conic.h"
 #include "agvd/diagram/edge_labels.h"
 
 namespace agvd {
@@ -67,6 +70,15 @@ struct Arc {
     bool tail_is_across = false, head_is_across = false;
 };
 
+//! What a piece of an arc is made of, from where the piece before ends; in the own frame of the
+//! arc's face.
+struct ArcShape {
+    Index arc = 0;
+    Index end = 0;  //!< The arc's inner point at which it ends, counted from 0; num_points: its head.
+    ArcKind kind = ArcKind::Chord;
+    Conic conic = {};  //!< The left site first.
+};
+
 //! A point where three cells meet. Counter-clockwise around it: ends[i], then sites[i].
 struct VoronoiVertex {
     Index face;
@@ -98,26 +110,28 @@ struct FaceArcs {
 struct Arcs {
     //! Sizes of the lists.
     struct Mark {
-        Index points, arcs, voronoi_vertices, connections, parts;
+        Index points, arcs, shapes, voronoi_vertices, connections, parts;
     };
 
     std::vector<Vec2> points;  //!< In the own frame of the face concerned.
     std::vector<double> point_distance;
     std::vector<Arc> arcs;
+    std::vector<ArcShape> shapes;  //!< Of arcs in turn, if they are wanted.
     std::vector<VoronoiVertex> voronoi_vertices;
     std::vector<Connection> connections;
     std::vector<CellPart> parts;
     std::vector<FaceArcs> faces;
 
     [[nodiscard]] Mark mark() const {
-        return {size_of(points), size_of(arcs), size_of(voronoi_vertices), size_of(connections),
-                size_of(parts)};
+        return {size_of(points),           size_of(arcs),        size_of(shapes),
+                size_of(voronoi_vertices), size_of(connections), size_of(parts)};
     }
     //! Drops all that came since.
     void go_back(const Mark& mark) {
         points.resize(mark.points);
         point_distance.resize(mark.points);
         arcs.resize(mark.arcs);
+        shapes.resize(mark.shapes);
         voronoi_vertices.resize(mark.voronoi_vertices);
         connections.resize(mark.connections);
         parts.resize(mark.parts);
@@ -150,6 +164,10 @@ struct Arcs {
             arc.first_point += at.points;
             arcs.push_back(arc);
         }
+        for (ArcShape shape : chunk.shapes) {
+            shape.arc += at.arcs;
+            shapes.push_back(shape);
+        }
         for (VoronoiVertex voronoi_vertex : chunk.voronoi_vertices) {
             for (ArcEnd& end : voronoi_vertex.ends) end.word += 2 * at.arcs;
             voronoi_vertices.push_back(voronoi_vertex);
@@ -169,7 +187,7 @@ struct Arcs {
                  static_cast<std::size_t>(1.1 * times * static_cast<double>(lists.size()))),
              ...);
         };
-        reserve(points, point_distance, arcs, voronoi_vertices, connections, parts);
+        reserve(points, point_distance, arcs, shapes, voronoi_vertices, connections, parts);
     }
 };
 
@@ -187,6 +205,14 @@ struct JoinedEdges {
     //! The arcs' ends at each crossing; on the surface's boundary one only.
     std::vector<std::array<ArcEnd, 2>> crossing_ends;
 };
+
+//! Those of an arc, in their order. Cost: O(log n).
+[[nodiscard]] inline std::span<const ArcShape> shapes_of(const Arcs& arcs, Index arc) {
+    const auto [first, last] =
+        std::equal_range(arcs.shapes.begin(), arcs.shapes.end(), ArcShape{.arc = arc},
+                         [](const ArcShape& a, const ArcShape& b) { return a.arc < b.arc; });
+    return {first, last};
+}
 
 [[nodiscard]] inline NodeId node_at(const Arcs& arcs, ArcEnd end) {
     const Arc& arc = arcs.arcs[end.arc()];

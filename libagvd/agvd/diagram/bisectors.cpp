@@ -68,11 +68,6 @@ const PlanarRelay* nearest_relay(Relays relays, const Vec2& p) {
     return best;
 }
 
-// The gradient of a distance at p; 0 at the end of the last piece itself.
-Vec2 gradient(const Vec2& p, const Reach& reach) {
-    return reach.last_piece > 0 ? Vec2((p - reach.from) / reach.last_piece) : Vec2(0, 0);
-}
-
 // Whether the bisector of two sites clearly strays from a chord by less than the tolerance (share
 // of the chord): by Kantorovich's theorem, for one Newton step across its middle.
 // \param a, b  of the two sites at the middle.

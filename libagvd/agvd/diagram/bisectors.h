@@ -34,6 +34,11 @@ struct TriangleSites {
 [[nodiscard]] double undercut(const TriangleSites& triangle, const Vec2& p, double distance,
                               std::span<const Index> sites);
 
+//! The gradient of a distance at p; 0 at the end of the last piece itself.
+[[nodiscard]] inline Vec2 gradient(const Vec2& p, const Reach& reach) {
+    return reach.last_piece > 0 ? Vec2((p - reach.from) / reach.last_piece) : Vec2(0, 0);
+}
+
 // --- Bisectors of two sites --------------------------------------------------------------------
 
 struct Chord {

@@ -195,7 +195,7 @@ void cut_faces(const StageInput& input, EdgeLabels& labels) {
             ticker.tick(1 + relays_of(input.propagation, i).size() * placed.size());
         }
     };
-    parallel_chunks(count, grain, input.num_threads, cut_chunk, input.poller);
+    parallel_chunks(count, grain, input.options.num_threads, cut_chunk, input.poller);
     for (FoundCuts& part : found) {
         input.poller.poll();
         add_cuts(part, labels);

@@ -1,10 +1,12 @@
 // An edge is a chain of arcs; its points are their nodes and inner points. Edges between cells
 // come before those on the surface's boundary, and Voronoi vertices before the label changes on
 // the boundary, where an edge between cells meets two edges of the boundary.
+#include <algorithm>
 #include <cassert>
 
 #include "agvd/diagram/face_relays.h"
 #include "agvd/diagram/stages.h"
+#include "agvd/mesh/surface_points.h"
 
 namespace agvd {
 namespace {
@@ -41,6 +43,7 @@ public:
     void draw_points() {
         reserve_points();
         out_.edge_points.assign(1, 0);
+        if (with_arcs_) out_.edge_arcs.assign(1, 0);
         for (const JoinedEdges::Edge& edge : joined_.edges) draw_edge(edge);
         for (const std::vector<Index>& loop : parts_.boundary_loops) {
             const std::vector<BoundaryCrossing> crossings = crossings_along(loop);
@@ -131,7 +134,10 @@ private:
         out_.passages.reserve(most);
     }
 
-    void finish_edge() { out_.edge_points.push_back(size_of(out_.points)); }
+    void finish_edge() {
+        out_.edge_points.push_back(size_of(out_.points));
+        if (with_arcs_) out_.edge_arcs.push_back(size_of(out_.arcs));
+    }
 
     void draw_edge(const JoinedEdges::Edge& edge) {
         ArcEnd from = edge.first;
@@ -141,6 +147,7 @@ private:
             const NodeId node = node_at(arcs_, from);
             const bool is_across = from.is_tail() ? arc.tail_is_across : arc.head_is_across;
             add_node(node, ends_edges(joined_, node) ? Passage{} : passage_at(node, is_across));
+            if (with_arcs_) add_shapes(from);
             add_inner_points(arc, from.is_tail());
             const ArcEnd to = from.other();
             if (to == edge.last) break;
@@ -229,11 +236,54 @@ private:
         }
     }
 
+    // Of an arc whose first node is the last point so far.
+    void add_shapes(ArcEnd from) {
+        const Arc& arc = arcs_.arcs[from.arc()];
+        const std::span<const ArcShape> shapes = shapes_of(arcs_, from.arc());
+        const auto first_point = size_of(out_.points) - 1;
+        const auto point_at = [&](Index i) {  // Inner points by number; num_points: the head.
+            return i < arc.num_points ? arcs_.points[arc.first_point + i]
+                                      : position_in(arc.face, arc.head, arc.head_is_across);
+        };
+        const auto first_arc = size_of(out_.arcs);
+        Vec2 begin = position_in(arc.face, arc.tail, arc.tail_is_across);
+        Index before = 0;  // Points of the arc up to `begin`.
+        for (const ArcShape& shape : shapes) {
+            const Vec2 end = point_at(shape.end);
+            const auto& [focus, weight] = shape.conic;
+            if (from.is_tail()) {
+                out_.arcs.push_back({FaceId(arc.face), shape.kind, first_point + before, focus,
+                                     weight, begin, end});
+            } else {
+                out_.arcs.push_back({FaceId(arc.face),
+                                     shape.kind,
+                                     first_point + arc.num_points - shape.end,
+                                     {focus[1], focus[0]},
+                                     {weight[1], weight[0]},
+                                     end,
+                                     begin});
+            }
+            begin = end;
+            before = shape.end + 1;
+        }
+        if (!from.is_tail()) std::reverse(out_.arcs.begin() + first_arc, out_.arcs.end());
+    }
+
+    // In the face's frame.
+    [[nodiscard]] Vec2 position_in(Index face, NodeId node, bool is_across) const {
+        if (node.is_voronoi_vertex()) return arcs_.voronoi_vertices[node.voronoi_vertex()].position;
+        const Crossing& crossing = labels_.crossings[node.crossing()];
+        SurfacePoint point = point_of(crossing);
+        if (is_across) point = across_edge(surface_, point, crossing.line.half_edge());
+        return position_in_frame(surface_, point, 3 * face);
+    }
+
     const Surface& surface_;
     const DiagramParts& parts_;
     const EdgeLabels& labels_ = parts_.labels;
     const Arcs& arcs_ = parts_.arcs;
     const JoinedEdges& joined_ = parts_.joined;
+    const bool with_arcs_ = !arcs_.shapes.empty();
     Ticker ticker_;
     Diagram& out_;
 };

@@ -14,8 +14,7 @@ struct StageInput {
     std::span<const SurfacePoint> sites;
     const SitePlacement& placement;  //!< Of the sites.
     const Propagation& propagation;
-    double chord_tolerance;  //!< As in DiagramOptions.
-    int num_threads;         //!< As in DiagramOptions.
+    const DiagramOptions& options;
     Poller& poller;
 };
 

@@ -5,6 +5,7 @@
 
 #include "agvd/core/parallel.h"
 #include "agvd/diagram/apollonius.h"
+#include "agvd/diagram/arc_shapes.h"
 #include "agvd/diagram/gather_relays.h"
 #include "agvd/diagram/stages.h"
 
@@ -170,10 +171,11 @@ private:
             collect_sites();
             if (has_all_relays_ || !solve_by_own_relays(corners)) solve_by_all_relays(corners);
         }
+        if (in_.options.with_arcs) shape_arcs(before, longest_side(corners));
         count_arcs(out_, breakpoints_, before, parts);
         // Arcs on each other, or on a side, do not cross, but turn a piece inside out.
         if (!is_plain && has_inverted_part(parts, corners)) {
-            solver_.redraw_straight(breakpoints_);
+            redraw_straight(before);
             out_.parts.resize(parts.first);
             out_.parts.insert(out_.parts.end(), boundary_parts_.begin(), boundary_parts_.end());
             count_arcs(out_, breakpoints_, before, parts);
@@ -195,13 +197,46 @@ private:
         const Breakpoint& from = breakpoints_[0];
         const Breakpoint& to = breakpoints_[1];
         if (!joins_straight(relays_of(propagation_, mixed_index_), corners_, from, to,
-                            largest_disagreement * longest_side(corners), in_.chord_tolerance)) {
+                            largest_disagreement * longest_side(corners), in_.options.chord_tolerance)) {
             return false;
         }
         const auto num_points = size_of(out_.points);
         out_.arcs.push_back({face_, from.node, to.node, to.site_after, from.site_after, num_points,
                              0, from.is_across, to.is_across});
         return true;
+    }
+
+    void redraw_straight(const Arcs::Mark& before) {
+        solver_.redraw_straight(breakpoints_);
+        if (!in_.options.with_arcs) return;
+        for (Index arc = before.arcs; arc < out_.arcs.size(); ++arc) out_.shapes.push_back({arc});
+    }
+
+    // Finds the conics of the triangle's arcs, and draws the arcs by these.
+    void shape_arcs(const Arcs::Mark& before, double size) {
+        if (!has_all_relays_) gather_own_relays();
+        const std::span<const PlanarRelay> relays = has_all_relays_ ? all_relays_ : own_relays_;
+        for (Index i = before.arcs; i < out_.arcs.size(); ++i) {
+            const Arc arc = out_.arcs[i];
+            shape_arc(size, {of_site(relays, arc.left), of_site(relays, arc.right)},
+                      {position_of(out_, breakpoints_, arc.tail, arc.tail_is_across),
+                       position_of(out_, breakpoints_, arc.head, arc.head_is_across)},
+                      {in_.options.chord_tolerance, in_.options.tolerance}, i, out_);
+        }
+        if (out_.arcs.size() - before.arcs < 2 || !solver_.straighten()) return;
+        if (solver_.straighten()) return redraw_straight(before);
+        // Arcs that crossed others have no points any more.
+        std::vector<ArcShape> kept;
+        for (Index i = before.arcs; i < out_.arcs.size(); ++i) {
+            const std::span<const ArcShape> shapes = shapes_of(out_, i);
+            if (out_.arcs[i].num_points == shapes.back().end) {
+                kept.insert(kept.end(), shapes.begin(), shapes.end());
+            } else {
+                kept.push_back({i});
+            }
+        }
+        out_.shapes.resize(before.shapes);
+        out_.shapes.insert(out_.shapes.end(), kept.begin(), kept.end());
     }
 
     void collect_sites() {
@@ -213,9 +248,13 @@ private:
         }
     }
 
-    [[nodiscard]] bool solve_by_own_relays(const std::array<Vec2, 3>& corners) {
+    void gather_own_relays() {
         if (!has_own_relays_) gatherer_.gather_own(mixed_index_, own_relays_);
         has_own_relays_ = true;
+    }
+
+    [[nodiscard]] bool solve_by_own_relays(const std::array<Vec2, 3>& corners) {
+        gather_own_relays();
         solver_.set_relays(own_relays_, sites_);
         return solver_.try_solve(face_, corners, breakpoints_);
     }
@@ -233,7 +272,7 @@ private:
     const EdgeLabels& labels_;
     Arcs& out_;
     RelayGatherer gatherer_{surface_, propagation_, labels_};
-    TriangleSolver solver_{in_.chord_tolerance, out_};
+    TriangleSolver solver_{in_.options.chord_tolerance, out_};
 
     // The face at hand.
     Index mixed_index_ = 0;
@@ -287,7 +326,7 @@ void trace_faces(const StageInput& input, std::span<const Index> positions, Diag
         const auto trace_chunk = [&](Index chunk, Index first, Index last) {
             find_arcs(input, parts.labels, some.subspan(first, last - first), chunks[chunk]);
         };
-        parallel_chunks(count, faces_per_task, input.num_threads, trace_chunk, input.poller);
+        parallel_chunks(count, faces_per_task, input.options.num_threads, trace_chunk, input.poller);
         input.poller.poll();
         for (Index i = 0; i < num_chunks(count, faces_per_task); ++i) {
             parts.arcs.append(
