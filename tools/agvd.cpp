@@ -1,6 +1,5 @@
-// `agvd diagram` writes geodesic Voronoi diagrams to files, `agvd compare` measures their
-// difference. The queries are files of their own: agvd_path.cpp, ... Diagrams are drawn on the
-// cleaned input.
+// `agvd compare` measures the difference of two diagrams. The other subcommands are files of their
+// own: agvd_diagram.cpp, ...
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
@@ -21,60 +20,6 @@
 namespace fs = std::filesystem;
 
 namespace {
-
-cli::BasedDiagram build(const agvd::Surface& surface, const std::vector<agvd::SurfacePoint>& sites,
-                        const agvd::PropagationOptions& options, cli::Console& console) {
-    return cli::based_diagram(surface, sites, options,
-                              [&](const char* stage) { return console.progress_of(stage); });
-}
-
-constexpr const char* diagram_footer =
-    "Examples:\n"
-    "  agvd diagram bunny.ply -n 100 -o cells.vtp -o labels.ply\n"
-    "  agvd diagram bunny.ply --sites sites.txt -o edges.obj\n\n"
-    "Output (.gz behind the extension: compressed):\n"
-    "  .vtp   VTK PolyData for ParaView: the cleaned mesh, the Voronoi edges and\n"
-    "         boundary arcs as polylines, the sites as vertices; point data site and\n"
-    "         distance, cell data site_left and site_right of the polylines\n"
-    "  .ply   the cleaned mesh with the vertex properties site (-1: no site) and\n"
-    "         distance\n"
-    "  .obj   the polylines as v and l lines\n"
-    "  .agvd  everything, exactly: what `agvd compare` reads\n\n";
-
-void run_diagram(const cli::QueryArguments& arguments, cli::Console& console) {
-    cli::check_outputs(arguments, {arguments.sites}, remesh::check_diagram_extension);
-    console.expect(cli::stages_with_reading(arguments.input, arguments.sampling.num_samples));
-    const cli::OpenedInput input = cli::open_input(arguments, console, [&](std::size_t num_faces) {
-        return cli::stages_of_diagram(num_faces, arguments.sampling.num_samples);
-    });
-    const remesh::CleanResult& clean = input.clean;
-    const agvd::Surface& surface = input.surface;
-    const std::vector<agvd::SurfacePoint> sites = cli::sites_on(input, arguments, console);
-    const double spacing = remesh::mean_spacing(surface, sites.size());
-    if (clean.slit_length > spacing) console.warn(cli::welded_slit_text(clean.slit_length));
-    agvd::PropagationOptions propagating = arguments.propagation;
-    propagating.num_threads = arguments.common.threads;
-    const auto [diagram, certified_error] = cli::naming_file(
-        arguments.input, [&] { return build(surface, sites, propagating, console); },
-        arguments.sites);
-
-    const agvd::Progress writing = console.progress_of("write");
-    std::vector<remesh::FileContent> files;
-    for (const fs::path& output : arguments.outputs) {
-        files.push_back({output, remesh::format_diagram(output, surface, sites, diagram, writing)});
-    }
-    remesh::write_files_atomically(files, writing);
-    const auto unreached = std::count_if(diagram.nearest_site.begin(), diagram.nearest_site.end(),
-                                         [](agvd::SiteId site) { return !site.is_valid(); });
-    if (unreached > 0) {
-        console.warn("no site reaches " + std::to_string(unreached) +
-                     " vertices; place a site on every component");
-    }
-    console.info(remesh::to_text(propagating.engine, certified_error));
-    console.info(std::to_string(sites.size()) + " sites, " +
-                 std::to_string(diagram.vertices.size()) + " Voronoi vertices, " +
-                 std::to_string(diagram.edges.size()) + " Voronoi edges");
-}
 
 constexpr const char* compare_footer =
     "Examples:\n"
@@ -140,8 +85,11 @@ void run_compare(const CompareArguments& arguments, cli::Console& console) {
     agvd::Diagram b;
     if (is_exact) {
         const agvd::PropagationOptions exact{.max_error = 0, .num_threads = threads};
-        b = cli::naming_file(arguments.a,
-                             [&] { return build(surface, a.sites, exact, console).diagram; });
+        b = cli::naming_file(arguments.a, [&] {
+            return cli::based_diagram(surface, a.sites, exact, {}, [&](const char* stage) {
+                       return console.progress_of(stage);
+                   }).diagram;
+        });
     } else {
         remesh::DiagramFile file = remesh::read_diagram(arguments.b, console.progress_of("read"));
         check_same_input(arguments, a, file);
@@ -167,15 +115,6 @@ void run_compare(const CompareArguments& arguments, cli::Console& console) {
         .version = REMESH_VERSION, .a = arguments.a.string(), .b = arguments.b};
     if (!arguments.report.empty()) cli::write_text(arguments.report, to_json(comparison, info));
     if (!is_json_on_stdout) cli::print(to_text(comparison, info) + '\n');
-}
-
-CLI::App* add_diagram(CLI::App& app, cli::QueryArguments& arguments) {
-    CLI::App* command = app.add_subcommand(
-        "diagram", "Compute the diagram of sites on a mesh and write it to files");
-    cli::add_diagram_options(*command, arguments);
-    cli::add_outputs(*command, arguments.outputs);
-    command->footer(std::string(diagram_footer) + cli::exit_code_help);
-    return command;
 }
 
 void add_compare(CLI::App& app, CompareArguments& arguments) {
@@ -219,21 +158,15 @@ int main(int argc, char** argv) {
     CLI::App app("Geodesic Voronoi diagrams of triangle meshes.", "agvd");
     app.require_subcommand(1);
     app.footer(cli::exit_code_help);
-    cli::QueryArguments for_diagram;
     CompareArguments for_compare;
-    const CLI::App* diagram = add_diagram(app, for_diagram);
-    const std::array queries{cli::add_distance(app), cli::add_path(app), cli::add_isolines(app)};
+    const std::array queries{cli::add_diagram(app), cli::add_distance(app), cli::add_path(app),
+                             cli::add_isolines(app)};
     add_compare(app, for_compare);
     return cli::run(app, argc, argv, [&] {
         for (const cli::Query& query : queries) {
             if (query.command->parsed()) return query.run();
         }
-        if (diagram->parsed()) {
-            cli::Console console(for_diagram.common, cli::limit_of(for_diagram));
-            console.run([&] { run_diagram(for_diagram, console); });
-        } else {
-            cli::Console console(for_compare.common);
-            console.run([&] { run_compare(for_compare, console); });
-        }
+        cli::Console console(for_compare.common);
+        console.run([&] { run_compare(for_compare, console); });
     });
 }

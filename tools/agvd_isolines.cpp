@@ -104,12 +104,7 @@ Query add_isolines(CLI::App& app) {
         ->excludes(levels)
         ->type_name("D");
     start_group(*command, heading::accuracy);
-    command
-        ->add_option("--tolerance", arguments->tolerance,
-                     "Largest distance of the polylines from the arcs, in mesh units. Default: "
-                     "0.0001 of the bounding box's diagonal")
-        ->check(length)
-        ->type_name("D");
+    add_tolerance(*command, arguments->tolerance, "0.0001 of the bounding box's diagonal");
     add_outputs(*command, arguments->outputs);
     command->footer(std::string(isolines_footer) + exit_code_help);
     return make_query(command, arguments, run_isolines);

@@ -37,18 +37,17 @@ agvd::IntrinsicTriangulation base_for(const agvd::Surface& surface, std::size_t 
 
 BasedDiagram based_diagram(const agvd::Surface& surface,
                            const std::vector<agvd::SurfacePoint>& sites,
-                           agvd::PropagationOptions options,
+                           agvd::PropagationOptions options, agvd::DiagramOptions drawing,
                            const std::function<agvd::Progress(const char*)>& progress_of) {
     const agvd::IntrinsicTriangulation base = base_for(surface, sites.size(), progress_of("clean"));
     const std::vector<agvd::SurfacePoint> on_base = base.to_intrinsic(sites);
     options.progress = progress_of("propagate");
     const agvd::Propagation propagation = agvd::propagate(base.surface(), on_base, options);
-    const agvd::Progress drawing = progress_of("diagram");
+    drawing.num_threads = options.num_threads;
+    drawing.progress = progress_of("diagram");
     return {agvd::diagram_on_input(
-                base,
-                agvd::build_diagram(base.surface(), on_base, propagation,
-                                    {.num_threads = options.num_threads, .progress = drawing}),
-                drawing),
+                base, agvd::build_diagram(base.surface(), on_base, propagation, drawing),
+                drawing.progress),
             propagation.certified_error};
 }
 

@@ -22,11 +22,12 @@ struct BasedDiagram {
 };
 
 //! \param options      for the propagation; all steps use its num_threads. Its progress is ignored.
+//! \param drawing      for the diagram. Its num_threads and progress are ignored.
 //! \param progress_of  a callback for each stage, by its name.
 //! \throw as agvd::propagate.
 [[nodiscard]] BasedDiagram based_diagram(
     const agvd::Surface& surface, const std::vector<agvd::SurfacePoint>& sites,
-    agvd::PropagationOptions options,
+    agvd::PropagationOptions options, agvd::DiagramOptions drawing,
     const std::function<agvd::Progress(const char*)>& progress_of);
 
 }  // namespace cli

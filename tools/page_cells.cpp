@@ -73,7 +73,7 @@ page::Polylines cells_for_page(const agvd::MeshView& input,
     try {
         const std::vector<agvd::SurfacePoint> on_surface = remesh::to_cleaned(sites, input, clean);
         return lines_of(clean.mesh.view(),
-                        based_diagram(surface, on_surface, propagating, progress_of).diagram);
+                        based_diagram(surface, on_surface, propagating, {}, progress_of).diagram);
     } catch (const agvd::InvalidInput&) {
         return {};
     }

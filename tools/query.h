@@ -27,6 +27,8 @@ struct Query {
     std::function<void()> run;
 };
 
+//! `agvd diagram`.
+[[nodiscard]] Query add_diagram(CLI::App& app);
 //! `agvd distance`.
 [[nodiscard]] Query add_distance(CLI::App& app);
 //! `agvd path`.
@@ -49,8 +51,12 @@ template <typename Arguments>
 //! \return what is wrong; an empty text: nothing.
 [[nodiscard]] std::string check_length(const char* name, const std::string& text);
 
+//! Adds --tolerance, a length.
+//! \param fallback  what holds without it, for the help text.
+void add_tolerance(CLI::App& app, double& tolerance, const std::string& fallback);
+
 //! Adds -o, which is required and may be repeated.
-void add_outputs(CLI::App& app, std::vector<std::filesystem::path>& outputs);
+CLI::Option* add_outputs(CLI::App& app, std::vector<std::filesystem::path>& outputs);
 
 //! Checks -o before the long work.
 //! \param inputs  files besides IN that must not be overwritten; may be empty paths.
@@ -58,6 +64,9 @@ void add_outputs(CLI::App& app, std::vector<std::filesystem::path>& outputs);
 void check_outputs(const QueryArguments& arguments,
                    std::initializer_list<std::filesystem::path> inputs,
                    void (*check_extension)(const std::filesystem::path&));
+
+//! \throw agvd::InvalidOption  two of the files are one.
+void check_distinct(const std::vector<std::filesystem::path>& outputs);
 
 //! The input as it was read, and what it was cleaned to.
 struct OpenedInput {

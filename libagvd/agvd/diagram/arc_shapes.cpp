@@ -193,7 +193,11 @@ void shape_arc(double size, const std::array<Relays, 2>& relays, const Chord& en
     const std::vector<ArcShaper::Piece> pieces = ArcShaper(relays, size).run(ends);
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         const auto& [to, kind, conic] = pieces[i];
-        if (kind == ArcKind::Hyperbola) draw_conic(conic, {from, to}, drawing, 0, out.points);
+        if (kind == ArcKind::Hyperbola) {
+            // With errors in the distances the ends lie beside the conic.
+            const Chord on_it{conic.moved_onto(from), conic.moved_onto(to)};
+            draw_conic(conic, on_it, drawing, 0, out.points);
+        }
         if (i + 1 < pieces.size()) out.points.push_back(to);
         const Index end = size_of(out.points) - first - (i + 1 < pieces.size() ? 1 : 0);
         out.shapes.push_back({arc, end, kind, conic});

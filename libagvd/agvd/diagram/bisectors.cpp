@@ -11,7 +11,9 @@ namespace agvd {
 namespace {
 
 // Equalities are met up to this share of the triangle's longest side: below it lies rounding.
-constexpr double convergence = 1e-11;
+constexpr double convergence = 1e-13;
+// Sites in directions that differ by less are seen in one.
+constexpr double one_direction = 1e-11;
 constexpr int max_newton_steps = 25;
 // Relays chosen at one point stand for their sites this far along (share of the chord).
 constexpr double near_enough = 0.02;
@@ -168,16 +170,21 @@ std::optional<EqualPoint> find_equal(double size, const std::array<Relays, 3>& s
         const Vec2 first = gradient(p, a) - at_b;
         const Vec2 second = at_b - gradient(p, c);
         const double determinant = cross(first, second);
-        if (std::max(std::abs(residual.x()), std::abs(residual.y())) <=
-            convergence * (size + distance)) {
-            if (p == chosen_at) return EqualPoint{p, distance, determinant};
-            if (!choose()) return {};  // Others may be nearer here.
-            continue;
-        }
-        if (!(std::abs(determinant) > convergence)) return {};
+        const bool is_regular = std::abs(determinant) > one_direction;
         Vec2 step(second.y() * residual.x() - first.y() * residual.y(),
                   first.x() * residual.y() - second.x() * residual.x());
         step /= determinant;
+        if (std::max(std::abs(residual.x()), std::abs(residual.y())) <=
+            convergence * (size + distance)) {
+            if (p != chosen_at) {
+                if (!choose()) return {};  // Others may be nearer here.
+                continue;
+            }
+            // One more step takes what is left of the residual.
+            if (is_regular) p -= step;
+            return EqualPoint{p, distance, determinant};
+        }
+        if (!is_regular) return {};
         const double norm = step.norm();
         if (norm > size / 2) step *= size / (2 * norm);
         p -= step;
@@ -243,7 +250,7 @@ std::optional<BisectorPoint> project(const TriangleSites& triangle, Relays a, Re
             continue;
         }
         const double slope = (gradient(p, ra) - gradient(p, rb)).dot(normal);
-        if (!(std::abs(slope) > convergence)) return {};
+        if (!(std::abs(slope) > one_direction)) return {};
         s = std::clamp(s - gap / slope, -length / 2, length / 2);
     }
     return {};

@@ -312,8 +312,8 @@ private:
             const Vec2 end(forward ? won.end : length - won.begin, 0);
             if (image.y() >= -on_edge * length) {
                 // Paths leave the edge where it is the nearest to the image.
-                const Vec2 from(std::clamp(image.x(), begin.x(), end.x()), 0);
-                out.push_back(point_relay(to(from), won.weight + (from - image).norm(), won.site));
+                const Vec2 leaves(std::clamp(image.x(), begin.x(), end.x()), 0);
+                out.push_back(point_relay(to(leaves), won.weight + (leaves - image).norm(), won.site));
                 continue;
             }
             out.push_back({to(image), to(begin), to(end), won.weight,

@@ -106,6 +106,48 @@ double step_to_root(const Search& search, const Samples& samples, const Bracket&
     return x;
 }
 
+// One more step of Newton takes what is left of the gap.
+SingleCrossing last_step(const Samples& samples, const Bracket& bracket,
+                         const SingleCrossing& root) {
+    const LineSample& a = samples.of[samples.best_a];
+    const LineSample& b = samples.of[samples.best_b];
+    const double step = (b.value - a.value) / (a.slope - b.slope);
+    const double x = root.at + step;
+    if (!bracket.holds(x)) return root;
+    return {x, a.value + step * a.slope};
+}
+
+// The relay of a site that is the nearest at x.
+LineSample least_sample(std::span<const LineRelay> relays, Index site, double x) {
+    LineSample least{infinity, 0, 0};
+    for (const LineRelay& relay : relays) {
+        if (relay.site != site) continue;
+        const LineSample here = sample(relay, x);
+        if (here.value < least.value) least = here;
+    }
+    return least;
+}
+
+// A label change by the relays that are the nearest there: the envelope tells relays of one site
+// apart up to a share of the segment only.
+// \param bracket  it lies between its neighbours.
+SingleCrossing settled(std::span<const LineRelay> relays, const Bracket& bracket, double x,
+                       Index before, Index after) {
+    constexpr int most_steps = 4;
+    LineSample a = least_sample(relays, before, x), b = least_sample(relays, after, x);
+    for (int i = 0; i < most_steps && a.value != b.value; ++i) {
+        const double next = x - (a.value - b.value) / (a.slope - b.slope);
+        if (!bracket.holds(next)) break;
+        const LineSample there_a = least_sample(relays, before, next);
+        const LineSample there_b = least_sample(relays, after, next);
+        if (!(std::abs(there_a.value - there_b.value) < std::abs(a.value - b.value))) break;
+        x = next;
+        a = there_a;
+        b = there_b;
+    }
+    return {x, std::max(a.value, b.value)};
+}
+
 }  // namespace
 
 std::optional<SingleCrossing> find_single_crossing(std::span<const LineRelay> relays, double length,
@@ -135,7 +177,7 @@ std::optional<SingleCrossing> find_single_crossing(std::span<const LineRelay> re
         if (std::abs(gap) <= tolerance) {
             const SingleCrossing root{x, std::max(at_a, at_b)};
             if (!is_only_change(search, samples, root, clear)) return {};
-            return root;
+            return last_step(samples, bracket, root);
         }
         (gap < 0 ? bracket.lo : bracket.hi) = x;
         x = step_to_root(search, samples, bracket, x);
@@ -156,13 +198,15 @@ void label_line(std::span<const LineRelay> relays, LineId line, const LabelledSe
     }
     std::vector<LabelInterval>& intervals = scratch.intervals;
     label_envelope(relays, segment, scratch, intervals);
+    double last = 0;
     for (std::size_t i = 0; i + 1 < intervals.size(); ++i) {
         const Index before = intervals[i].site;
         const Index after = intervals[i + 1].site;
-        const double x = intervals[i].end * length;
-        const double distance =
-            std::max(distance_on_line(relays, before, x), distance_on_line(relays, after, x));
-        out.push_back({intervals[i].end, distance, before, after, line});
+        const auto [x, distance] =
+            settled(relays, {last, intervals[i + 1].end * length}, intervals[i].end * length,
+                    before, after);
+        out.push_back({x / length, distance, before, after, line});
+        last = x;
     }
 }
 

@@ -13,6 +13,11 @@
 namespace remesh {
 namespace {
 
+constexpr std::initializer_list<const char*> arc_properties = {
+    "edge",           "face",          "kind",          "first_point",    "focus_left_x",
+    "focus_left_y",   "weight_left",   "focus_right_x", "focus_right_y",  "weight_right",
+    "begin_x",        "begin_y",       "end_x",         "end_y"};
+
 // The elements of the file that make the diagram; each is read once the mesh is known.
 template <typename Values>
 class DiagramReader {
@@ -54,6 +59,7 @@ public:
         if (diagram.edge_points.back() != diagram.points.size()) {
             fail("the Voronoi edges do not have all curve points");
         }
+        count_arcs();
     }
 
 private:
@@ -78,6 +84,8 @@ private:
             read_edge(element, i);
         } else if (element.name == "voronoi_vertex") {
             read_vertex(element, i);
+        } else if (element.name == "arc") {
+            read_arc(element, i);
         } else {
             skip_element(values_, element, i, file_);
         }
@@ -100,6 +108,45 @@ private:
         if (!(row_[4] >= least && row_[4] <= left))
             fail("a Voronoi edge has too few or too many points");
         diagram.edge_points.push_back(before + static_cast<Index>(row_[4]));
+    }
+
+    void read_arc(const PlyElement& element, std::uint64_t i) {
+        read_row(element, i, arc_properties, {});
+        Diagram& diagram = out_.diagram;
+        const Index edge = index(row_[0], "voronoi_edge");
+        if (!(row_[2] >= 0 && row_[2] <= static_cast<double>(ArcKind::Chord)) ||
+            row_[2] != std::floor(row_[2])) {
+            fail("an arc has a kind that does not exist");
+        }
+        const auto at = [&](std::size_t k) { return Vec2(row_[k], row_[k + 1]); };
+        diagram.arcs.push_back({FaceId(index(row_[1], "face")),
+                                static_cast<ArcKind>(row_[2]),
+                                index(row_[3], "curve_point"),
+                                {at(4), at(7)},
+                                {row_[6], row_[9]},
+                                at(10),
+                                at(12)});
+        arc_edges_.push_back(edge);
+    }
+
+    // Edges have their arcs in turn, each from one of the edge's points on.
+    void count_arcs() {
+        Diagram& diagram = out_.diagram;
+        if (!count_.contains("arc")) return;
+        diagram.edge_arcs.assign(1, 0);
+        Index a = 0;
+        for (Index e = 0; e < diagram.edges.size(); ++e) {
+            Index least = diagram.edge_points[e];
+            for (; a < arc_edges_.size() && arc_edges_[a] == e; ++a) {
+                const Index first = diagram.arcs[a].first_point;
+                if (first < least || first >= diagram.edge_points[e + 1]) {
+                    fail("an arc begins beside its Voronoi edge");
+                }
+                least = first + 1;
+            }
+            diagram.edge_arcs.push_back(a);
+        }
+        if (a != arc_edges_.size()) fail("arcs are not in the order of the Voronoi edges");
     }
 
     void read_vertex(const PlyElement& element, std::uint64_t i) {
@@ -195,6 +242,7 @@ private:
     std::size_t start_ = 0;                       // Of the item being read.
     std::vector<double> row_;                     // Numbers of it: 32-bit integers fit.
     std::vector<std::vector<double>> lists_;
+    std::vector<Index> arc_edges_;  // Of each arc.
 };
 
 // What is written. Refers to the caller's arrays.
@@ -333,6 +381,33 @@ void append_list(std::string& bytes, const Items& items, const NumberOf& number_
     for (const auto& item : items) append(bytes, number_of(item));
 }
 
+std::string arc_header(const std::string& element) {
+    std::string text =
+        "comment arcs of the voronoi edges in turn; kind 0: line, 1: hyperbola, 2: chord\n"
+        "comment in the face's plane, corner 0 at the origin, corner 1 on the x axis\n" +
+        element;
+    std::size_t place = 0;
+    for (const char* name : arc_properties) {
+        text += std::string(place++ < 4 ? "property int " : "property double ") + name + '\n';
+    }
+    return text;
+}
+
+void append_arcs(std::string& bytes, const Diagram& diagram, Ticker& ticker) {
+    for (Index e = 0; e < num_edges(diagram); ++e) {
+        for (Index a = diagram.edge_arcs[e]; a < diagram.edge_arcs[e + 1]; ++a) {
+            ticker.tick();
+            const BisectorArc& arc = diagram.arcs[a];
+            append_all(bytes, e, arc.face.value(), static_cast<std::int32_t>(arc.kind),
+                       arc.first_point);
+            for (const std::size_t k : {0, 1}) {
+                append_all(bytes, arc.focus[k].x(), arc.focus[k].y(), arc.weight[k]);
+            }
+            append_all(bytes, arc.begin.x(), arc.begin.y(), arc.end.x(), arc.end.y());
+        }
+    }
+}
+
 // Of the elements behind vertices and faces.
 std::string diagram_header(const Diagram& diagram) {
     const auto element = [](const char* name, std::size_t count) {
@@ -355,7 +430,8 @@ std::string diagram_header(const Diagram& diagram) {
            "them\n" +
            element("voronoi_vertex", diagram.vertices.size()) + point +
            "property double distance\nproperty list uint int ends\n"
-           "property list uint int sites\n";
+           "property list uint int sites\n" +
+           (diagram.edge_arcs.empty() ? std::string() : arc_header(element("arc", diagram.arcs.size())));
 }
 
 std::string format_whole_diagram(const DrawnDiagram& drawn, Ticker ticker) {
@@ -388,6 +464,7 @@ std::string format_whole_diagram(const DrawnDiagram& drawn, Ticker ticker) {
                     [](const EdgeEnd& end) { return 2 * end.edge + (end.is_tail ? 0 : 1); });
         append_list(bytes, std::span(diagram.vertex_sites).subspan(begin, degree), site_number);
     }
+    if (!diagram.edge_arcs.empty()) append_arcs(bytes, diagram, ticker);
     return bytes;
 }
 
@@ -434,6 +511,10 @@ void write_diagram(const std::filesystem::path& path, const Surface& surface,
                    std::span<const SurfacePoint> sites, const Diagram& diagram,
                    const Progress& progress) {
     write_file_atomically(path, format_diagram(path, surface, sites, diagram, progress), progress);
+}
+
+bool is_whole_diagram(const std::filesystem::path& path) {
+    return require_diagram_format(path).format == &format_whole_diagram;
 }
 
 void check_diagram_extension(const std::filesystem::path& path) {

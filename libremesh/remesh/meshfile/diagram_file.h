@@ -112,6 +112,9 @@ void write_diagram(const std::filesystem::path& path, const Surface& surface,
                                          std::span<const SurfacePoint> sites,
                                          const Diagram& diagram, const Progress& progress = {});
 
+//! Whether the format of a file has all of a diagram: .agvd.
+[[nodiscard]] bool is_whole_diagram(const std::filesystem::path& path);
+
 //! \throw IoError  write_diagram does not know the extension; the text lists the known ones.
 void check_diagram_extension(const std::filesystem::path& path);
 

@@ -87,7 +87,8 @@ DrawnDiagram compute(const agvd::MeshView& mesh, const std::vector<agvd::Surface
     const agvd::Surface& surface = given.surface();
     const std::vector<agvd::SurfacePoint> sites = given.to_surface(given_sites);
     cli::BasedDiagram based = cli::based_diagram(
-        surface, sites, options, [&](const char* stage) { return progress.of(stage); });
+        surface, sites, options, {.with_arcs = true, .tolerance = tolerance},
+        [&](const char* stage) { return progress.of(stage); });
     DrawnDiagram drawn;
     drawn.diagram = std::move(based.diagram);
     drawn.certified_error = based.certified_error;
