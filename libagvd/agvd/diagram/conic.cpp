@@ -15,17 +15,6 @@ constexpr double equal_gaps = 1e-14;
 // Gradients shorter than this are rounding: the foci lie in one direction.
 constexpr double least_gradient = 1e-12;
 
-// As seen from focus `from`; not finite where the ray is parallel to the branch.
-Vec2 on_ray(const Conic& conic, std::size_t from, const Vec2& through) {
-    const Vec2& focus = conic.focus[from];
-    const Vec2 between = conic.focus[1 - from] - focus;
-    const double excess = conic.weight[1 - from] - conic.weight[from];
-    const Vec2 along = (through - focus).normalized();
-    const double reach =
-        (between.squaredNorm() - excess * excess) / (2 * (along.dot(between) - excess));
-    return focus + reach * along;
-}
-
 // Steps along slope(p), as long as the gap falls.
 template <typename Slope>
 Vec2 newton(const Conic& conic, const Vec2& start, const Slope& slope) {
@@ -62,6 +51,15 @@ bool Conic::is_line() const {
     return difference <= scale || difference >= between - scale;
 }
 
+Vec2 Conic::on_ray(std::size_t from, const Vec2& direction) const {
+    const Vec2 between = focus[1 - from] - focus[from];
+    const double excess = weight[1 - from] - weight[from];
+    const Vec2 along = direction.normalized();
+    const double reach =
+        (between.squaredNorm() - excess * excess) / (2 * (along.dot(between) - excess));
+    return focus[from] + reach * along;
+}
+
 Vec2 Conic::moved_onto(const Vec2& start) const {
     return newton(*this, start, [&](const Vec2& p) { return gradient(p); });
 }
@@ -76,10 +74,11 @@ Vec2 Conic::opposite(const Vec2& from, const Vec2& to, double share) const {
     const double rounding = equal_gaps * (weight[0] + (across - focus[0]).norm() + length);
     if (is_line() || std::abs(gap(across)) <= rounding) return across;
     // From the focus that sees the chord from the side.
-    const auto height = [&](std::size_t k) {
-        return std::abs(cross(to - from, (on_chord - focus[k]).normalized()));
+    const auto height = [&](std::size_t i) {
+        return std::abs(cross(to - from, (on_chord - focus[i]).normalized()));
     };
-    const Vec2 seen = on_ray(*this, height(0) > height(1) ? 0 : 1, on_chord);
+    const std::size_t k = height(0) > height(1) ? 0 : 1;
+    const Vec2 seen = on_ray(k, on_chord - focus[k]);
     const bool is_near = (seen - on_chord).norm() <= 2 * length;  // False for what is not finite.
     return moved_onto(is_near ? seen : across);
 }

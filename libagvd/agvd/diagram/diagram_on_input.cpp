@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::size_t segment_work = 16;  // Ticks of a segment.
 constexpr int most_halvings = 40;
+constexpr int most_halvings_of_arc = 400;
 constexpr int most_newton_steps = 12;
 // A share of a face's longest side: points so near to a side lie on it.
 constexpr double beside_face = 1e-12;
@@ -143,6 +144,7 @@ private:
             arc_ = from_.arcs[a];
             conic_ = {arc_.focus, arc_.weight};
             doubled_area_ = 0;
+            halvings_left_ = most_halvings_of_arc;
             face_ = no_index;
             for (Index i = arc_.first_point; i < end; ++i) {
                 const CurvePiece piece = curve_piece(base_.surface(), from_, edge, i);
@@ -164,7 +166,8 @@ private:
         cut(begin, end);
         join_segments();
         const bool is_chord = arc_.kind == ArcKind::Chord;
-        if (!is_chord && depth < most_halvings && !follows_arc()) {
+        if (!is_chord && depth < most_halvings && halvings_left_ > 0 && !follows_arc()) {
+            --halvings_left_;
             const Vec2 top = conic_.opposite(begin.at, end.at, 0.5);
             const PlacedPoint middle{to_surface(base_.surface(), arc_.face.value(), top), top};
             const double distance = (top - conic_.focus[0]).norm() + conic_.weight[0];
@@ -323,6 +326,7 @@ private:
     // The arc at hand, on the base.
     BisectorArc arc_;
     Conic conic_;
+    int halvings_left_ = 0;
     double doubled_area_ = 0;  // Between its polylines there and here.
     // Its part in the input's face at hand; no_index: none.
     Index face_ = no_index;
