@@ -255,6 +255,13 @@ void expect_same(const Diagram& a, const Diagram& b) {
                                return e.left == f.left && e.right == f.right && e.tail == f.tail &&
                                       e.head == f.head;
                            }));
+    EXPECT_EQ(a.edge_arcs, b.edge_arcs);
+    EXPECT_TRUE(std::equal(a.arcs.begin(), a.arcs.end(), b.arcs.begin(), b.arcs.end(),
+                           [](const BisectorArc& c, const BisectorArc& d) {
+                               return c.face == d.face && c.kind == d.kind &&
+                                      c.first_point == d.first_point && c.focus == d.focus &&
+                                      c.weight == d.weight && c.begin == d.begin && c.end == d.end;
+                           }));
     EXPECT_EQ(a.vertex_offsets, b.vertex_offsets);
     EXPECT_TRUE(std::equal(a.vertex_ends.begin(), a.vertex_ends.end(), b.vertex_ends.begin(),
                            b.vertex_ends.end(), [](const EdgeEnd& e, const EdgeEnd& f) {

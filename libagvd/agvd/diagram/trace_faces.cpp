@@ -166,7 +166,7 @@ private:
         boundary_parts_.assign(out_.parts.begin() + static_cast<std::ptrdiff_t>(parts.first),
                                out_.parts.end());
         const Arcs::Mark before = out_.mark();
-        const bool is_plain = !has_all_relays_ && solve_by_one_arc(corners);
+        const bool is_plain = !has_all_relays_ && !may_cross_itself() && solve_by_one_arc(corners);
         if (!is_plain) {
             collect_sites();
             if (has_all_relays_ || !solve_by_own_relays(corners)) solve_by_all_relays(corners);
@@ -189,6 +189,11 @@ private:
         return std::any_of(
             parts.parts.begin() + static_cast<std::ptrdiff_t>(parts.first), parts.parts.end(),
             [&](const CellPart& part) { return part.area < -rounding * size * size; });
+    }
+
+    // Conics of distances with errors do not quite meet.
+    [[nodiscard]] bool may_cross_itself() const {
+        return in_.options.with_arcs && propagation_.certified_error != 0;
     }
 
     // Suffices for most faces.
@@ -223,7 +228,8 @@ private:
                        position_of(out_, breakpoints_, arc.head, arc.head_is_across)},
                       {in_.options.chord_tolerance, in_.options.tolerance}, i, out_);
         }
-        if (out_.arcs.size() - before.arcs < 2 || !solver_.straighten()) return;
+        const bool is_one = out_.arcs.size() - before.arcs < 2;
+        if ((is_one && !may_cross_itself()) || !solver_.straighten()) return;
         if (solver_.straighten()) return redraw_straight(before);
         // Arcs that crossed others have no points any more.
         std::vector<ArcShape> kept;
