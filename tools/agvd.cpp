@@ -86,9 +86,9 @@ void run_compare(const CompareArguments& arguments, cli::Console& console) {
     if (is_exact) {
         const agvd::PropagationOptions exact{.max_error = 0, .num_threads = threads};
         b = cli::naming_file(arguments.a, [&] {
-            return cli::based_diagram(surface, a.sites, exact, {}, [&](const char* stage) {
-                       return console.progress_of(stage);
-                   }).diagram;
+            return cli::based_diagram(surface, a.sites, exact, {},
+                                      [&](const char* stage) { return console.progress_of(stage); })
+                .diagram;
         });
     } else {
         remesh::DiagramFile file = remesh::read_diagram(arguments.b, console.progress_of("read"));

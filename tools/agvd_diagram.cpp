@@ -57,8 +57,9 @@ std::vector<remesh::FileContent> format_files(const DiagramOutputs& arguments,
         files.push_back({output, remesh::format_diagram(output, surface, sites, diagram, writing)});
     }
     if (!arguments.arcs.empty()) {
-        files.push_back({arguments.arcs, remesh::format_lines(
-                                             arguments.arcs, arc_lines(surface, diagram), writing)});
+        files.push_back(
+            {arguments.arcs,
+             remesh::format_lines(arguments.arcs, arc_lines(surface, diagram), writing)});
     }
     return files;
 }

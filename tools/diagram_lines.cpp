@@ -26,9 +26,8 @@ remesh::Lines arc_lines(const agvd::Surface& surface, const agvd::Diagram& diagr
     for (const char* name : {"edge", "site_left", "site_right", "face", "kind"}) {
         values.push_back({.name = name, .type = remesh::NumberType::Int32});
     }
-    for (const char* name :
-         {"focus_left_x", "focus_left_y", "focus_left_z", "weight_left", "focus_right_x",
-          "focus_right_y", "focus_right_z", "weight_right"}) {
+    for (const char* name : {"focus_left_x", "focus_left_y", "focus_left_z", "weight_left",
+                             "focus_right_x", "focus_right_y", "focus_right_z", "weight_right"}) {
         values.push_back({.name = name});
     }
     const auto add_point = [&](Index point) {
@@ -42,8 +41,8 @@ remesh::Lines arc_lines(const agvd::Surface& surface, const agvd::Diagram& diagr
         for (Index a = diagram.edge_arcs[e]; a < last_arc; ++a) {
             const agvd::BisectorArc& arc = diagram.arcs[a];
             const bool is_last = a + 1 == last_arc;
-            const Index end = is_last ? diagram.edge_points[e + 1]
-                                      : diagram.arcs[a + 1].first_point + 1;
+            const Index end =
+                is_last ? diagram.edge_points[e + 1] : diagram.arcs[a + 1].first_point + 1;
             for (Index p = arc.first_point; p < end; ++p) add_point(p);
             if (is_last && is_closed) add_point(diagram.edge_points[e]);
             lines.offsets.push_back(static_cast<Index>(lines.points.size()));

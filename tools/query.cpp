@@ -32,17 +32,18 @@ std::string check_length(const char* name, const std::string& text) {
 }
 
 void add_tolerance(CLI::App& app, double& tolerance, const std::string& fallback) {
-    app.add_option("--tolerance", tolerance,
-                   "Largest distance of the polylines from the arcs, in mesh units. Default: " +
-                       fallback)
-        ->check(CLI::Validator(
-            [](const std::string& text) { return check_length("length", text); }, ""))
+    app.add_option(
+           "--tolerance", tolerance,
+           "Largest distance of the polylines from the arcs, in mesh units. Default: " + fallback)
+        ->check(CLI::Validator([](const std::string& text) { return check_length("length", text); },
+                               ""))
         ->type_name("D");
 }
 
 CLI::Option* add_outputs(CLI::App& app, std::vector<fs::path>& outputs) {
     start_group(app, heading::files);
-    return app.add_option("-o,--output", outputs, "File to write; repeat the option to write more files")
+    return app
+        .add_option("-o,--output", outputs, "File to write; repeat the option to write more files")
         ->required()
         ->type_name("FILE")
         ->allow_extra_args(false);
@@ -60,9 +61,9 @@ void check_outputs(const QueryArguments& arguments, std::initializer_list<fs::pa
 
 void check_distinct(const std::vector<fs::path>& outputs) {
     for (const fs::path& output : outputs) {
-        const auto same =
-            std::count_if(outputs.begin(), outputs.end(),
-                          [&](const fs::path& other) { return is_same_file(output, other); });
+        const auto same = std::count_if(outputs.begin(), outputs.end(), [&](const fs::path& other) {
+            return is_same_file(output, other);
+        });
         if (same > 1) {
             throw agvd::InvalidOption(output.string() +
                                       " is named twice as an output; choose another file");

@@ -33,6 +33,40 @@ TEST_F(AgvdDiagram, WritesEveryOutputAskedFor) {
     EXPECT_EQ(remesh::read_diagram(at("d.agvd")).sites.size(), 20u);
 }
 
+// The points lie on the arcs, whose sites are the foci on a plane.
+TEST_F(AgvdDiagram, WritesArcsAndDrawsThemWithinATolerance) {
+    const std::string in = put("in.off", shapes::jitter(shapes::sphere(2), 0.05, 3));
+    const auto outcome = diagram({in, "-n", "9", "--max-error", "0", "--tolerance", "1e-5",
+                                  "--arcs", at("a.vtp"), "--arcs", at("a.ply"), "-q"});
+    EXPECT_EQ(outcome.exit_code, 2);  // One file of arcs.
+    for (const char* name : {"a.vtp", "a.obj", "a.ply"}) {
+        const auto each = diagram(
+            {in, "-n", "9", "--max-error", "0", "--tolerance", "1e-5", "--arcs", at(name), "-q"});
+        EXPECT_EQ(each.exit_code, 0) << each.err;
+        EXPECT_NE(bytes(name).find("focus_left_x"), std::string::npos) << name;
+        EXPECT_NE(bytes(name).find("weight_right"), std::string::npos) << name;
+    }
+    const auto num_points = [&](const char* tolerance) {
+        const auto drawn =
+            diagram({in, "-n", "9", "--tolerance", tolerance, "-o", at("d.agvd"), "-q"});
+        EXPECT_EQ(drawn.exit_code, 0) << drawn.err;
+        return remesh::read_diagram(at("d.agvd")).diagram.points.size();
+    };
+    EXPECT_GT(num_points("1e-7"), num_points("1e-3"));
+    EXPECT_FALSE(remesh::read_diagram(at("d.agvd")).diagram.arcs.empty());
+}
+
+TEST_F(AgvdDiagram, NeedsAnOutputAndAGoodTolerance) {
+    const std::string in = put("in.off", shapes::sphere(1));
+    EXPECT_EQ(diagram({in, "-n", "3"}).exit_code, 2);
+    EXPECT_NE(diagram({in, "-n", "3"}).err.find("--arcs"), std::string::npos);
+    EXPECT_EQ(diagram({in, "-n", "3", "--tolerance", "0", "-o", at("d.obj")}).exit_code, 2);
+    EXPECT_NE(diagram({in, "-n", "3", "--arcs", at("a.off")}).exit_code, 0);
+    EXPECT_EQ(diagram({in, "-n", "3", "--arcs", in}).exit_code, 2);
+    EXPECT_EQ(diagram({in, "-n", "3", "-o", at("a.ply"), "--arcs", at("a.ply")}).exit_code, 2);
+    EXPECT_FALSE(std::filesystem::exists(at("a.ply")));
+}
+
 // A diagram needs no topology: the cell of a single site is the whole surface.
 TEST_F(AgvdDiagram, OneAndTwoSitesDoOnAnySurface) {
     const std::string torus = put("torus.off", shapes::torus(16, 12));

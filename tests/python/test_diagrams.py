@@ -199,3 +199,23 @@ def test_nearest_sites_are_ranked():
     assert (sites[:, 3] == -1).all() and np.isinf(distances[:, 3]).all()
     with pytest.raises(remesh.InvalidOption):
         remesh.nearest_sites(V, F, points, 0)
+
+
+def test_arcs_are_as_far_from_both_sites(sphere):
+    V, F = sphere
+    sites = remesh.sample_sites(V, F, 20)
+    diagram = remesh.voronoi(V, F, sites, 0, tolerance=1e-5, arcs=True)
+    arcs = diagram.arcs
+    assert len(arcs.offsets) == len(arcs.edge) + 1 and arcs.offsets[-1] == len(arcs.points)
+    assert set(arcs.kind.tolist()) <= {0, 1}
+    first = arcs.points[arcs.offsets[:-1]]
+    left = np.linalg.norm(first - arcs.focus_left, axis=1) + arcs.weight_left
+    right = np.linalg.norm(first - arcs.focus_right, axis=1) + arcs.weight_right
+    assert np.abs(left - right).max() < 1e-10
+    assert np.array_equal(diagram.line_sites[arcs.edge, 0], arcs.site_left)
+    assert np.array_equal(diagram.line_sites[arcs.edge, 1], arcs.site_right)
+    plain = remesh.voronoi(V, F, sites, 0)
+    assert plain.arcs is None
+    assert len(diagram.points) > len(plain.points)
+    with pytest.raises(remesh.InvalidOption):
+        remesh.voronoi(V, F, sites, tolerance=0)

@@ -1,12 +1,12 @@
-// An arc is followed from conic to conic. One ends where paths by its last corner do not see the arc
-// any more, at a ray from that corner; the next begins with the paths that do. Where another path
-// is nearer at the end, it is so from a ridge on, and the part is halved until, on each half, one
-// relay of either site is proved to be the nearest.
+// An arc is followed from conic to conic. One ends where paths by its last corner do not see the
+// arc any more, at a ray from that corner; the next begins with the paths that do. Where another
+// path is nearer at the end, it is so from a ridge on, and the part is halved until, on each half,
+// one relay of either site is proved to be the nearest.
 //
-// Notation of that proof: m is the bisector's point opposite to the middle of a part, whose ends are at most h
-// from m; f and g are the distance through the nearest relay and its gradient, f' and g' those of
-// another relay, rho is the length of the path's last piece. Distances through a relay are convex,
-// and |x - focus| <= rho + u . (x - m) + |x - m|^2 / (2 rho). So on the part
+// Notation of that proof: m is the bisector's point opposite to the middle of a part, whose ends
+// are at most h from m; f and g are the distance through the nearest relay and its gradient, f' and
+// g' those of another relay, rho is the length of the path's last piece. Distances through a relay
+// are convex, and |x - focus| <= rho + u . (x - m) + |x - m|^2 / (2 rho). So on the part
 //   f' - f >= f'(m) - f(m) - |g' - g| h - h^2 / (2 rho).
 #include "agvd/diagram/arc_shapes.h"
 
@@ -21,7 +21,7 @@ constexpr double equal_reaches = 2e-13;
 constexpr double beside_ray = 1e-9;
 constexpr int most_halvings = 48;
 constexpr int most_ridge_steps = 12;
-constexpr int most_choices = 6;  // Of the relays at the middle of one part.
+constexpr int most_choices = 6;     // Of the relays at the middle of one part.
 constexpr int most_doublings = 16;  // Of the pieces of one conic.
 
 struct Middle {
@@ -69,8 +69,7 @@ private:
         double least = infinity;
         const auto offer = [&](const Vec2& focus, double weight, double handicap, const Vec2& ray,
                                const Vec2& other_ray, std::size_t num_rays) {
-            const double distance =
-                handicap + weight + root(p.x() - focus.x(), p.y() - focus.y());
+            const double distance = handicap + weight + root(p.x() - focus.x(), p.y() - focus.y());
             if (!(distance < least)) return;
             least = distance;
             best = {focus, weight, {ray, other_ray}, num_rays};
@@ -113,13 +112,14 @@ private:
     }
 
     // Calls visit(point) for the points that are as far from the conic's sites as through a relay.
-    // Conics with a focus in common meet where their polar equations about it do, which is linear in
-    // the direction u: u . (N1 c2 - N2 c1) = N1 D2 - N2 D1, with N = |c|^2 - D^2.
+    // Conics with a focus in common meet where their polar equations about it do, which is linear
+    // in the direction u: u . (N1 c2 - N2 c1) = N1 D2 - N2 D1, with N = |c|^2 - D^2.
     template <typename Visit>
     static void for_each_meeting(const Conic& conic, std::size_t k, const PlanarRelay& relay,
                                  const Visit& visit) {
         const Vec2 c1 = conic.focus[1 - k] - conic.focus[k], c2 = relay.image - conic.focus[k];
-        const double d1 = conic.weight[1 - k] - conic.weight[k], d2 = relay.weight - conic.weight[k];
+        const double d1 = conic.weight[1 - k] - conic.weight[k],
+                     d2 = relay.weight - conic.weight[k];
         const double n1 = c1.squaredNorm() - d1 * d1, n2 = c2.squaredNorm() - d2 * d2;
         const Vec2 normal = n1 * c2 - n2 * c1;
         const double norm_sq = normal.squaredNorm(), height = n1 * d2 - n2 * d1;
@@ -152,8 +152,7 @@ private:
                 }
                 for_each_meeting(conic, k, relay, [&](const Vec2& z) {
                     const double distance_sq = (z - from).squaredNorm();
-                    if (!(distance_sq < nearest) ||
-                        !((z - from).dot(along) > beside_ray * size_)) {
+                    if (!(distance_sq < nearest) || !((z - from).dot(along) > beside_ray * size_)) {
                         return;
                     }
                     if (!relay.sees_all && (cross(relay.begin - relay.image, z - relay.image) > 0 ||
@@ -181,7 +180,8 @@ private:
             for (std::size_t k = 0; k < sights[site].num_rays; ++k) {
                 const Vec2 z = conic.on_ray(site, sights[site].rays[k]);
                 const double distance = (z - from).squaredNorm();
-                if (!(distance < nearest) || !((z - from).dot(along) > beside_ray * size_)) continue;
+                if (!(distance < nearest) || !((z - from).dot(along) > beside_ray * size_))
+                    continue;
                 end = z;
                 nearest = distance;
                 step.is_last = false;
@@ -223,7 +223,8 @@ private:
         return p;
     }
 
-    // The site that another path reaches sooner at a conic's end; none if its paths are the nearest.
+    // The site that another path reaches sooner at a conic's end; none if its paths are the
+    // nearest.
     [[nodiscard]] std::optional<std::size_t> overtaken(const Conic& conic, const Step& step) const {
         for (const std::size_t k : {0, 1}) {
             const double here = conic.weight[k] + (step.end - conic.focus[k]).norm();
@@ -282,9 +283,7 @@ private:
         halve({from, ends.to}, 0);
     }
 
-    [[nodiscard]] double slack(double distance) const {
-        return equal_reaches * (size_ + distance);
-    }
+    [[nodiscard]] double slack(double distance) const { return equal_reaches * (size_ + distance); }
     [[nodiscard]] bool is_same(const Reach& a, const Reach& b) const {
         const double slack_here = slack(a.distance);
         return std::abs((a.distance - a.last_piece) - (b.distance - b.last_piece)) <= slack_here &&
@@ -316,7 +315,9 @@ private:
     [[nodiscard]] std::optional<Middle> bisect(const Chord& part, const Vec2& centre) const {
         const Vec2 along = part.to - part.from;
         const Vec2 normal(-along.y(), along.x());
-        const auto gap = [&](const std::array<Reach, 2>& r) { return r[0].distance - r[1].distance; };
+        const auto gap = [&](const std::array<Reach, 2>& r) {
+            return r[0].distance - r[1].distance;
+        };
         double low = -1, high = 1;  // Lengths of the chord, the left site is nearer at `high`.
         if (!(gap(reaches_at(centre + normal)) < 0 && gap(reaches_at(centre - normal)) > 0)) {
             return {};

@@ -74,7 +74,8 @@ struct Arc {
 //! arc's face.
 struct ArcShape {
     Index arc = 0;
-    Index end = 0;  //!< The arc's inner point at which it ends, counted from 0; num_points: its head.
+    Index end =
+        0;  //!< The arc's inner point at which it ends, counted from 0; num_points: its head.
     ArcKind kind = ArcKind::Chord;
     Conic conic = {};  //!< The left site first.
 };

@@ -21,24 +21,24 @@ enum class ArcKind : std::uint8_t {
 //! The name in files and in Python: line, hyperbola or chord.
 [[nodiscard]] const char* name_of(ArcKind kind);
 
-//! The points p of a face with |p - focus[0]| + weight[0] = |p - focus[1]| + weight[1], from `begin`
-//! to `end`. This sum is the distance of p from both sites. Positions are in the frame of half-edge
-//! 3 face, as those of IsolineArc; lengths are mesh units.
+//! The points p of a face with |p - focus[0]| + weight[0] = |p - focus[1]| + weight[1], from
+//! `begin` to `end`. This sum is the distance of p from both sites. Positions are in the frame of
+//! half-edge 3 face, as those of IsolineArc; lengths are mesh units.
 //!
 //! If the distances have errors, the ends lie beside the conic by about these.
 struct BisectorArc {
-    FaceId face;                      //!< In which it lies.
-    ArcKind kind = ArcKind::Chord;    //!< Its shape.
-    Index first_point = 0;            //!< Of Diagram::points, at `begin`.
+    FaceId face;                    //!< In which it lies.
+    ArcKind kind = ArcKind::Chord;  //!< Its shape.
+    Index first_point = 0;          //!< Of Diagram::points, at `begin`.
     //! Of the site on the left of the edge, and on the right.
     std::array<Vec2, 2> focus{Vec2(0, 0), Vec2(0, 0)};
     std::array<double, 2> weight{};  //!< Distances of the sites from these.
-    Vec2 begin{0, 0};                 //!< First point.
-    Vec2 end{0, 0};                   //!< Last point.
+    Vec2 begin{0, 0};                //!< First point.
+    Vec2 end{0, 0};                  //!< Last point.
 };
 
-//! The point of an arc at a share of its way, in its face's frame: 0 is its begin, 1 its end. Others
-//! lie across from the chord's point at this share.
+//! The point of an arc at a share of its way, in its face's frame: 0 is its begin, 1 its end.
+//! Others lie across from the chord's point at this share.
 [[nodiscard]] Vec2 point_on_arc(const BisectorArc& arc, double share);
 
 }  // namespace agvd

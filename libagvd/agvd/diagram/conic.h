@@ -19,8 +19,8 @@ struct Conic {
     [[nodiscard]] Vec2 gradient(const Vec2& p) const;
     //! Whether the branch is straight.
     [[nodiscard]] bool is_line() const;
-    //! Where the ray from a focus meets the branch; not finite where it is parallel to it. Behind the
-    //! focus if only the other branch does.
+    //! Where the ray from a focus meets the branch; not finite where it is parallel to it. Behind
+    //! the focus if only the other branch does.
     [[nodiscard]] Vec2 on_ray(std::size_t from, const Vec2& direction) const;
     //! The point of the branch that Newton steps along the gradient lead to.
     [[nodiscard]] Vec2 moved_onto(const Vec2& start) const;

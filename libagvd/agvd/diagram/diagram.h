@@ -119,11 +119,13 @@ struct Cells {
 //! `{}` gives the defaults.
 struct DiagramOptions {
     double chord_tolerance = 0.01;  //!< Arcs are sampled to this share of their chord's length.
-    //! Whether Diagram::arcs is made. Then arcs are drawn from their conics, to `tolerance` as well.
+    //! Whether Diagram::arcs is made. Then arcs are drawn from their conics, to `tolerance` as
+    //! well.
     bool with_arcs = false;
-    double tolerance = infinity;  //!< Largest distance of a polyline from its arcs, mesh units, > 0.
-    int num_threads = 0;          //!< >= 0; 0: all cores. Same bytes for any number.
-    Progress progress = {};       //!< Polled during the call; see agvd::poll.
+    double tolerance =
+        infinity;            //!< Largest distance of a polyline from its arcs, mesh units, > 0.
+    int num_threads = 0;     //!< >= 0; 0: all cores. Same bytes for any number.
+    Progress progress = {};  //!< Polled during the call; see agvd::poll.
 };
 
 //! Builds local Apollonius diagrams in the mixed faces and joins them ([meng2023] Sec. 4.2, 5.3).
@@ -143,7 +145,8 @@ struct DiagramOptions {
 //! The same complex with all points on base.input(): Voronoi edges get a point where they cross an
 //! edge of the input, so that consecutive points share a face of it as before. The distances of
 //! these points are interpolated. With arcs, these points lie on the arcs, which end there; others
-//! are added where an arc and its chord cross other edges, and areas of cells follow. Labels are those of the input's vertices.
+//! are added where an arc and its chord cross other edges, and areas of cells follow. Labels are
+//! those of the input's vertices.
 //! \param diagram  of base.surface().
 //! \throw Cancelled  the progress callback returned false.
 //! Cost: that of mapping each segment.

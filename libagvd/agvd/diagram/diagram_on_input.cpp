@@ -5,9 +5,9 @@
 #include <cmath>
 #include <optional>
 
+#include "agvd/diagram/bisectors.h"
 #include "agvd/diagram/conic.h"
 #include "agvd/diagram/diagram.h"
-#include "agvd/diagram/bisectors.h"
 #include "agvd/mesh/surface_points.h"
 
 namespace agvd {
@@ -72,7 +72,8 @@ public:
             } else {
                 for (Index i = begin; i < begin + num_pieces; ++i) map_piece(e, i);
             }
-            if (!is_closed) add(base_.to_input(from_.points[end - 1]), from_.point_distance[end - 1]);
+            if (!is_closed)
+                add(base_.to_input(from_.points[end - 1]), from_.point_distance[end - 1]);
             to_.edge_points.push_back(static_cast<Index>(to_.points.size()));
             if (!from_.edge_arcs.empty()) {
                 to_.edge_arcs.push_back(static_cast<Index>(to_.arcs.size()));
@@ -149,7 +150,8 @@ private:
             for (Index i = arc_.first_point; i < end; ++i) {
                 const CurvePiece piece = curve_piece(base_.surface(), from_, edge, i);
                 const auto place = [&](const SurfacePoint& p) {
-                    return PlacedPoint{p, position_in_frame(base_.surface(), p, 3 * p.face.value())};
+                    return PlacedPoint{p,
+                                       position_in_frame(base_.surface(), p, 3 * p.face.value())};
                 };
                 map_arc_piece(place(piece.from), place(piece.to), from_.point_distance[i],
                               from_.point_distance[next_of(edge, i)], 0);

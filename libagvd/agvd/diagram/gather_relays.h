@@ -313,7 +313,8 @@ private:
             if (image.y() >= -on_edge * length) {
                 // Paths leave the edge where it is the nearest to the image.
                 const Vec2 leaves(std::clamp(image.x(), begin.x(), end.x()), 0);
-                out.push_back(point_relay(to(leaves), won.weight + (leaves - image).norm(), won.site));
+                out.push_back(
+                    point_relay(to(leaves), won.weight + (leaves - image).norm(), won.site));
                 continue;
             }
             out.push_back({to(image), to(begin), to(end), won.weight,

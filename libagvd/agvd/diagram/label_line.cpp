@@ -202,9 +202,8 @@ void label_line(std::span<const LineRelay> relays, LineId line, const LabelledSe
     for (std::size_t i = 0; i + 1 < intervals.size(); ++i) {
         const Index before = intervals[i].site;
         const Index after = intervals[i + 1].site;
-        const auto [x, distance] =
-            settled(relays, {last, intervals[i + 1].end * length}, intervals[i].end * length,
-                    before, after);
+        const auto [x, distance] = settled(relays, {last, intervals[i + 1].end * length},
+                                           intervals[i].end * length, before, after);
         out.push_back({x / length, distance, before, after, line});
         last = x;
     }

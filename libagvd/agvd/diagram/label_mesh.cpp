@@ -183,7 +183,8 @@ void label_edges(const StageInput& input, EdgeLabels& labels) {
     const auto label_chunk = [&](Index chunk, Index begin, Index end) {
         label_some(input, labels, std::span(half_edges).subspan(begin, end - begin), found[chunk]);
     };
-    parallel_chunks(size_of(half_edges), grain, input.options.num_threads, label_chunk, input.poller);
+    parallel_chunks(size_of(half_edges), grain, input.options.num_threads, label_chunk,
+                    input.poller);
     std::size_t num_crossings = 0;
     for (const FoundRows& chunk : found) num_crossings += chunk.crossings.size();
     labels.crossings.reserve(num_crossings + num_crossings / 8);  // And those of cuts.

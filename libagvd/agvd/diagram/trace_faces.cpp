@@ -202,7 +202,8 @@ private:
         const Breakpoint& from = breakpoints_[0];
         const Breakpoint& to = breakpoints_[1];
         if (!joins_straight(relays_of(propagation_, mixed_index_), corners_, from, to,
-                            largest_disagreement * longest_side(corners), in_.options.chord_tolerance)) {
+                            largest_disagreement * longest_side(corners),
+                            in_.options.chord_tolerance)) {
             return false;
         }
         const auto num_points = size_of(out_.points);
@@ -332,7 +333,8 @@ void trace_faces(const StageInput& input, std::span<const Index> positions, Diag
         const auto trace_chunk = [&](Index chunk, Index first, Index last) {
             find_arcs(input, parts.labels, some.subspan(first, last - first), chunks[chunk]);
         };
-        parallel_chunks(count, faces_per_task, input.options.num_threads, trace_chunk, input.poller);
+        parallel_chunks(count, faces_per_task, input.options.num_threads, trace_chunk,
+                        input.poller);
         input.poller.poll();
         for (Index i = 0; i < num_chunks(count, faces_per_task); ++i) {
             parts.arcs.append(

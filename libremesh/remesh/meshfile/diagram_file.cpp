@@ -14,9 +14,9 @@ namespace remesh {
 namespace {
 
 constexpr std::initializer_list<const char*> arc_properties = {
-    "edge",           "face",          "kind",          "first_point",    "focus_left_x",
-    "focus_left_y",   "weight_left",   "focus_right_x", "focus_right_y",  "weight_right",
-    "begin_x",        "begin_y",       "end_x",         "end_y"};
+    "edge",         "face",        "kind",          "first_point",   "focus_left_x",
+    "focus_left_y", "weight_left", "focus_right_x", "focus_right_y", "weight_right",
+    "begin_x",      "begin_y",     "end_x",         "end_y"};
 
 // The elements of the file that make the diagram; each is read once the mesh is known.
 template <typename Values>
@@ -431,7 +431,8 @@ std::string diagram_header(const Diagram& diagram) {
            element("voronoi_vertex", diagram.vertices.size()) + point +
            "property double distance\nproperty list uint int ends\n"
            "property list uint int sites\n" +
-           (diagram.edge_arcs.empty() ? std::string() : arc_header(element("arc", diagram.arcs.size())));
+           (diagram.edge_arcs.empty() ? std::string()
+                                      : arc_header(element("arc", diagram.arcs.size())));
 }
 
 std::string format_whole_diagram(const DrawnDiagram& drawn, Ticker ticker) {

@@ -213,8 +213,8 @@ TEST(BisectorArcs, AreAsFarFromBothSitesOnARealMesh) {
 TEST(BisectorArcs, HaveTheSitesAsFociInThePlane) {
     const Surface surface = build_surface(shapes::grid(6).view());
     const auto sites = points::scattered(surface, 7, 2);
-    const Diagram diagram = build_diagram(surface, sites, propagate(surface, sites, {.max_error = 0}),
-                                          {.with_arcs = true});
+    const Diagram diagram = build_diagram(
+        surface, sites, propagate(surface, sites, {.max_error = 0}), {.with_arcs = true});
     for (Index e = 0; e < diagram.edges.size(); ++e) {
         const std::array ends{diagram.edges[e].left, diagram.edges[e].right};
         for (Index a = diagram.edge_arcs[e]; a < diagram.edge_arcs[e + 1]; ++a) {
@@ -236,8 +236,8 @@ TEST(BisectorArcs, AreHyperbolasAboutACornerThatPathsBendAt) {
                             {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}}};
     const Surface surface = build_surface(mesh.view());
     const std::vector<SurfacePoint> sites{point_at(surface, 2), point_at(surface, 5)};
-    const Diagram diagram = build_diagram(surface, sites, propagate(surface, sites, {.max_error = 0}),
-                                          {.with_arcs = true});
+    const Diagram diagram = build_diagram(
+        surface, sites, propagate(surface, sites, {.max_error = 0}), {.with_arcs = true});
     Index num_bent = 0;
     for (const BisectorArc& arc : diagram.arcs) {
         for (const std::size_t k : {0, 1}) {
@@ -254,9 +254,8 @@ TEST(BisectorArcs, WithErrorsAreThoseOfTheRelays) {
     const Surface surface = build_surface(shapes::jitter(shapes::sphere(3), 0.05, 3).view());
     const auto sites = points::scattered(surface, 30, 2);
     for (const Engine engine : {Engine::Window, Engine::Steiner}) {
-        const Diagram diagram =
-            build_diagram(surface, sites, propagate(surface, sites, {.engine = engine}),
-                          {.with_arcs = true});
+        const Diagram diagram = build_diagram(
+            surface, sites, propagate(surface, sites, {.engine = engine}), {.with_arcs = true});
         checks::expect_valid_complex(surface, diagram);
         EXPECT_EQ(diagram.edge_arcs.back(), diagram.arcs.size());
         for (const BisectorArc& arc : diagram.arcs) {
@@ -274,8 +273,8 @@ TEST(BisectorArcs, AreMadeOnlyIfAskedForAndTheToleranceIsChecked) {
     const Propagation propagation = propagate(surface, sites);
     EXPECT_TRUE(build_diagram(surface, sites, propagation).arcs.empty());
     EXPECT_THROW((void)build_diagram(surface, sites, propagation, {.tolerance = 0}), InvalidOption);
-    const Diagram one = build_diagram(surface, sites, propagation,
-                                      {.with_arcs = true, .num_threads = 1});
-    checks::expect_same(one, build_diagram(surface, sites, propagation,
-                                           {.with_arcs = true, .num_threads = 3}));
+    const Diagram one =
+        build_diagram(surface, sites, propagation, {.with_arcs = true, .num_threads = 1});
+    checks::expect_same(
+        one, build_diagram(surface, sites, propagation, {.with_arcs = true, .num_threads = 3}));
 }

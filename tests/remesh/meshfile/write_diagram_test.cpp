@@ -31,6 +31,16 @@ protected:
         sites_.assign(3, {FaceId(1), {0.5, 0.25, 0.25}});
         diagram_.cell_area = {0.5, 0.25, 0.25};
         diagram_.cell_euler = {1, 0, 1};
+        diagram_.arcs = {{.face = FaceId(0), .kind = ArcKind::Line, .first_point = 0},
+                         {.face = FaceId(1),
+                          .kind = ArcKind::Hyperbola,
+                          .first_point = 2,
+                          .focus = {Vec2(1, 2), Vec2(3, 4)},
+                          .weight = {5, 6},
+                          .begin = Vec2(7, 8),
+                          .end = Vec2(9, 10)},
+                         {.face = FaceId(1), .first_point = 4}};
+        diagram_.edge_arcs = {0, 1, 3, 3};
         diagram_.vertices = {{FaceId(0), {1, 0, 0}}, {FaceId(0), {0, 0.5, 0.5}}};
         diagram_.vertex_distance = {0, 0.25};
         diagram_.vertex_offsets = {0, 2, 4};
@@ -136,6 +146,11 @@ TEST_F(WriteDiagram, AgvdGivesEverythingBack) {
     EXPECT_EQ(back.diagram.vertex_offsets, diagram_.vertex_offsets);
     EXPECT_EQ(back.diagram.edges[1].tail, no_index);
     EXPECT_FALSE(back.diagram.edges[2].right.is_valid());
+    EXPECT_EQ(back.diagram.edge_arcs, diagram_.edge_arcs);
+    EXPECT_EQ(back.diagram.arcs[1].kind, ArcKind::Hyperbola);
+    EXPECT_EQ(back.diagram.arcs[1].focus, diagram_.arcs[1].focus);
+    EXPECT_EQ(back.diagram.arcs[1].weight, diagram_.arcs[1].weight);
+    EXPECT_EQ(back.diagram.arcs[1].end, Vec2(9, 10));
     EXPECT_EQ(back.diagram.vertex_ends[1].edge, 2u);
     EXPECT_FALSE(back.diagram.vertex_ends[1].is_tail);
     remesh::write_diagram(at("again.agvd"), build_surface(back.mesh.view()), back.sites,
@@ -164,6 +179,20 @@ TEST_F(WriteDiagram, DamagedDiagramsAreRefused) {
         }
     }
     EXPECT_GT(refused, 100);
+}
+
+TEST_F(WriteDiagram, ArcsAreLeftOutIfThereAreNoneAndMustFollowTheirEdges) {
+    const std::string with = written("d.agvd");
+    diagram_.arcs.clear();
+    diagram_.edge_arcs.clear();
+    EXPECT_LT(written("without.agvd").size(), with.size());
+    EXPECT_TRUE(remesh::read_diagram(at("without.agvd")).diagram.edge_arcs.empty());
+    diagram_.edge_arcs = {0, 1, 1, 1};
+    for (const Index first_point : {2u, 6u}) {  // Of another edge.
+        diagram_.arcs = {{.face = FaceId(0), .first_point = first_point}};
+        (void)written("wrong.agvd");
+        EXPECT_THROW((void)remesh::read_diagram(at("wrong.agvd")), InvalidInput);
+    }
 }
 
 // Of elements without properties a file may announce any number: they have no bytes.

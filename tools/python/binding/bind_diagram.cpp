@@ -8,6 +8,7 @@
 #include "binding/bindings.h"
 #include "binding/given_surface.h"
 #include "binding/option_names.h"
+#include "diagram_lines.h"
 #include "remesh/dual/build_dual.h"
 
 namespace python {
@@ -74,27 +75,28 @@ struct DrawnDiagram {
     agvd::Cells cells;
     std::vector<agvd::Triangle> dual;
     Polylines lines;
+    remesh::Lines arcs;  // Empty unless they are asked for.
     std::vector<agvd::Vec3> site_positions;
     std::vector<agvd::SiteId> labels;
     std::vector<double> distances;
 };
 
 DrawnDiagram compute(const agvd::MeshView& mesh, const std::vector<agvd::SurfacePoint>& given_sites,
-                     const agvd::PropagationOptions& options, bool keep_slits,
-                     PythonProgress& progress) {
+                     const agvd::PropagationOptions& options, const agvd::DiagramOptions& drawing,
+                     bool keep_slits, PythonProgress& progress) {
     const GivenSurface given(mesh, {.keep_slits = keep_slits, .num_threads = options.num_threads},
                              progress);
     const agvd::Surface& surface = given.surface();
     const std::vector<agvd::SurfacePoint> sites = given.to_surface(given_sites);
     cli::BasedDiagram based = cli::based_diagram(
-        surface, sites, options, {.with_arcs = true, .tolerance = tolerance},
-        [&](const char* stage) { return progress.of(stage); });
+        surface, sites, options, drawing, [&](const char* stage) { return progress.of(stage); });
     DrawnDiagram drawn;
     drawn.diagram = std::move(based.diagram);
     drawn.certified_error = based.certified_error;
     drawn.cells = agvd::build_cells(drawn.diagram);
     drawn.dual = remesh::build_dual(surface, drawn.diagram, progress.of("dual"));
     drawn.lines = draw(drawn.diagram, surface.mesh.view());
+    if (drawing.with_arcs) drawn.arcs = cli::arc_lines(surface, drawn.diagram);
     for (const agvd::SurfacePoint& site : sites) {
         drawn.site_positions.push_back(agvd::position(surface.mesh.view(), site));
     }
@@ -104,17 +106,30 @@ DrawnDiagram compute(const agvd::MeshView& mesh, const std::vector<agvd::Surface
     return drawn;
 }
 
+// The arcs' polylines and values.
+py::dict to_dict(remesh::Lines lines) {
+    py::dict result;
+    result["points"] = to_array<double>(std::move(lines.points), 3);
+    result["offsets"] = to_numbers(lines.offsets);
+    for (remesh::Attribute& value : lines.of_lines) {
+        result[value.name.c_str()] = to_array<double>(std::move(value.values));
+    }
+    return result;
+}
+
 py::dict run_voronoi(const Doubles& positions, const Indices& triangles, const Indices& faces,
                      const Doubles& barycentric, const std::string& engine,
-                     std::optional<double> max_error, bool keep_slits, int num_threads,
-                     const py::object& function) {
+                     std::optional<double> max_error, std::optional<double> tolerance, bool arcs,
+                     bool keep_slits, int num_threads, const py::object& function) {
     const agvd::MeshView mesh = view_of(positions, triangles);
+    const agvd::DiagramOptions drawing{.with_arcs = arcs || tolerance,
+                                       .tolerance = tolerance.value_or(agvd::infinity)};
     const agvd::PropagationOptions options = propagation_options(engine, max_error, num_threads);
     const std::vector<agvd::SurfacePoint> sites = points_of(faces, barycentric);
     PythonProgress progress(function,
                             {{"clean", 1}, {"propagate", 1}, {"diagram", 1}, {"dual", 1}});
     DrawnDiagram drawn =
-        progress.run([&] { return compute(mesh, sites, options, keep_slits, progress); });
+        progress.run([&] { return compute(mesh, sites, options, drawing, keep_slits, progress); });
     py::dict result;
     result["labels"] = to_numbers(drawn.labels);
     result["distances"] = to_array<double>(std::move(drawn.distances));
@@ -129,6 +144,7 @@ py::dict run_voronoi(const Doubles& positions, const Indices& triangles, const I
     result["line_sites"] = sides_of(drawn.diagram.edges);
     result["dual"] = to_array<Index>(std::move(drawn.dual), 3);
     result["certified_error"] = drawn.certified_error;
+    if (arcs) result["arcs"] = to_dict(std::move(drawn.arcs));
     return result;
 }
 
@@ -161,7 +177,8 @@ void bind_diagram(py::module_& module) {
     module.def("voronoi", &run_voronoi, py::arg("positions").noconvert(),
                py::arg("triangles").noconvert(), py::arg("faces").noconvert(),
                py::arg("barycentric").noconvert(), py::arg("engine"), py::arg("max_error"),
-               py::arg("keep_slits"), py::arg("num_threads"), py::arg("progress"));
+               py::arg("tolerance"), py::arg("arcs"), py::arg("keep_slits"), py::arg("num_threads"),
+               py::arg("progress"));
     module.def("geodesic_distance", &run_distances, py::arg("positions").noconvert(),
                py::arg("triangles").noconvert(), py::arg("faces").noconvert(),
                py::arg("barycentric").noconvert(), py::arg("engine"), py::arg("max_error"),

@@ -14,7 +14,7 @@ once, and gives the same bytes for any number of threads. Ctrl-C ends a call in 
 """
 
 from . import examples
-from ._diagrams import Voronoi, geodesic_distance, nearest_sites, voronoi
+from ._diagrams import BisectorArcs, Voronoi, geodesic_distance, nearest_sites, voronoi
 from ._evaluation import evaluate
 from ._files import read, write
 from ._isolines import Isolines, isolines
@@ -35,6 +35,7 @@ from ._remeshing import Result, remesh
 from ._stages import Cleaned, Relaxed, Sites, clean, relax_sites, sample_sites
 
 __all__ = [
+    "BisectorArcs",
     "Cancelled",
     "Cleaned",
     "ConstraintUnmet",

@@ -14,6 +14,55 @@ from ._stages import Progress, take_sites
 
 
 @dataclass(frozen=True)
+class BisectorArcs:
+    """The arcs of bisectors: in a face the points p with
+    ``|p - focus_left| + weight_left == |p - focus_right| + weight_right``, which is their distance
+    from both sites. Foci are the images of sites, or of vertices that paths bend at.
+
+    >>> V, F = remesh.examples.sphere(3)
+    >>> arcs = remesh.voronoi(V, F, [0, 1, 2], 0, arcs=True).arcs
+    >>> p = arcs.points[arcs.offsets[:-1]]  # the first point of each
+    >>> left = np.linalg.norm(p - arcs.focus_left, axis=1) + arcs.weight_left
+    >>> right = np.linalg.norm(p - arcs.focus_right, axis=1) + arcs.weight_right
+    >>> bool(np.allclose(left, right, atol=1e-11))
+    True
+    """
+
+    #: Points of the arcs' polylines, one after the other; they lie on the arcs.
+    points: NDArray[np.float64]
+    #: k + 1: arc i has ``points[offsets[i]:offsets[i+1]]``.
+    offsets: NDArray[np.int64]
+    #: k: the polyline of the diagram that it is a part of.
+    edge: NDArray[np.int64]
+    #: k: the site on its left, and on its right.
+    site_left: NDArray[np.int64]
+    site_right: NDArray[np.int64]
+    #: k: 0: straight, 1: a hyperbola, 2: straight, without foci, where distances with errors
+    #: contradict each other.
+    kind: NDArray[np.int64]
+    #: k x 3: the focus of the site on the left, in the plane of the face, and the distance of the
+    #: site from it; likewise on the right.
+    focus_left: NDArray[np.float64]
+    weight_left: NDArray[np.float64]
+    focus_right: NDArray[np.float64]
+    weight_right: NDArray[np.float64]
+
+
+def _arcs_of(values: dict[str, NDArray[Any]]) -> BisectorArcs:
+    def whole(name: str) -> NDArray[np.int64]:
+        return values[name].astype(np.int64)
+
+    def focus(side: str) -> NDArray[np.float64]:
+        return np.stack([values[f"focus_{side}_{axis}"] for axis in "xyz"], axis=1)
+
+    return BisectorArcs(
+        points=values["points"], offsets=values["offsets"], edge=whole("edge"),
+        site_left=whole("site_left"), site_right=whole("site_right"), kind=whole("kind"),
+        focus_left=focus("left"), weight_left=values["weight_left"],
+        focus_right=focus("right"), weight_right=values["weight_right"])
+
+
+@dataclass(frozen=True)
 class Voronoi:
     """A geodesic Voronoi diagram of k sites. Lengths are in mesh units.
 
@@ -49,6 +98,8 @@ class Voronoi:
     dual: NDArray[np.uint32]
     #: No distance is longer than the exact one by more than this share of it.
     certified_error: float
+    #: With ``arcs=True``: what the bisectors are made of.
+    arcs: BisectorArcs | None = None
 
     @property
     def bisectors(self) -> list[NDArray[np.float64]]:
@@ -74,7 +125,8 @@ def _common(engine: str, max_error: float | None, keep_slits: bool,
 
 
 def voronoi(V: Any, F: Any = None, sites: Any = None, max_error: float | None = None, *,
-            engine: str = "window", keep_slits: bool = False, threads: int = 0,
+            engine: str = "window", tolerance: float | None = None, arcs: bool = False,
+            keep_slits: bool = False, threads: int = 0,
             progress: Progress | None = None) -> Voronoi:
     """The geodesic Voronoi diagram of sites on a surface.
 
@@ -82,6 +134,9 @@ def voronoi(V: Any, F: Any = None, sites: Any = None, max_error: float | None = 
     or a pair of faces (k integers) and barycentric coordinates (k x 3), such as Sites.
     max_error: distances are at most this share above exact; 0: exact; None: 0.0001.
     engine: ``"window"`` or ``"steiner"``: see the README.
+    tolerance: largest distance of the polylines from the arcs that they are drawn from, in mesh
+    units; None: 0.01 of each arc's chord, which always holds.
+    arcs: whether the result has ``arcs``, with their foci and weights.
     keep_slits: open edges at one place, such as the two sides of a slit, are not welded.
 
     >>> V, F = remesh.examples.sphere(3)
@@ -93,8 +148,13 @@ def voronoi(V: Any, F: Any = None, sites: Any = None, max_error: float | None = 
     """
     mesh = _kinds.take(V, F)
     faces, barycentric = take_sites(mesh, sites)
-    return Voronoi(**_remesh.voronoi(mesh.V, mesh.F, faces, barycentric,
-                                     *_common(engine, max_error, keep_slits, threads), progress))
+    found = _remesh.voronoi(
+        mesh.V, mesh.F, faces, barycentric, *_common(engine, max_error, keep_slits, threads)[:2],
+        None if tolerance is None else _arrays.number(tolerance, "tolerance"), bool(arcs),
+        *_common(engine, max_error, keep_slits, threads)[2:], progress)
+    if arcs:
+        found["arcs"] = _arcs_of(found["arcs"])
+    return Voronoi(**found)
 
 
 def geodesic_distance(V: Any, F: Any = None, sources: Any = None, max_error: float | None = None, *,
