@@ -132,6 +132,15 @@ private:
         }
     }
 
+    // Whether a chord lies beside all that is seen through a relay.
+    static bool is_hidden(const PlanarRelay& relay, const Vec2& from, const Vec2& to) {
+        if (relay.sees_all) return false;
+        const Vec2 to_begin = relay.begin - relay.image, to_end = relay.end - relay.image;
+        const Vec2 first = from - relay.image, last = to - relay.image;
+        return (cross(to_begin, first) > 0 && cross(to_begin, last) > 0) ||
+               (cross(to_end, first) < 0 && cross(to_end, last) < 0);
+    }
+
     // Where paths straight through another relay become the nearest before `end`.
     [[nodiscard]] std::optional<Vec2> find_meeting(const Conic& conic, const Vec2& from,
                                                    const Vec2& along, const Vec2& end) const {
@@ -143,6 +152,7 @@ private:
             const double at_from = conic.weight[k] + (from - focus).norm();
             const double at_end = conic.weight[k] + (end - focus).norm();
             for (const PlanarRelay& relay : relays_[k]) {
+                if (is_hidden(relay, from, end)) continue;
                 // Gaps change by at most 2 a unit.
                 const double gap = relay.weight + (from - relay.image).norm() - at_from +
                                    relay.weight + (end - relay.image).norm() - at_end;
