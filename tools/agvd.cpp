@@ -85,10 +85,11 @@ void run_compare(const CompareArguments& arguments, cli::Console& console) {
     agvd::Diagram b;
     if (is_exact) {
         const agvd::PropagationOptions exact{.max_error = 0, .num_threads = threads};
+        // Drawn as A is.
+        const agvd::DiagramOptions drawing{.with_arcs = !a.diagram.edge_arcs.empty()};
+        const auto progress_of = [&](const char* stage) { return console.progress_of(stage); };
         b = cli::naming_file(arguments.a, [&] {
-            return cli::based_diagram(surface, a.sites, exact, {},
-                                      [&](const char* stage) { return console.progress_of(stage); })
-                .diagram;
+            return cli::based_diagram(surface, a.sites, exact, drawing, progress_of).diagram;
         });
     } else {
         remesh::DiagramFile file = remesh::read_diagram(arguments.b, console.progress_of("read"));

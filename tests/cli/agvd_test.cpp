@@ -62,7 +62,8 @@ TEST_F(AgvdDiagram, NeedsAnOutputAndAGoodTolerance) {
     EXPECT_NE(diagram({in, "-n", "3"}).err.find("--arcs"), std::string::npos);
     EXPECT_EQ(diagram({in, "-n", "3", "--tolerance", "0", "-o", at("d.obj")}).exit_code, 2);
     EXPECT_NE(diagram({in, "-n", "3", "--arcs", at("a.off")}).exit_code, 0);
-    EXPECT_EQ(diagram({in, "-n", "3", "--arcs", in}).exit_code, 2);
+    const std::string lines = put("in.obj", shapes::sphere(1));
+    EXPECT_EQ(diagram({lines, "-n", "3", "--arcs", lines}).exit_code, 2);
     EXPECT_EQ(diagram({in, "-n", "3", "-o", at("a.ply"), "--arcs", at("a.ply")}).exit_code, 2);
     EXPECT_FALSE(std::filesystem::exists(at("a.ply")));
 }
