@@ -147,7 +147,7 @@ private:
         std::optional<Vec2> found;
         const double length = (end - from).norm();
         double nearest = length * length;
-        for (const std::size_t k : {0, 1}) {
+        for (std::size_t k = 0; k < 2; ++k) {
             const Vec2& focus = conic.focus[k];
             const double at_from = conic.weight[k] + (from - focus).norm();
             const double at_end = conic.weight[k] + (end - focus).norm();
@@ -186,7 +186,7 @@ private:
         Step step{to, along, sights, true};
         Vec2 end = to;
         double nearest = (to - from).squaredNorm();
-        for (const std::size_t site : {0, 1}) {
+        for (std::size_t site = 0; site < 2; ++site) {
             for (std::size_t k = 0; k < sights[site].num_rays; ++k) {
                 const Vec2 z = conic.on_ray(site, sights[site].rays[k]);
                 const double distance = (z - from).squaredNorm();
@@ -236,7 +236,7 @@ private:
     // The site that another path reaches sooner at a conic's end; none if its paths are the
     // nearest.
     [[nodiscard]] std::optional<std::size_t> overtaken(const Conic& conic, const Step& step) const {
-        for (const std::size_t k : {0, 1}) {
+        for (std::size_t k = 0; k < 2; ++k) {
             const double here = conic.weight[k] + (step.end - conic.focus[k]).norm();
             if (!(here <= step.next[k].distance(step.end) + 2 * slack(here))) return k;
         }
@@ -354,7 +354,7 @@ private:
     [[nodiscard]] bool is_one_conic(const Chord& part, const Middle& middle) const {
         const Vec2& m = middle.point;
         const double h = std::max((part.from - m).norm(), (part.to - m).norm());
-        for (const std::size_t site : {0, 1}) {
+        for (std::size_t site = 0; site < 2; ++site) {
             const Reach& best = middle.reaches[site];
             if (!reaches_end(site, best, part.from) || !reaches_end(site, best, part.to)) {
                 return false;

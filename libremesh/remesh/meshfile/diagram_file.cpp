@@ -400,7 +400,7 @@ void append_arcs(std::string& bytes, const Diagram& diagram, Ticker& ticker) {
             const BisectorArc& arc = diagram.arcs[a];
             append_all(bytes, e, arc.face.value(), static_cast<std::int32_t>(arc.kind),
                        arc.first_point);
-            for (const std::size_t k : {0, 1}) {
+            for (std::size_t k = 0; k < 2; ++k) {
                 append_all(bytes, arc.focus[k].x(), arc.focus[k].y(), arc.weight[k]);
             }
             append_all(bytes, arc.begin.x(), arc.begin.y(), arc.end.x(), arc.end.y());

@@ -221,7 +221,7 @@ TEST(BisectorArcs, HaveTheSitesAsFociInThePlane) {
             const BisectorArc& arc = diagram.arcs[a];
             if ((arc.end - arc.begin).norm() < 1e-12) continue;  // At a vertex any path will do.
             EXPECT_EQ(arc.kind, ArcKind::Line);
-            for (const std::size_t k : {0, 1}) {
+            for (std::size_t k = 0; k < 2; ++k) {
                 const Vec3 site = position(surface.mesh.view(), sites[ends[k].value()]);
                 EXPECT_LE((in_plane(surface, arc, site) - arc.focus[k]).norm(), 1e-13);
                 EXPECT_EQ(arc.weight[k], 0);
@@ -240,7 +240,7 @@ TEST(BisectorArcs, AreHyperbolasAboutACornerThatPathsBendAt) {
         surface, sites, propagate(surface, sites, {.max_error = 0}), {.with_arcs = true});
     Index num_bent = 0;
     for (const BisectorArc& arc : diagram.arcs) {
-        for (const std::size_t k : {0, 1}) {
+        for (std::size_t k = 0; k < 2; ++k) {
             if (arc.weight[k] == 0) continue;
             ++num_bent;
             EXPECT_NEAR(arc.weight[k], k == 0 ? 1 : std::sqrt(2.0), 1.0);
