@@ -244,7 +244,8 @@ private:
         const Conic conic = moved(motion, conic_);
         const Index here = by_before ? *half_edge : input_.twin[*half_edge];
         const auto corners = face_corners(input_, Surface::face(here));
-        const Vec2 tail = corners[here % 3], along = corners[(here + 1) % 3] - tail;
+        const Vec2& tail = corners[here % 3];
+        const Vec2 along = corners[(here + 1) % 3] - tail;
         double at = (known.end.at - tail).dot(along) / along.squaredNorm();
         if (!by_before) at = (known.begin.at - tail).dot(along) / along.squaredNorm();
         const Vec2 start = tail + at * along;
