@@ -69,8 +69,8 @@ Vec2 Conic::opposite(const Vec2& from, const Vec2& to, double share) const {
     const double length = (to - from).norm();
     if (!(length > 0)) return moved_onto(on_chord);
     const Vec2 normal = Vec2(from.y() - to.y(), to.x() - from.x()) / length;
-    Vec2 across = newton(
-        *this, on_chord, [&](const Vec2& p) -> Vec2 { return normal.dot(gradient(p)) * normal; });
+    Vec2 across = newton(*this, on_chord,
+                         [&](const Vec2& p) -> Vec2 { return normal.dot(gradient(p)) * normal; });
     const double rounding = equal_gaps * (weight[0] + (across - focus[0]).norm() + length);
     if (is_line() || std::abs(gap(across)) <= rounding) return across;
     // From the focus that sees the chord from the side.
