@@ -25,7 +25,8 @@ struct JoinedMesh {
 [[nodiscard]] bool is_improvable(const CurvedSurface& curved, const RemeshOptions& options);
 
 //! #V: all vertices may move but those at nodes of the network, which may only be merged with
-//! others, or stay if something is locked. Those on a curve slide along it. Cost: O(#mesh log #curves).
+//! others, or stay if something is locked. Those on a curve slide along it. Cost: O(#mesh log
+//! #curves).
 [[nodiscard]] std::vector<Mobility> find_mobility(const CurvedSurface& curved,
                                                   const MeshCurves& curves,
                                                   const JoinedMesh& joined);
