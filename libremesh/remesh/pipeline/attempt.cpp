@@ -102,6 +102,7 @@ AttemptEnd run_attempt(const CleanedInput& cleaned, const FoundCurves& found,
             narrow_points = std::move(tiled->narrow_points);
             finish_mesh(curved, std::move(tiled->mesh), of_input, context, built);
             has_mesh = is_right(curved, {});
+            if (has_mesh) result.tiles = tiled->num_tiles;
         }
     }
     if (!has_mesh) {

@@ -308,7 +308,7 @@ std::optional<TiledMesh> mesh_tiles(const CurvedSurface& curved, const StageCont
         for (const auto& [stage, of_stage] : tile.told.seconds) seconds += of_stage;
     }
     TiledMesh made;
-    result.tiles = tiling.num_tiles;
+    made.num_tiles = tiling.num_tiles;
     result.refined_faces = 0;
     result.certified_error = 0;
     result.relaxation.clear();

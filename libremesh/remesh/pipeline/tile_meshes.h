@@ -15,6 +15,7 @@ namespace remesh::detail {
 struct TiledMesh {
     PlacedMesh mesh;
     Index num_vertices = 0;
+    Index num_tiles = 0;
     //! On the cleaned surface: see NetworkSites.
     std::vector<SurfacePoint> narrow_points = {};
 };
