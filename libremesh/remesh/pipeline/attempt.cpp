@@ -96,6 +96,7 @@ AttemptEnd run_attempt(const CleanedInput& cleaned, const FoundCurves& found,
     };
     bool has_mesh = false;
     if (is_tiled(curved, options)) {
+        const FeatureCounts planned = result.features;
         if (std::optional<TiledMesh> tiled = mesh_tiles(curved, context)) {
             built.num_wanted = options.num_samples;
             built.num_vertices = tiled->num_vertices;
@@ -104,6 +105,7 @@ AttemptEnd run_attempt(const CleanedInput& cleaned, const FoundCurves& found,
             has_mesh = is_right(curved, {});
             if (has_mesh) result.tiles = tiled->num_tiles;
         }
+        if (!has_mesh) result.features = planned;
     }
     if (!has_mesh) {
         Domain domain = prepare_domain(cleaned, std::move(curved), context);
