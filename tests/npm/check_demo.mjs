@@ -3,18 +3,14 @@
 //   node check_demo.mjs DEMO REMESH DATA WORK
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
-import { existsSync, mkdirSync, readFileSync, rmSync } from "node:fs";
+import { readFileSync } from "node:fs";
 import { join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 import { startBrowser } from "../browser/browser.mjs";
+import { startIn, Tally } from "./tally.mjs";
 
 const [demo, program, data, work] = process.argv.slice(2).map((path) => resolve(path));
-if (!existsSync(demo) || !existsSync(program)) {
-  console.log("SKIPPED: the demo has not been built; run scripts/wasm");
-  process.exit(77);
-}
-rmSync(work, { recursive: true, force: true });
-mkdirSync(work, { recursive: true });
+startIn(work, [demo, program], "the demo");
 
 async function open(browser, options = {}) {
   const context = await browser.newContext({ viewport: { width: 1280, height: 860 }, reducedMotion: "reduce", colorScheme: "light", ...options });
@@ -151,17 +147,9 @@ const tests = {
 };
 
 const browser = await startBrowser();
-let passed = 0;
-for (const [name, body] of Object.entries(tests)) {
-  try {
-    await body(browser);
-    ++passed;
-    console.log(`passed: ${name}`);
-  } catch (error) {
-    console.log(`FAILED: ${name}\n${error.stack}`);
-  }
-}
+const tally = new Tally();
+for (const [name, body] of Object.entries(tests)) await tally.test(name, () => body(browser));
 await browser.close();
 assert.equal(Object.keys(tests).length, 4, "cases that ran");
-console.log(`${passed} of 4 cases passed`);
-process.exit(passed === 4 ? 0 : 1);
+console.log(`${tally.passed} of 4 cases passed`);
+process.exit(tally.passed === 4 ? 0 : 1);
