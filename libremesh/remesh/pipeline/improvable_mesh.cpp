@@ -81,6 +81,9 @@ void improve_in_places(const CurvedSurface& curved, JoinedMesh& joined,
         part.hard.emplace_back(from, to);
         if (ring[vertices[from]] == rings_of_places) mobility[from] = Mobility::Fixed;
     }
+    for (Index i = 0; i < vertices.size(); ++i) {
+        if (!joined.stays.empty() && joined.stays[vertices[i]] != 0) mobility[i] = Mobility::Fixed;
+    }
     const std::vector<Index> numbers = repair_shape(
         curves, mobility, part.hard, part.mesh, progress_at(Stage::Place, context.options, 1),
         faces_around(curved.cut(), part.mesh.points, 2 * curved.spacing));

@@ -14,7 +14,8 @@ struct StageContext;
 //! A mesh whose patches are joined, and its edges along the curves.
 struct JoinedMesh {
     PlacedMesh mesh;
-    std::vector<DirectedEdge> hard;  //!< Those of the boundary included.
+    std::vector<DirectedEdge> hard;        //!< Those of the boundary included.
+    std::vector<std::uint8_t> stays = {};  //!< #V: 1 for vertices that do not move; empty: none.
 };
 
 //! Joins the patches of a mesh. Cost: O(n log n).
