@@ -103,9 +103,9 @@ std::string complaint(const std::string& file, const std::string& line) {
         if (file.rfind("agvd/propagation/", 0) == 0 && header.rfind("agvd/intrinsic/", 0) == 0) {
             return "points to the intrinsic base";
         }
-        // Remeshing takes meshes from memory; attributes pass from file to file.
+        // Remeshing takes meshes from memory; attributes and tiles pass from file to file.
         if (folder_of(header) == "remesh/meshfile" && folder_of(file) != "remesh/meshfile" &&
-            folder_of(file) != "remesh/transfer") {
+            folder_of(file) != "remesh/transfer" && folder_of(file) != "remesh/tilefiles") {
             return "makes remeshing know of files";
         }
         // Creases are found before there are sites, on the input as it is.

@@ -88,7 +88,7 @@ def test_stubs_have_the_functions_of_the_extension():
 
     stubs = arguments_of_stubs()
     functions = {name: f for name, f in vars(_remesh).items() if inspect.isbuiltin(f)}
-    assert set(stubs) == set(functions) and len(stubs) == 22
+    assert set(stubs) == set(functions) and len(stubs) == 26
     for name, function in functions.items():
         assert arguments(function) == stubs[name], name
 

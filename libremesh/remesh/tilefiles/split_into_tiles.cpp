@@ -64,8 +64,8 @@ public:
     }
 
     [[nodiscard]] double area() const { return area_; }
-    [[nodiscard]] PlaneTree divide(double most_area, Ticker ticker) const {
-        return divide_by_planes(points_, weights_, most_area, ticker);
+    [[nodiscard]] PlaneTree divide(Index num_cells, Ticker ticker) const {
+        return divide_by_planes(points_, weights_, num_cells, ticker);
     }
 
 private:
@@ -216,10 +216,11 @@ private:
         }
         plan_.area = survey.area();
         plan_.spacing = detail::spacing_of(plan_.num_samples, plan_.area);
-        tile_area_ = plan_.area * plan_.samples_per_tile / plan_.num_samples;
+        const Index num_cells = num_tiles_for(plan_.num_samples, plan_.samples_per_tile);
+        tile_area_ = plan_.area / num_cells;
         const Progress told = progress(surveyed, surveyed);
         Poller poller(told);
-        return survey.divide(tile_area_, Ticker(poller));
+        return survey.divide(num_cells, Ticker(poller));
     }
 
     void divide(const PlaneTree& tree, FaceBuckets& faces) {

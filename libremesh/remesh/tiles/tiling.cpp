@@ -47,6 +47,21 @@ std::vector<Index> join_small_parts(const Surface& surface, std::span<const Inde
     return tile;
 }
 
+// At least so many points stand for the area of a tile.
+constexpr double points_of_tile = 256;
+
+// Appends the middles of the triangles into which parallels to its sides divide a face.
+void add_points(const std::array<Vec3, 3>& face, Index rows, std::vector<Vec3>& points) {
+    const Vec3 along = (face[1] - face[0]) / rows, up = (face[2] - face[0]) / rows;
+    for (Index i = 0; i < rows; ++i) {
+        for (Index j = 0; i + j < rows; ++j) {
+            const Vec3 corner = face[0] + i * along + j * up;
+            points.emplace_back(corner + (along + up) / 3);
+            if (i + j + 1 < rows) points.emplace_back(corner + (along + up) * 2 / 3);
+        }
+    }
+}
+
 class TilingBuilder {
 public:
     TilingBuilder(const Surface& given, std::span<const std::uint8_t> is_crease,
@@ -63,21 +78,25 @@ public:
 
 private:
     void cut() {
-        std::vector<Vec3> middle;
-        std::vector<double> weight;
-        for (Index f = 0; f < given_.num_faces(); ++f) {
-            const auto [a, b, c] = corners_of(given_.mesh.view(), f);
-            middle.emplace_back((a + b + c) / 3);
-            weight.push_back(face_area(given_, f));
-        }
         area_ = surface_area(given_);
-        const double tile_area = area_ * options_.per_tile / options_.num_vertices;
-        const PlaneTree tree = divide_by_planes(middle, weight, tile_area, ticker_);
+        const Index num_cells = num_tiles_for(options_.num_vertices, options_.per_tile);
+        std::vector<Vec3> points;
+        std::vector<double> weights;
+        for (Index f = 0; f < given_.num_faces(); ++f) {
+            const double area = face_area(given_, f);
+            const double share = area / area_ * num_cells;
+            const auto rows = std::max(
+                static_cast<Index>(std::ceil(std::sqrt(points_of_tile * share))), Index{1});
+            add_points(corners_of(given_.mesh.view(), f), rows, points);
+            weights.resize(points.size(), area / (static_cast<double>(rows) * rows));
+        }
+        const PlaneTree tree = divide_by_planes(points, weights, num_cells, ticker_);
         CutMesh cut =
             cut_by_planes(given_.mesh.view(), tree, snap_to_plane * options_.spacing, ticker_);
         made_.surface = build_surface(cut.mesh, 1, options_.progress);
         made_.parts = std::move(cut.parts);
-        made_.tile = join_small_parts(made_.surface, cut.cell, least_share * tile_area, ticker_);
+        made_.tile =
+            join_small_parts(made_.surface, cut.cell, least_share * area_ / num_cells, ticker_);
         const std::vector<Index> used = distinct(made_.tile);
         for (Index& t : made_.tile) t = rank_of(used, t);
         made_.num_tiles = static_cast<Index>(used.size());

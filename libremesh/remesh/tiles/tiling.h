@@ -17,6 +17,11 @@ inline constexpr double least_share = 0.125;
 //! Of smaller tiles too much is border.
 inline constexpr Index least_samples_per_tile = 500;
 
+//! How many tiles of at most so many vertices are needed.
+[[nodiscard]] constexpr Index num_tiles_for(Index num_vertices, Index per_tile) {
+    return num_vertices / per_tile + (num_vertices % per_tile != 0 ? 1 : 0);
+}
+
 struct TilingOptions {
     Index num_vertices = 0;  //!< Of the mesh that is to be made.
     Index per_tile = 0;      //!< > 0: vertices of a tile, at most.

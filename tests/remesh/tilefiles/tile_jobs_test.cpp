@@ -245,11 +245,12 @@ TEST_F(TileJobs, BordersMustBeClean) {
     for (std::size_t f = 0; f < turned.triangles.size(); f += 2) {
         std::swap(turned.triangles[f][0], turned.triangles[f][1]);
     }
-    const auto plan = remesh::split_into_tiles(put("a.ply", turned), folder_ / "a", options);
-    const std::string text = complaint<remesh::InvalidInput>(
-        [&] { return remesh::mesh_tiles(folder_ / "a", all_tiles(plan)); });
-    EXPECT_NE(text.find("00000.tile: the surface is not clean at its border near ("),
-              std::string::npos)
+    const std::string text = complaint<remesh::InvalidInput>([&] {
+        const auto plan = remesh::split_into_tiles(put("a.ply", turned), folder_ / "a", options);
+        return remesh::mesh_tiles(folder_ / "a", all_tiles(plan));
+    });
+    EXPECT_TRUE(text.find("do not run the same way") != std::string::npos ||
+                text.find("is not clean at its border near (") != std::string::npos)
         << text;
     TriangleMesh doubled = shapes::join(shapes::sphere(5), shapes::sphere(5));
     EXPECT_NE(complaint<remesh::InvalidInput>([&] {

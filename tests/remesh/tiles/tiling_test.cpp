@@ -67,8 +67,9 @@ TEST(Tiling, SharesSurfaceAndVerticesOut) {
         SCOPED_TRACE(mesh.triangles.size());
         const Surface surface = agvd::build_surface(mesh.view());
         const Tiling tiling = tiling_of(surface, sharp_edges(surface));
-        EXPECT_GE(tiling.num_tiles, num_vertices / per_tile);
-        EXPECT_LE(tiling.num_tiles, 20u);
+        // Small parts of a cell may leave it, and join others.
+        EXPECT_LE(tiling.num_tiles, 7u);
+        EXPECT_GE(tiling.num_tiles, 6u);
         Index num_inner = 0;
         for (const Index count : tiling.num_inner) num_inner += count;
         EXPECT_EQ(num_inner + tiling.borders.num_sites, num_vertices);
@@ -80,7 +81,7 @@ TEST(Tiling, SharesSurfaceAndVerticesOut) {
         for (Index t = 0; t < tiling.num_tiles; ++t) {
             sum += area[t];
             const double share = area[t] / surface_area(surface) * num_vertices;
-            EXPECT_LT(share, 1.3 * per_tile);
+            EXPECT_LT(share, 1.25 * per_tile);
             EXPECT_NEAR(tiling.num_inner[t], share, 0.15 * per_tile);
         }
         EXPECT_NEAR(sum, surface_area(surface), 1e-12 * sum);
@@ -160,7 +161,7 @@ TEST(Tiling, SitesSuitTheBorder) {
             ++num_crossings;
         }
     }
-    EXPECT_GT(num_crossings, 60u);
+    EXPECT_GT(num_crossings, 50u);
 }
 
 }  // namespace

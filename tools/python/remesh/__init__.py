@@ -13,7 +13,7 @@ threads during a call. Every function releases the interpreter, may run in sever
 once, and gives the same bytes for any number of threads. Ctrl-C ends a call in the main thread.
 """
 
-from . import examples
+from . import examples, tiles
 from ._diagrams import Voronoi, geodesic_distance, nearest_sites, voronoi
 from ._evaluation import evaluate
 from ._files import read, write
@@ -63,6 +63,7 @@ __all__ = [
     "relax_sites",
     "remesh",
     "sample_sites",
+    "tiles",
     "voronoi",
     "write",
 ]
