@@ -10,7 +10,7 @@ namespace agvd {
 //! Distances at a breakpoint that differ by more (share of the longest side) contradict it.
 inline constexpr double largest_disagreement = 1e-2;
 //! A point this far outside (share of the longest side) still counts as inside.
-inline constexpr double inside_tolerance = 1e-9;
+inline constexpr double inside_tolerance = 1e-11;
 
 using Relays = std::span<const PlanarRelay>;
 
