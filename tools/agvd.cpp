@@ -32,6 +32,9 @@ constexpr const char* diagram_footer =
     "Examples:\n"
     "  agvd diagram bunny.ply -n 100 -o cells.vtp -o labels.ply\n"
     "  agvd diagram bunny.ply --sites sites.txt -o edges.obj\n\n"
+    "Behind a point of --sites may stand `site N`, the number of the site that it\n"
+    "belongs to (several points may; on all lines or on none), and `start D`, a\n"
+    "distance that counts from there on: an additive weight.\n\n"
     "Output (.gz behind the extension: compressed):\n"
     "  .vtp   VTK PolyData for ParaView: the cleaned mesh, the Voronoi edges and\n"
     "         boundary arcs as polylines, the sites as vertices; point data site and\n"
@@ -41,6 +44,21 @@ constexpr const char* diagram_footer =
     "  .obj   the polylines as v and l lines\n"
     "  .agvd  everything, exactly: what `agvd compare` reads\n\n";
 
+// Names the first sites that own nothing: others are nearer everywhere.
+void warn_of_empty_cells(const agvd::Diagram& diagram, cli::Console& console) {
+    constexpr std::size_t most_named = 10;
+    std::string names;
+    std::size_t count = 0;
+    for (std::size_t s = 0; s < diagram.num_sites; ++s) {
+        if (diagram.cell_area[s] != 0 || diagram.cell_euler[s] != 0) continue;
+        if (++count <= most_named) names += (count == 1 ? " " : ", ") + std::to_string(s);
+    }
+    if (count == 0) return;
+    console.warn((count == 1 ? "a site owns" : std::to_string(count) + " sites own") +
+                 " nothing, as others are nearer everywhere:" + names +
+                 (count > most_named ? ", ..." : ""));
+}
+
 void run_diagram(const cli::QueryArguments& arguments, cli::Console& console) {
     cli::check_outputs(arguments, {arguments.sites}, remesh::check_diagram_extension);
     console.expect(cli::stages_with_reading(arguments.input, arguments.sampling.num_samples));
@@ -49,19 +67,23 @@ void run_diagram(const cli::QueryArguments& arguments, cli::Console& console) {
     });
     const remesh::CleanResult& clean = input.clean;
     const agvd::Surface& surface = input.surface;
-    const std::vector<agvd::SurfacePoint> sites = cli::sites_on(input, arguments, console);
+    const auto [sites, roles] = cli::sites_on(input, arguments, console);
     const double spacing = remesh::mean_spacing(surface, sites.size());
     if (clean.slit_length > spacing) console.warn(cli::welded_slit_text(clean.slit_length));
     agvd::PropagationOptions propagating = arguments.propagation;
+    propagating.points = roles;
     propagating.num_threads = arguments.common.threads;
-    const auto [diagram, certified_error] = cli::naming_file(
-        arguments.input, [&] { return build(surface, sites, propagating, console); },
+    const cli::BasedDiagram based = cli::naming_file(
+        arguments.input,
+        [&, &points = sites] { return build(surface, points, propagating, console); },
         arguments.sites);
+    const agvd::Diagram& diagram = based.diagram;
 
     const agvd::Progress writing = console.progress_of("write");
     std::vector<remesh::FileContent> files;
     for (const fs::path& output : arguments.outputs) {
-        files.push_back({output, remesh::format_diagram(output, surface, sites, diagram, writing)});
+        files.push_back(
+            {output, remesh::format_diagram(output, surface, sites, diagram, writing, roles)});
     }
     remesh::write_files_atomically(files, writing);
     const auto unreached = std::count_if(diagram.nearest_site.begin(), diagram.nearest_site.end(),
@@ -70,8 +92,9 @@ void run_diagram(const cli::QueryArguments& arguments, cli::Console& console) {
         console.warn("no site reaches " + std::to_string(unreached) +
                      " vertices; place a site on every component");
     }
-    console.info(remesh::to_text(propagating.engine, certified_error));
-    console.info(std::to_string(sites.size()) + " sites, " +
+    warn_of_empty_cells(diagram, console);
+    console.info(remesh::to_text(propagating.engine, based.certified_error));
+    console.info(std::to_string(diagram.num_sites) + " sites, " +
                  std::to_string(diagram.vertices.size()) + " Voronoi vertices, " +
                  std::to_string(diagram.edges.size()) + " Voronoi edges");
 }
@@ -122,6 +145,11 @@ void check_same_input(const CompareArguments& arguments, const remesh::DiagramFi
                                  "); write both with the same --sites, or the same --samples, "
                                  "--init and --seed");
     }
+    if (a.points != b.points) {
+        throw agvd::InvalidInput(both +
+                                 " group their points differently, or start them at different "
+                                 "distances; write both with the same --sites");
+    }
 }
 
 void run_compare(const CompareArguments& arguments, cli::Console& console) {
@@ -139,7 +167,8 @@ void run_compare(const CompareArguments& arguments, cli::Console& console) {
     });
     agvd::Diagram b;
     if (is_exact) {
-        const agvd::PropagationOptions exact{.max_error = 0, .num_threads = threads};
+        const agvd::PropagationOptions exact{
+            .points = a.points, .max_error = 0, .num_threads = threads};
         b = cli::naming_file(arguments.a,
                              [&] { return build(surface, a.sites, exact, console).diagram; });
     } else {
@@ -157,7 +186,8 @@ void run_compare(const CompareArguments& arguments, cli::Console& console) {
         const std::array<const agvd::Diagram*, 2> diagrams{&a.diagram, &b};
         const auto errors =
             agvd::exact_bisector_errors(surface, a.sites, diagrams,
-                                        {.max_points = arguments.points,
+                                        {.points = a.points,
+                                         .max_points = arguments.points,
                                          .num_threads = threads,
                                          .progress = console.progress_of("compare")});
         comparison.bisectors_a = errors[0];

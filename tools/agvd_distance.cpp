@@ -21,7 +21,9 @@ constexpr const char* distance_footer =
     "  agvd distance bunny.ply --sites sites.txt --radius 0.02 -o near.vtp\n"
     "  agvd distance bunny.ply -n 100 --nearest 4 -o ranks.ply\n"
     "  agvd distance bunny.ply --sites sites.txt --targets points.txt -o table.csv\n\n"
-    "FILE has a point on each line: `v VERTEX`, `f FACE B0 B1 B2` or `p X Y Z`.\n\n"
+    "FILE has a point on each line: `v VERTEX`, `f FACE B0 B1 B2` or `p X Y Z`; for\n"
+    "--sites also `site N` behind it, the site that it belongs to, and `start D`, the\n"
+    "distance that it starts with.\n\n"
     "Output (.gz behind the extension: compressed):\n"
     "  .ply, .vtp, .vtk   the cleaned mesh with the vertex properties site (-1: none)\n"
     "         and distance (infinity: not reached); with --nearest also site_2,\n"
@@ -133,12 +135,13 @@ void run_distance(const DistanceArguments& arguments, Console& console) {
         return stages_of_query(num_faces, "write");
     });
     const agvd::Surface& surface = input.surface;
-    const std::vector<agvd::SurfacePoint> sites = sites_on(input, arguments, console);
+    const GivenSites sites = sites_on(input, arguments, console);
     const double max_error = arguments.propagation.max_error.value_or(0);
     const int threads = arguments.common.threads;
     if (arguments.nearest > 1) {
+        require_plain_points(arguments.sites, sites.roles, "--nearest takes");
         const agvd::KNearest ranks =
-            agvd::k_nearest_sites(surface, sites, arguments.nearest,
+            agvd::k_nearest_sites(surface, sites.points, arguments.nearest,
                                   {.max_error = max_error,
                                    .num_threads = threads,
                                    .progress = console.progress_of("propagate")});
@@ -148,8 +151,9 @@ void run_distance(const DistanceArguments& arguments, Console& console) {
     std::vector<agvd::SurfacePoint> targets;
     if (!arguments.targets.empty()) targets = points_on(input, arguments.targets, console);
     const agvd::Distances distances = agvd::find_distances(
-        surface, sites, targets,
-        {.max_distance = arguments.radius > 0 ? arguments.radius : agvd::infinity,
+        surface, sites.points, targets,
+        {.points = sites.roles,
+         .max_distance = arguments.radius > 0 ? arguments.radius : agvd::infinity,
          .max_error = max_error,
          .num_threads = threads,
          .progress = console.progress_of("propagate")});

@@ -62,7 +62,8 @@ void run_isolines(const IsolineArguments& arguments, Console& console) {
     const OpenedInput input = open_input(arguments, console, [](std::size_t num_faces) {
         return stages_of_query(num_faces, "isolines");
     });
-    const std::vector<agvd::SurfacePoint> sites = sites_on(input, arguments, console);
+    const std::vector<agvd::SurfacePoint> sites =
+        plain_sites_on(input, arguments, console, "isolines are about");
     agvd::PropagationOptions propagating = arguments.propagation;
     propagating.relay_faces = agvd::all_faces(input.surface);
     propagating.num_threads = arguments.common.threads;

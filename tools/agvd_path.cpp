@@ -41,7 +41,8 @@ void check(const PathArguments& arguments) {
 
 std::vector<agvd::SitePath> paths_to_sites(const PathArguments& arguments, const OpenedInput& input,
                                            Console& console) {
-    const std::vector<agvd::SurfacePoint> sites = sites_on(input, arguments, console);
+    const std::vector<agvd::SurfacePoint> sites =
+        plain_sites_on(input, arguments, console, "paths lead to");
     const std::vector<agvd::SurfacePoint> targets = points_on(input, arguments.targets, console);
     agvd::PropagationOptions propagating = arguments.propagation;
     propagating.relay_faces = agvd::all_faces(input.surface);

@@ -71,13 +71,21 @@ OpenedInput open_input(const DiagramArguments& arguments, Console& console,
     return input;
 }
 
-std::vector<SurfacePoint> sites_on(const OpenedInput& input, const DiagramArguments& arguments,
-                                   Console& console) {
-    if (arguments.sites.empty()) return sample(arguments, input.surface, console);
+GivenSites sites_on(const OpenedInput& input, const DiagramArguments& arguments, Console& console) {
+    if (arguments.sites.empty()) return {sample(arguments, input.surface, console), {}};
     const agvd::MeshView mesh = input.file.mesh.view();
-    const std::vector<SurfacePoint> given = read_given_sites(arguments, mesh, console);
-    return naming_file(arguments.sites,
-                       [&] { return remesh::to_cleaned(given, mesh, input.clean); });
+    remesh::SitesFile given = read_given_sites(arguments, mesh, console);
+    return {naming_file(arguments.sites,
+                        [&] { return remesh::to_cleaned(given.sites, mesh, input.clean); }),
+            std::move(given.points)};
+}
+
+std::vector<SurfacePoint> plain_sites_on(const OpenedInput& input,
+                                         const DiagramArguments& arguments, Console& console,
+                                         const char* what) {
+    GivenSites given = sites_on(input, arguments, console);
+    require_plain_points(arguments.sites, given.roles, what);
+    return std::move(given.points);
 }
 
 std::vector<SurfacePoint> points_on(const OpenedInput& input, const fs::path& path,

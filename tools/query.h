@@ -72,10 +72,22 @@ struct OpenedInput {
     const DiagramArguments& arguments, Console& console,
     const std::function<std::vector<ExpectedStage>(std::size_t num_faces)>& stages);
 
-//! The sites of --sites, or sampled ones, on the cleaned mesh.
-[[nodiscard]] std::vector<agvd::SurfacePoint> sites_on(const OpenedInput& input,
-                                                       const DiagramArguments& arguments,
-                                                       Console& console);
+//! Points on the cleaned mesh, and what they stand for.
+struct GivenSites {
+    std::vector<agvd::SurfacePoint> points;
+    agvd::SitePoints roles;
+};
+
+//! The sites of --sites, or sampled ones.
+[[nodiscard]] GivenSites sites_on(const OpenedInput& input, const DiagramArguments& arguments,
+                                  Console& console);
+
+//! The same for what takes points only.
+//! \param what  takes them, as the text of the error begins.
+//! \throw agvd::InvalidInput  they are sites of several points, or have starts.
+[[nodiscard]] std::vector<agvd::SurfacePoint> plain_sites_on(const OpenedInput& input,
+                                                             const DiagramArguments& arguments,
+                                                             Console& console, const char* what);
 
 //! The points of a file, on the cleaned mesh.
 [[nodiscard]] std::vector<agvd::SurfacePoint> points_on(const OpenedInput& input,

@@ -45,6 +45,22 @@ TEST_F(AgvdDistance, OfVerticesIsAPropertyOfTheMesh) {
     }
 }
 
+TEST_F(AgvdDistance, CountsFromTheStartsOfPoints) {
+    const std::string sites = put("late", "p .1 .2 0\np .9 .9 0 start .3\n");
+    const auto outcome = distance({in_, "--sites", sites, "-o", at("d.ply"), "-q"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const std::vector<double> found = column("d.ply", 0), distances = column("d.ply", 1);
+    for (std::size_t v = 0; v < square_.positions.size(); ++v) {
+        const double a = (square_.positions[v] - agvd::Vec3(.1, .2, 0)).norm();
+        const double b = (square_.positions[v] - agvd::Vec3(.9, .9, 0)).norm() + .3;
+        EXPECT_EQ(found[v], a < b ? 0 : 1);
+        EXPECT_NEAR(distances[v], std::min(a, b), 1e-14);
+    }
+    EXPECT_EQ(distance({in_, "--sites", sites, "--nearest", "2", "-o", at("k.ply")}).exit_code, 4);
+    EXPECT_EQ(distance({in_, "--sites", sites_, "--targets", sites, "-o", at("t.csv")}).exit_code,
+              4);
+}
+
 TEST_F(AgvdDistance, OfTargetsIsATable) {
     const auto outcome =
         distance({in_, "--sites", sites_, "--targets", put("t", "p .5 .3 0\np .8 .7 0\nv 0\n"),

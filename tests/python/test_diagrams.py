@@ -199,3 +199,30 @@ def test_nearest_sites_are_ranked():
     assert (sites[:, 3] == -1).all() and np.isinf(distances[:, 3]).all()
     with pytest.raises(remesh.InvalidOption):
         remesh.nearest_sites(V, F, points, 0)
+
+
+def test_points_may_make_groups_and_start_late():
+    V, F = flat_square(10)
+    points = np.array([[0.2, 0.3, 0], [0.8, 0.7, 0], [0.3, 0.9, 0], [0.82, 0.72, 0]])
+    weights = np.array([0, 0.1, 0.3, 0.4])
+    groups = [1, 0, 1, 2]
+    far = np.linalg.norm(V[:, None] - points, axis=2) + weights
+    diagram = remesh.voronoi(V, F, points, 0, groups=groups, weights=weights)
+    assert np.allclose(diagram.distances, far.min(axis=1), atol=1e-12)
+    assert np.array_equal(diagram.labels, np.array(groups)[far.argmin(axis=1)])
+    assert diagram.cell_area.shape == (3,) and diagram.cell_area[2] == 0
+    assert diagram.cell_area.sum() == pytest.approx(1)
+    assert diagram.site_positions.shape == (4, 3)
+    assert np.allclose(remesh.geodesic_distance(V, F, points, 0, weights=weights), far.min(axis=1))
+    assert np.allclose(remesh.geodesic_distance(V, F, points, 0, weights=weights, targets=points),
+                       (np.linalg.norm(points[:, None] - points, axis=2) + weights).min(axis=1))
+    with pytest.raises(remesh.InvalidOption, match="weights"):
+        remesh.voronoi(V, F, points, weights=[1, 2])
+    with pytest.raises(remesh.InvalidOption, match="groups"):
+        remesh.voronoi(V, F, points, groups=[0, 1])
+    with pytest.raises(remesh.InvalidSites, match="belongs to site 9"):
+        remesh.voronoi(V, F, points, groups=[0, 1, 9, 2])
+    with pytest.raises(remesh.InvalidSites, match="site 1 has no point"):
+        remesh.voronoi(V, F, points, groups=[0, 2, 2, 0])
+    with pytest.raises(remesh.InvalidSites, match="starts at the distance -1"):
+        remesh.voronoi(V, F, points, weights=[0, -1, 0, 0])

@@ -261,9 +261,11 @@ void sample_bisector(const TriangleSites& triangle, const std::array<Index, 2>& 
 
 double arc_undercut(const TriangleSites& triangle, const std::array<Index, 2>& sites,
                     const Chord& chord) {
+    if (!((chord.to - chord.from).norm() > inside_tolerance * triangle.size)) return 0;
     const auto point = project(triangle, relays_of_site(triangle, sites[0]),
                                relays_of_site(triangle, sites[1]), chord);
-    return point ? undercut(triangle, point->position, point->distance, sites) : 0;
+    if (!point) return no_voronoi_vertex * triangle.size;
+    return undercut(triangle, point->position, point->distance, sites);
 }
 
 bool joins_straight(std::span<const Relay> relays, const std::array<Vec2, 3>& corners,

@@ -41,7 +41,8 @@ std::vector<Index> faces_of(Places places) {
 Distances distances_on(const Surface& surface, std::span<const SurfacePoint> sites, Places places,
                        std::span<const Index> vertices, const DistanceOptions& options) {
     const Propagation propagation = propagate(surface, sites,
-                                              {.max_error = options.max_error,
+                                              {.points = options.points,
+                                               .max_error = options.max_error,
                                                .max_distance = options.max_distance,
                                                .relay_faces = faces_of(places),
                                                .num_threads = options.num_threads,

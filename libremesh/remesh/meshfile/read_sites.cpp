@@ -73,7 +73,9 @@ public:
                 start_ = scan.offset();
                 starts_.push_back(start_);
                 result.sites.push_back(read_site(scan));
+                read_role(scan, result.points);
             });
+        finish_roles(result);
         judge_distances(result);
         if (repeats == Repeats::Told) judge_repeats(result);
         return result;
@@ -145,6 +147,61 @@ private:
         }
         file_.fail_malformed(start_, "a site begins with v, f or p, not with ", in_quotes(kind),
                              "; correct the line or begin it with #");
+    }
+
+    // The site that a point belongs to, and its start.
+    void read_role(TextScanner& scan, SitePoints& points) {
+        std::optional<Index> site;
+        double start = 0;
+        while (scan.has_word()) {
+            const std::size_t at = scan.offset();
+            const std::string_view key = scan.word();
+            if (key == "site" && !site) {
+                const std::int64_t value = scan.integer("the number of a site");
+                if (value < 0 || value >= no_index) {
+                    file_.fail_malformed(at, "there is no site ", value,
+                                         "; number the sites from 0");
+                }
+                site = static_cast<Index>(value);
+            } else if (key == "start") {
+                start = scan.number("a distance");
+                if (!(start >= 0 && std::isfinite(start))) {
+                    file_.fail_unusable(at,
+                                        "the point starts at a distance that is not finite or "
+                                        "below 0; adding one number to all changes no cell");
+                }
+            } else {
+                scan.go_to(at);  // No end of the line, as will be told.
+                break;
+            }
+        }
+        if (points.site.empty() != !site.has_value() && starts_.size() > 1) {
+            file_.fail_malformed(start_,
+                                 "only some lines say which site their point belongs to; add "
+                                 "`site N` to all, or to none");
+        }
+        if (site) points.site.push_back(*site);
+        points.start.push_back(start);
+    }
+
+    // Each site must have a point. What all lines leave out stays empty.
+    void finish_roles(SitesFile& result) const {
+        SitePoints& points = result.points;
+        if (std::all_of(points.start.begin(), points.start.end(),
+                        [](double start) { return start == 0; })) {
+            points.start.clear();
+        }
+        if (points.site.empty()) return;
+        std::vector<Index> sites = points.site;
+        std::sort(sites.begin(), sites.end());
+        Index next = 0;
+        for (const Index site : sites) {
+            if (site > next) {
+                file_.fail_unusable(0, "no point belongs to site ", next, ", but one to site ",
+                                    site, "; number the sites from 0 without gaps");
+            }
+            next = site + 1;
+        }
     }
 
     Index index(TextScanner& scan, const char* what, const char* plural, std::size_t count) {

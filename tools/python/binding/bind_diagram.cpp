@@ -14,9 +14,13 @@ namespace {
 
 using agvd::Index;
 
-agvd::PropagationOptions propagation_options(const std::string& engine,
+agvd::PropagationOptions propagation_options(const Indices& groups, const Doubles& weights,
+                                             const std::string& engine,
                                              std::optional<double> max_error, int num_threads) {
-    return {.engine = cli::engine_of(engine), .max_error = max_error, .num_threads = num_threads};
+    return {.points = {.site = vector_of(groups), .start = vector_of(weights)},
+            .engine = cli::engine_of(engine),
+            .max_error = max_error,
+            .num_threads = num_threads};
 }
 
 py::array_t<std::int64_t> sides_of(const std::vector<agvd::VoronoiEdge>& edges) {
@@ -32,11 +36,12 @@ py::array_t<std::int64_t> sides_of(const std::vector<agvd::VoronoiEdge>& edges) 
 }
 
 py::dict run_voronoi(const Doubles& positions, const Indices& triangles, const Indices& faces,
-                     const Doubles& barycentric, const std::string& engine,
-                     std::optional<double> max_error, bool keep_slits, int num_threads,
-                     const py::object& function) {
+                     const Doubles& barycentric, const Indices& groups, const Doubles& weights,
+                     const std::string& engine, std::optional<double> max_error, bool keep_slits,
+                     int num_threads, const py::object& function) {
     const agvd::MeshView mesh = view_of(positions, triangles);
-    const agvd::PropagationOptions options = propagation_options(engine, max_error, num_threads);
+    const agvd::PropagationOptions options =
+        propagation_options(groups, weights, engine, max_error, num_threads);
     const std::vector<agvd::SurfacePoint> sites = points_of(faces, barycentric);
     PythonProgress progress(function,
                             {{"clean", 1}, {"propagate", 1}, {"diagram", 1}, {"dual", 1}});
@@ -63,10 +68,12 @@ py::dict run_voronoi(const Doubles& positions, const Indices& triangles, const I
 
 py::array_t<double> run_distances(const Doubles& positions, const Indices& triangles,
                                   const Indices& faces, const Doubles& barycentric,
-                                  const std::string& engine, std::optional<double> max_error,
-                                  bool keep_slits, int num_threads, const py::object& function) {
+                                  const Doubles& weights, const std::string& engine,
+                                  std::optional<double> max_error, bool keep_slits, int num_threads,
+                                  const py::object& function) {
     const agvd::MeshView mesh = view_of(positions, triangles);
-    const agvd::PropagationOptions options = propagation_options(engine, max_error, num_threads);
+    const agvd::PropagationOptions options =
+        propagation_options({}, weights, engine, max_error, num_threads);
     const std::vector<agvd::SurfacePoint> sites = points_of(faces, barycentric);
     PythonProgress progress(function, {{"clean", 1}, {"propagate", 1}});
     return to_array<double>(progress.run([&] {
@@ -80,12 +87,14 @@ py::array_t<double> run_distances(const Doubles& positions, const Indices& trian
 void bind_diagram(py::module_& module) {
     module.def("voronoi", &run_voronoi, py::arg("positions").noconvert(),
                py::arg("triangles").noconvert(), py::arg("faces").noconvert(),
-               py::arg("barycentric").noconvert(), py::arg("engine"), py::arg("max_error"),
+               py::arg("barycentric").noconvert(), py::arg("groups").noconvert(),
+               py::arg("weights").noconvert(), py::arg("engine"), py::arg("max_error"),
                py::arg("keep_slits"), py::arg("num_threads"), py::arg("progress"));
     module.def("geodesic_distance", &run_distances, py::arg("positions").noconvert(),
                py::arg("triangles").noconvert(), py::arg("faces").noconvert(),
-               py::arg("barycentric").noconvert(), py::arg("engine"), py::arg("max_error"),
-               py::arg("keep_slits"), py::arg("num_threads"), py::arg("progress"));
+               py::arg("barycentric").noconvert(), py::arg("weights").noconvert(),
+               py::arg("engine"), py::arg("max_error"), py::arg("keep_slits"),
+               py::arg("num_threads"), py::arg("progress"));
 }
 
 }  // namespace python
