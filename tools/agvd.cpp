@@ -60,16 +60,14 @@ void warn_of_empty_cells(const agvd::Diagram& diagram, cli::Console& console) {
 }
 
 void run_diagram(const cli::QueryArguments& arguments, cli::Console& console) {
-    cli::check_outputs(arguments, {arguments.sites}, remesh::check_diagram_extension);
+    cli::check_outputs(arguments, {arguments.sites, arguments.barriers},
+                       remesh::check_diagram_extension);
     console.expect(cli::stages_with_reading(arguments.input, arguments.sampling.num_samples));
     const cli::OpenedInput input = cli::open_input(arguments, console, [&](std::size_t num_faces) {
         return cli::stages_of_diagram(num_faces, arguments.sampling.num_samples);
     });
-    const remesh::CleanResult& clean = input.clean;
     const agvd::Surface& surface = input.surface;
     const auto [sites, roles] = cli::sites_on(input, arguments, console);
-    const double spacing = remesh::mean_spacing(surface, sites.size());
-    if (clean.slit_length > spacing) console.warn(cli::welded_slit_text(clean.slit_length));
     agvd::PropagationOptions propagating = arguments.propagation;
     propagating.points = roles;
     propagating.num_threads = arguments.common.threads;
@@ -203,6 +201,7 @@ CLI::App* add_diagram(CLI::App& app, cli::QueryArguments& arguments) {
     CLI::App* command = app.add_subcommand(
         "diagram", "Compute the diagram of sites on a mesh and write it to files");
     cli::add_diagram_options(*command, arguments);
+    cli::add_barriers(*command, arguments);
     cli::add_outputs(*command, arguments.outputs);
     command->footer(std::string(diagram_footer) + cli::exit_code_help);
     return command;

@@ -101,7 +101,7 @@ std::vector<remesh::Attribute> columns_of(const agvd::Surface& surface,
 
 void check(const DistanceArguments& arguments) {
     const bool has_targets = !arguments.targets.empty();
-    check_outputs(arguments, {arguments.sites, arguments.targets},
+    check_outputs(arguments, {arguments.sites, arguments.targets, arguments.barriers},
                   has_targets ? check_table_extension : check_mesh_extension);
     if (arguments.nearest > 1 && (has_targets || arguments.radius > 0)) {
         throw agvd::InvalidOption(
@@ -174,6 +174,7 @@ Query add_distance(CLI::App& app) {
         "distance", "Write the distances of vertices or points from the nearest sites");
     const auto arguments = std::make_shared<DistanceArguments>();
     add_query_options(*command, *arguments);
+    add_barriers(*command, *arguments);
     start_group(*command, heading::count);
     add_count(*command, "--nearest", "Number of sites of each vertex, the nearest first",
               arguments->nearest)

@@ -91,6 +91,7 @@ Query add_isolines(CLI::App& app) {
         "isolines", "Write the lines of equal distance from the sites on a mesh");
     const auto arguments = std::make_shared<IsolineArguments>();
     add_query_options(*command, *arguments);
+    add_barriers(*command, *arguments);
     start_group(*command, heading::count);
     const CLI::Validator length(
         [](const std::string& text) { return check_length("length", text); }, "");

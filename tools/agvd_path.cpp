@@ -121,6 +121,7 @@ Query add_path(CLI::App& app) {
         "path", "Write the shortest paths from points to their sites, or between pairs of points");
     const auto arguments = std::make_shared<PathArguments>();
     add_query_options(*command, *arguments);
+    add_barriers(*command, *arguments);
     start_group(*command, heading::place);
     auto* const targets = command->add_option("--targets", arguments->targets,
                                               "Points from which paths lead to the nearest site");

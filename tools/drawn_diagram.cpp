@@ -41,11 +41,13 @@ Polylines draw(const agvd::Diagram& diagram, const agvd::MeshView& mesh) {
 
 DrawnDiagram draw_diagram(const agvd::MeshView& mesh,
                           const std::vector<agvd::SurfacePoint>& given_sites,
-                          const agvd::PropagationOptions& options, bool keep_slits,
+                          const agvd::PropagationOptions& options, const SurfaceOptions& as_surface,
                           const StageProgress& progress_of) {
-    const GivenSurface given(mesh, {.keep_slits = keep_slits,
-                                    .num_threads = options.num_threads,
-                                    .progress = progress_of("clean")});
+    const GivenSurface given(mesh,
+                             {.keep_slits = as_surface.keep_slits,
+                              .num_threads = options.num_threads,
+                              .progress = progress_of("clean")},
+                             as_surface.barriers);
     const agvd::Surface& surface = given.surface();
     const std::vector<agvd::SurfacePoint> sites = given.to_surface(given_sites);
     BasedDiagram based = based_diagram(surface, sites, options, progress_of);
@@ -66,11 +68,14 @@ DrawnDiagram draw_diagram(const agvd::MeshView& mesh,
 
 std::vector<double> vertex_distances(const agvd::MeshView& mesh,
                                      const std::vector<agvd::SurfacePoint>& given_sites,
-                                     agvd::PropagationOptions options, bool keep_slits,
+                                     agvd::PropagationOptions options,
+                                     const SurfaceOptions& as_surface,
                                      const StageProgress& progress_of) {
-    const GivenSurface given(mesh, {.keep_slits = keep_slits,
-                                    .num_threads = options.num_threads,
-                                    .progress = progress_of("clean")});
+    const GivenSurface given(mesh,
+                             {.keep_slits = as_surface.keep_slits,
+                              .num_threads = options.num_threads,
+                              .progress = progress_of("clean")},
+                             as_surface.barriers);
     const std::vector<agvd::SurfacePoint> sites = given.to_surface(given_sites);
     const agvd::IntrinsicTriangulation base =
         base_for(given.surface(), sites.size(), progress_of("clean"));

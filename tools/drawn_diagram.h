@@ -3,6 +3,7 @@
 //! package.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <vector>
 
@@ -34,12 +35,20 @@ struct DrawnDiagram {
     std::vector<double> distances;  //!< #V: infinity where no site reaches.
 };
 
+//! How the caller's mesh becomes a surface.
+struct SurfaceOptions {
+    bool keep_slits = false;  //!< As in remesh::CleanOptions.
+    //! Pairs of the caller's vertices: edges that no path crosses.
+    std::vector<std::array<agvd::Index, 2>> barriers = {};
+};
+
 //! \param sites    on the caller's faces.
 //! \param options  their progress is ignored.
-//! \throw as remesh::clean_input, remesh::to_cleaned and agvd::propagate.
+//! \throw as remesh::clean_input, remesh::to_cleaned, remesh::carry_edges and agvd::propagate.
 [[nodiscard]] DrawnDiagram draw_diagram(const agvd::MeshView& mesh,
                                         const std::vector<agvd::SurfacePoint>& sites,
-                                        const agvd::PropagationOptions& options, bool keep_slits,
+                                        const agvd::PropagationOptions& options,
+                                        const SurfaceOptions& as_surface,
                                         const StageProgress& progress_of);
 
 //! #V: the distance of each of the caller's vertices from the nearest site; infinity where none
@@ -47,7 +56,7 @@ struct DrawnDiagram {
 [[nodiscard]] std::vector<double> vertex_distances(const agvd::MeshView& mesh,
                                                    const std::vector<agvd::SurfacePoint>& sites,
                                                    agvd::PropagationOptions options,
-                                                   bool keep_slits,
+                                                   const SurfaceOptions& as_surface,
                                                    const StageProgress& progress_of);
 
 }  // namespace cli

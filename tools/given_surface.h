@@ -2,6 +2,9 @@
 //! The caller's mesh, cleaned, as a surface: of the Python module and the npm package.
 #pragma once
 
+#include <array>
+#include <span>
+
 #include "agvd/mesh/mesh.h"
 #include "agvd/mesh/surface.h"
 #include "remesh/clean/clean_input.h"
@@ -13,9 +16,11 @@ namespace cli {
 class GivenSurface {
 public:
     //! \param mesh      outlives this.
+    //! \param barriers  edges of the mesh along which the surface is cut.
     //! \param cleaning  its progress is that of this whole.
-    //! \throw as remesh::clean_input.
-    GivenSurface(const agvd::MeshView& mesh, const remesh::CleanOptions& cleaning);
+    //! \throw as remesh::clean_input and remesh::carry_edges.
+    GivenSurface(const agvd::MeshView& mesh, const remesh::CleanOptions& cleaning,
+                 std::span<const std::array<agvd::Index, 2>> barriers = {});
 
     [[nodiscard]] const agvd::Surface& surface() const { return surface_; }
     [[nodiscard]] std::vector<agvd::SurfacePoint> to_surface(

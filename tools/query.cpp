@@ -3,16 +3,30 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "agvd/mesh/cut_surface.h"
 #include "help.h"
 #include "remesh/clean/carry.h"
 #include "remesh/meshfile/atomic_file.h"
+#include "remesh/sites/prepared_surface.h"
 #include "report/report.h"
+#include "shortfalls.h"
 
 namespace cli {
 namespace {
 
 namespace fs = std::filesystem;
 using agvd::SurfacePoint;
+
+// Edges of IN that cleaning split are no barriers any more: that would leave gaps.
+void cut_along_barriers(const DiagramArguments& arguments, Console& console, OpenedInput& input) {
+    const auto edges = remesh::read_edges(arguments.barriers, console.progress_of("read"));
+    const std::vector<std::uint8_t> is_cut = naming_file(arguments.barriers, [&] {
+        return remesh::carry_edges(edges, input.file.mesh.view(), input.clean, input.surface);
+    });
+    input.surface = agvd::cut_along(input.surface, is_cut, arguments.common.threads,
+                                    console.progress_of("clean"))
+                        .surface;
+}
 
 std::vector<SurfacePoint> sample(const DiagramArguments& arguments, const agvd::Surface& surface,
                                  Console& console) {
@@ -29,6 +43,14 @@ std::string check_length(const char* name, const std::string& text) {
     const std::optional<Amount> amount = parse_amount(text);
     if (amount && !amount->is_percent) return {};
     return "the " + std::string(name) + " is " + text + "; use a number above 0";
+}
+
+void add_barriers(CLI::App& app, DiagramArguments& arguments) {
+    start_group(app, heading::geodesics);
+    app.add_option("--barriers", arguments.barriers,
+                   "Edges that no path crosses: lines of two vertices, counted from 0. The mesh is "
+                   "cut along them: their vertices come once for each side")
+        ->type_name("FILE");
 }
 
 void add_outputs(CLI::App& app, std::vector<fs::path>& outputs) {
@@ -68,16 +90,26 @@ OpenedInput open_input(const DiagramArguments& arguments, Console& console,
     console.info(remesh::to_text(input.clean.counts));
     input.surface = agvd::build_surface(input.clean.mesh.view(), arguments.common.threads,
                                         console.progress_of("clean"));
+    if (!arguments.barriers.empty()) cut_along_barriers(arguments, console, input);
     return input;
 }
 
 GivenSites sites_on(const OpenedInput& input, const DiagramArguments& arguments, Console& console) {
-    if (arguments.sites.empty()) return {sample(arguments, input.surface, console), {}};
-    const agvd::MeshView mesh = input.file.mesh.view();
-    remesh::SitesFile given = read_given_sites(arguments, mesh, console);
-    return {naming_file(arguments.sites,
-                        [&] { return remesh::to_cleaned(given.sites, mesh, input.clean); }),
-            std::move(given.points)};
+    GivenSites sites;
+    if (arguments.sites.empty()) {
+        sites.points = sample(arguments, input.surface, console);
+    } else {
+        const agvd::MeshView mesh = input.file.mesh.view();
+        remesh::SitesFile given = read_given_sites(arguments, mesh, console);
+        sites.points = naming_file(
+            arguments.sites, [&] { return remesh::to_cleaned(given.sites, mesh, input.clean); });
+        sites.roles = std::move(given.points);
+    }
+    const double slit = input.clean.slit_length;
+    if (slit > remesh::mean_spacing(input.surface, sites.points.size())) {
+        console.warn(welded_slit_text(slit));
+    }
+    return sites;
 }
 
 std::vector<SurfacePoint> plain_sites_on(const OpenedInput& input,

@@ -63,10 +63,13 @@ void check_outputs(const QueryArguments& arguments,
 struct OpenedInput {
     remesh::MeshFile file;
     remesh::CleanResult clean;
-    agvd::Surface surface;
+    agvd::Surface surface;  //!< Of clean.mesh, cut along the barriers.
 };
 
-//! Reads, cleans and connects IN.
+//! Adds --barriers.
+void add_barriers(CLI::App& app, DiagramArguments& arguments);
+
+//! Reads, cleans and connects IN, and cuts it along --barriers.
 //! \param stages  what is expected, by the number of faces.
 [[nodiscard]] OpenedInput open_input(
     const DiagramArguments& arguments, Console& console,

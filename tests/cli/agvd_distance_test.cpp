@@ -61,6 +61,43 @@ TEST_F(AgvdDistance, CountsFromTheStartsOfPoints) {
               4);
 }
 
+// The open plane has .5.
+TEST_F(AgvdDistance, NoPathCrossesABarrier) {
+    agvd::TriangleMesh mesh = shapes::grid(40);
+    for (agvd::Vec3& p : mesh.positions) p *= 2;
+    const std::string in = put("large.off", mesh);
+    std::string edges = "# from (.2, 1) to (1.8, 1)\n";
+    for (int column = 4; column < 36; ++column) {
+        edges +=
+            std::to_string(41 * column + 20) + ' ' + std::to_string(41 * (column + 1) + 20) + '\n';
+    }
+    const std::string barriers = put("slit", edges), sites = put("site", "p 1 .75 0\n");
+    const auto outcome = distance({in, "--sites", sites, "--barriers", barriers, "--targets",
+                                   put("t", "p 1 1.25 0\n"), "-o", at("t.csv"), "-q"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_NE(bytes("t.csv").find("0,1.67630546"), std::string::npos) << bytes("t.csv");
+    ASSERT_EQ(
+        distance({in, "--sites", sites, "--barriers", barriers, "-o", at("d.ply"), "-q"}).exit_code,
+        0);
+    EXPECT_EQ(column("d.ply", 1).size(), mesh.positions.size() + 31);
+    EXPECT_NEAR(column("d.ply", 1)[41 * 20 + 25], 1.67630546, 1e-8);
+    for (const char* engine : {"window", "steiner"}) {
+        const auto diagram =
+            run(AGVD_PROGRAM, {"diagram", in, "--sites", sites, "--barriers", barriers, "--engine",
+                               engine, "-o", at("c.ply"), "-o", at("c.agvd"), "-q"});
+        ASSERT_EQ(diagram.exit_code, 0) << diagram.err;
+        EXPECT_NEAR(column("c.ply", 1)[41 * 20 + 25], 1.67630546, 1e-2);
+        EXPECT_EQ(run(AGVD_PROGRAM, {"compare", at("c.agvd"), "exact", "-q"}).exit_code, 0);
+    }
+    const auto wrong = distance(
+        {in, "--sites", sites, "--barriers", put("wrong", "0 100\n"), "-o", at("no.ply"), "-q"});
+    EXPECT_EQ(wrong.exit_code, 4);
+    EXPECT_NE(wrong.err.find("wrong"), std::string::npos) << wrong.err;
+    EXPECT_EQ(
+        distance({in, "--sites", sites, "--barriers", at("none"), "-o", at("no.ply")}).exit_code,
+        3);
+}
+
 TEST_F(AgvdDistance, OfTargetsIsATable) {
     const auto outcome =
         distance({in_, "--sites", sites_, "--targets", put("t", "p .5 .3 0\np .8 .7 0\nv 0\n"),

@@ -226,3 +226,27 @@ def test_points_may_make_groups_and_start_late():
         remesh.voronoi(V, F, points, groups=[0, 2, 2, 0])
     with pytest.raises(remesh.InvalidSites, match="starts at the distance -1"):
         remesh.voronoi(V, F, points, weights=[0, -1, 0, 0])
+
+
+def test_no_path_crosses_a_barrier():
+    V, F = flat_square(40)
+    V = 2 * V
+    row = 41 * np.arange(4, 37) + 20
+    slit = np.stack([row[:-1], row[1:]], axis=1)
+    source, target = 41 * 20 + 15, 41 * 20 + 25
+    assert np.linalg.norm(V[source] - V[target]) == pytest.approx(0.5)
+    around = 2 * np.hypot(0.8, 0.25)
+    assert remesh.geodesic_distance(V, F, [source], 0)[target] == pytest.approx(0.5, abs=1e-12)
+    far = remesh.geodesic_distance(V, F, [source], 0, barriers=slit)
+    assert far[target] == pytest.approx(around, abs=1e-12)
+    assert far[row[16]] == pytest.approx(0.25)  # The near side.
+    assert remesh.geodesic_distance(V, F, [source], 0, barriers=slit,
+                                    targets=[target]) == pytest.approx(around, abs=1e-12)
+    diagram = remesh.voronoi(V, F, [source, target], barriers=slit)
+    assert diagram.cell_area.sum() == pytest.approx(4)
+    with pytest.raises(remesh.InvalidInput, match="barriers"):
+        remesh.voronoi(V, F, [0], barriers=[0, 1])
+    with pytest.raises(remesh.InvalidInput, match="names vertex 99999"):
+        remesh.voronoi(V, F, [0], barriers=[[0, 99999]])
+    with pytest.raises(remesh.InvalidInput):
+        remesh.voronoi(V, F, [0], barriers=[[0, 1000]])

@@ -37,16 +37,18 @@ py::array_t<std::int64_t> sides_of(const std::vector<agvd::VoronoiEdge>& edges) 
 
 py::dict run_voronoi(const Doubles& positions, const Indices& triangles, const Indices& faces,
                      const Doubles& barycentric, const Indices& groups, const Doubles& weights,
-                     const std::string& engine, std::optional<double> max_error, bool keep_slits,
-                     int num_threads, const py::object& function) {
+                     const Indices& barriers, const std::string& engine,
+                     std::optional<double> max_error, bool keep_slits, int num_threads,
+                     const py::object& function) {
     const agvd::MeshView mesh = view_of(positions, triangles);
     const agvd::PropagationOptions options =
         propagation_options(groups, weights, engine, max_error, num_threads);
     const std::vector<agvd::SurfacePoint> sites = points_of(faces, barycentric);
+    const cli::SurfaceOptions as_surface{keep_slits, edges_of(barriers)};
     PythonProgress progress(function,
                             {{"clean", 1}, {"propagate", 1}, {"diagram", 1}, {"dual", 1}});
     cli::DrawnDiagram drawn = progress.run([&] {
-        return cli::draw_diagram(mesh, sites, options, keep_slits,
+        return cli::draw_diagram(mesh, sites, options, as_surface,
                                  [&](const char* stage) { return progress.of(stage); });
     });
     py::dict result;
@@ -68,16 +70,17 @@ py::dict run_voronoi(const Doubles& positions, const Indices& triangles, const I
 
 py::array_t<double> run_distances(const Doubles& positions, const Indices& triangles,
                                   const Indices& faces, const Doubles& barycentric,
-                                  const Doubles& weights, const std::string& engine,
-                                  std::optional<double> max_error, bool keep_slits, int num_threads,
-                                  const py::object& function) {
+                                  const Doubles& weights, const Indices& barriers,
+                                  const std::string& engine, std::optional<double> max_error,
+                                  bool keep_slits, int num_threads, const py::object& function) {
     const agvd::MeshView mesh = view_of(positions, triangles);
     const agvd::PropagationOptions options =
         propagation_options({}, weights, engine, max_error, num_threads);
     const std::vector<agvd::SurfacePoint> sites = points_of(faces, barycentric);
+    const cli::SurfaceOptions as_surface{keep_slits, edges_of(barriers)};
     PythonProgress progress(function, {{"clean", 1}, {"propagate", 1}});
     return to_array<double>(progress.run([&] {
-        return cli::vertex_distances(mesh, sites, options, keep_slits,
+        return cli::vertex_distances(mesh, sites, options, as_surface,
                                      [&](const char* stage) { return progress.of(stage); });
     }));
 }
@@ -88,13 +91,14 @@ void bind_diagram(py::module_& module) {
     module.def("voronoi", &run_voronoi, py::arg("positions").noconvert(),
                py::arg("triangles").noconvert(), py::arg("faces").noconvert(),
                py::arg("barycentric").noconvert(), py::arg("groups").noconvert(),
-               py::arg("weights").noconvert(), py::arg("engine"), py::arg("max_error"),
-               py::arg("keep_slits"), py::arg("num_threads"), py::arg("progress"));
+               py::arg("weights").noconvert(), py::arg("barriers").noconvert(), py::arg("engine"),
+               py::arg("max_error"), py::arg("keep_slits"), py::arg("num_threads"),
+               py::arg("progress"));
     module.def("geodesic_distance", &run_distances, py::arg("positions").noconvert(),
                py::arg("triangles").noconvert(), py::arg("faces").noconvert(),
                py::arg("barycentric").noconvert(), py::arg("weights").noconvert(),
-               py::arg("engine"), py::arg("max_error"), py::arg("keep_slits"),
-               py::arg("num_threads"), py::arg("progress"));
+               py::arg("barriers").noconvert(), py::arg("engine"), py::arg("max_error"),
+               py::arg("keep_slits"), py::arg("num_threads"), py::arg("progress"));
 }
 
 }  // namespace python

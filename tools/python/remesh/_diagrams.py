@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _arrays, _kinds, _remesh
-from ._remesh import InvalidOption, InvalidSites
+from ._remesh import InvalidInput, InvalidOption, InvalidSites
 from ._stages import Progress, take_sites
 
 
@@ -96,8 +96,22 @@ def _groups(groups: Any, count: int) -> _arrays.Indices:
     return _arrays.to_indices(given)
 
 
+def _barriers(barriers: Any, mesh: _kinds.Given) -> _arrays.Indices:
+    given = _arrays.integers([] if barriers is None else barriers, "barriers")
+    if given.size == 0:
+        given = given.reshape(0, 2)
+    if given.ndim != 2 or given.shape[1] != 2:
+        raise InvalidInput(f"barriers has the shape {given.shape}; give a row of two vertices for "
+                           "each edge")
+    wrong = _arrays.first_outside(given, len(mesh.V))
+    if wrong is not None:
+        raise InvalidInput(f"barrier {wrong // 2} names vertex {given.ravel()[wrong]}, but the "
+                           f"mesh has only {len(mesh.V)} vertices, counted from 0; correct it")
+    return _arrays.to_indices(given)
+
+
 def voronoi(V: Any, F: Any = None, sites: Any = None, max_error: float | None = None, *,
-            groups: Any = None, weights: Any = None, engine: str = "window",
+            groups: Any = None, weights: Any = None, barriers: Any = None, engine: str = "window",
             keep_slits: bool = False, threads: int = 0,
             progress: Progress | None = None) -> Voronoi:
     """The geodesic Voronoi diagram of sites on a surface.
@@ -109,6 +123,8 @@ def voronoi(V: Any, F: Any = None, sites: Any = None, max_error: float | None = 
     each point is a site. A site's distance is the least from its points.
     weights: numbers of 0 or more that are added to the distances from each point. A site that is
     farther from its own place than another one owns nothing: its ``cell_area`` is 0.
+    barriers: edges that no path crosses (m x 2 vertices). The mesh is cut along them; of a vertex
+    on them the nearest side counts, and a site there is on the side of its face.
     engine: ``"window"`` or ``"steiner"``: see the README.
     keep_slits: open edges at one place, such as the two sides of a slit, are not welded.
 
@@ -125,18 +141,19 @@ def voronoi(V: Any, F: Any = None, sites: Any = None, max_error: float | None = 
     mesh = _kinds.take(V, F)
     faces, barycentric = take_sites(mesh, sites)
     return Voronoi(**_remesh.voronoi(mesh.V, mesh.F, faces, barycentric,
-                                     _groups(groups, len(faces)), _weights(weights, len(faces)),
+                                     _groups(groups, len(faces)), _weights(weights, len(faces)), _barriers(barriers, mesh),
                                      *_common(engine, max_error, keep_slits, threads), progress))
 
 
 def geodesic_distance(V: Any, F: Any = None, sources: Any = None, max_error: float | None = None, *,
                       targets: Any = None, radius: float | None = None, weights: Any = None,
-                      engine: str = "window", keep_slits: bool = False, threads: int = 0,
+                      barriers: Any = None, engine: str = "window", keep_slits: bool = False, threads: int = 0,
                       progress: Progress | None = None) -> NDArray[np.float64]:
     """#V: the distance along the surface of each vertex from the nearest of the sources; infinity
     where there is none on the same component.
 
-    sources: as ``sites`` of voronoi(). max_error, weights, engine, keep_slits: likewise.
+    sources: as ``sites`` of voronoi(). max_error, weights, barriers, engine, keep_slits:
+    likewise.
     targets: points given in the same ways; the result is their distances, one for each.
     radius: what is farther away gets infinity; only faces so near to a source are looked at.
     targets and radius need the engine ``"window"``.
@@ -154,12 +171,12 @@ def geodesic_distance(V: Any, F: Any = None, sources: Any = None, max_error: flo
         _, error, slits, num_threads = _common(engine, max_error, keep_slits, threads)
         to = (faces, barycentric) if targets is None else take_sites(mesh, targets)
         return _remesh.distances_at(
-            mesh.V, mesh.F, faces, barycentric, _weights(weights, len(faces)), *to,
-            targets is not None,
+            mesh.V, mesh.F, faces, barycentric, _weights(weights, len(faces)),
+            _barriers(barriers, mesh), *to, targets is not None,
             float("inf") if radius is None else _arrays.number(radius, "radius"),
             1e-4 if error is None else error, slits, num_threads, progress)
     return _remesh.geodesic_distance(mesh.V, mesh.F, faces, barycentric,
-                                     _weights(weights, len(faces)),
+                                     _weights(weights, len(faces)), _barriers(barriers, mesh),
                                      *_common(engine, max_error, keep_slits, threads), progress)
 
 
