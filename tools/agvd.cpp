@@ -59,8 +59,21 @@ void warn_of_empty_cells(const agvd::Diagram& diagram, cli::Console& console) {
                  (count > most_named ? ", ..." : ""));
 }
 
+// A file for `agvd compare` has no room for lengths.
+void check_has_positions(const cli::QueryArguments& arguments) {
+    if (arguments.edge_lengths.empty()) return;
+    for (const fs::path& output : arguments.outputs) {
+        const fs::path name = output.extension() == ".gz" ? output.stem() : output;
+        if (name.extension() != ".agvd") continue;
+        throw agvd::InvalidOption(output.string() +
+                                  ": a .agvd file has positions only; with --edge-lengths write "
+                                  ".vtp, .ply or .obj");
+    }
+}
+
 void run_diagram(const cli::QueryArguments& arguments, cli::Console& console) {
-    cli::check_outputs(arguments, {arguments.sites, arguments.barriers},
+    check_has_positions(arguments);
+    cli::check_outputs(arguments, {arguments.sites, arguments.barriers, arguments.edge_lengths},
                        remesh::check_diagram_extension);
     console.expect(cli::stages_with_reading(arguments.input, arguments.sampling.num_samples));
     const cli::OpenedInput input = cli::open_input(arguments, console, [&](std::size_t num_faces) {
@@ -202,6 +215,7 @@ CLI::App* add_diagram(CLI::App& app, cli::QueryArguments& arguments) {
         "diagram", "Compute the diagram of sites on a mesh and write it to files");
     cli::add_diagram_options(*command, arguments);
     cli::add_barriers(*command, arguments);
+    cli::add_edge_lengths(*command, arguments);
     cli::add_outputs(*command, arguments.outputs);
     command->footer(std::string(diagram_footer) + cli::exit_code_help);
     return command;

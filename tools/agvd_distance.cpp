@@ -101,7 +101,8 @@ std::vector<remesh::Attribute> columns_of(const agvd::Surface& surface,
 
 void check(const DistanceArguments& arguments) {
     const bool has_targets = !arguments.targets.empty();
-    check_outputs(arguments, {arguments.sites, arguments.targets, arguments.barriers},
+    check_outputs(arguments,
+                  {arguments.sites, arguments.targets, arguments.barriers, arguments.edge_lengths},
                   has_targets ? check_table_extension : check_mesh_extension);
     if (arguments.nearest > 1 && (has_targets || arguments.radius > 0)) {
         throw agvd::InvalidOption(
@@ -175,6 +176,7 @@ Query add_distance(CLI::App& app) {
     const auto arguments = std::make_shared<DistanceArguments>();
     add_query_options(*command, *arguments);
     add_barriers(*command, *arguments);
+    add_edge_lengths(*command, *arguments);
     start_group(*command, heading::count);
     add_count(*command, "--nearest", "Number of sites of each vertex, the nearest first",
               arguments->nearest)

@@ -26,9 +26,10 @@ namespace cli {
 //! Values of the options; all are in their documented range once run() calls the job.
 struct DiagramArguments {
     std::filesystem::path input;
-    std::string from;                //!< Its format; empty: by the extension.
-    std::filesystem::path sites;     //!< Empty: sample.
-    std::filesystem::path barriers;  //!< Edges that no path crosses; empty: none.
+    std::string from;                    //!< Its format; empty: by the extension.
+    std::filesystem::path sites;         //!< Empty: sample.
+    std::filesystem::path barriers;      //!< Edges that no path crosses; empty: none.
+    std::filesystem::path edge_lengths;  //!< In place of positions; empty: none.
     remesh::CleanOptions cleaning;
     remesh::SamplingOptions sampling;
     double sample_percent = 0;  //!< Of the input's vertices; 0: sampling.num_samples counts.

@@ -21,6 +21,16 @@ std::vector<Value> carry(const std::vector<Index>& places, const std::vector<Val
     return result;
 }
 
+GivenSurface given_surface(const agvd::MeshView& mesh, const SurfaceOptions& as_surface,
+                           const agvd::PropagationOptions& options,
+                           const StageProgress& progress_of) {
+    const remesh::CleanOptions cleaning{.keep_slits = as_surface.keep_slits,
+                                        .num_threads = options.num_threads,
+                                        .progress = progress_of("clean")};
+    if (as_surface.side_lengths.empty()) return {mesh, cleaning, as_surface.barriers};
+    return {mesh, as_surface.side_lengths, cleaning};
+}
+
 Polylines draw(const agvd::Diagram& diagram, const agvd::MeshView& mesh) {
     Polylines lines;
     lines.offsets.push_back(0);
@@ -43,11 +53,7 @@ DrawnDiagram draw_diagram(const agvd::MeshView& mesh,
                           const std::vector<agvd::SurfacePoint>& given_sites,
                           const agvd::PropagationOptions& options, const SurfaceOptions& as_surface,
                           const StageProgress& progress_of) {
-    const GivenSurface given(mesh,
-                             {.keep_slits = as_surface.keep_slits,
-                              .num_threads = options.num_threads,
-                              .progress = progress_of("clean")},
-                             as_surface.barriers);
+    const GivenSurface given = given_surface(mesh, as_surface, options, progress_of);
     const agvd::Surface& surface = given.surface();
     const std::vector<agvd::SurfacePoint> sites = given.to_surface(given_sites);
     BasedDiagram based = based_diagram(surface, sites, options, progress_of);
@@ -71,11 +77,7 @@ std::vector<double> vertex_distances(const agvd::MeshView& mesh,
                                      agvd::PropagationOptions options,
                                      const SurfaceOptions& as_surface,
                                      const StageProgress& progress_of) {
-    const GivenSurface given(mesh,
-                             {.keep_slits = as_surface.keep_slits,
-                              .num_threads = options.num_threads,
-                              .progress = progress_of("clean")},
-                             as_surface.barriers);
+    const GivenSurface given = given_surface(mesh, as_surface, options, progress_of);
     const std::vector<agvd::SurfacePoint> sites = given.to_surface(given_sites);
     const agvd::IntrinsicTriangulation base =
         base_for(given.surface(), sites.size(), progress_of("clean"));

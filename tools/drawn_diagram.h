@@ -40,6 +40,9 @@ struct SurfaceOptions {
     bool keep_slits = false;  //!< As in remesh::CleanOptions.
     //! Pairs of the caller's vertices: edges that no path crosses.
     std::vector<std::array<agvd::Index, 2>> barriers = {};
+    //! #F x 3: lengths in place of positions, of the side from corner k of a face to corner k + 1;
+    //! empty: none. The mesh is not cleaned then, and has no barriers.
+    std::vector<double> side_lengths = {};
 };
 
 //! \param sites    on the caller's faces.

@@ -18,16 +18,29 @@ GivenSurface::GivenSurface(const agvd::MeshView& mesh, const remesh::CleanOption
     surface_ = agvd::cut_along(surface_, is_cut, cleaning.num_threads, cleaning.progress).surface;
 }
 
+GivenSurface::GivenSurface(const agvd::MeshView& mesh, std::span<const double> side_length,
+                           const remesh::CleanOptions& running)
+    : mesh_(mesh),
+      surface_(agvd::build_surface(mesh, side_length, running.num_threads, running.progress)) {}
+
 std::vector<SurfacePoint> GivenSurface::to_surface(const std::vector<SurfacePoint>& points) const {
+    if (surface_.has_own_lengths) return points;
     return remesh::to_cleaned(points, mesh_, clean_);
 }
 
 std::vector<SurfacePoint> GivenSurface::to_given(const std::vector<SurfacePoint>& points) const {
+    if (surface_.has_own_lengths) return points;
     return remesh::to_original(points, mesh_, clean_);
 }
 
 std::vector<Index> GivenSurface::vertices_of_least(std::span<const double> value) const {
     std::vector<Index> result(mesh_.positions.size(), agvd::no_index);
+    if (surface_.has_own_lengths) {
+        for (const agvd::Triangle& t : mesh_.triangles) {
+            for (const Index v : t) result[v] = v;
+        }
+        return result;
+    }
     for (std::size_t f = 0; f < clean_.mesh.triangles.size(); ++f) {
         for (const Index given : mesh_.triangles[clean_.face_origin[f]]) {
             for (const Index cleaned : surface_.mesh.triangles[f]) {

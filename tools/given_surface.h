@@ -21,6 +21,12 @@ public:
     //! \throw as remesh::clean_input and remesh::carry_edges.
     GivenSurface(const agvd::MeshView& mesh, const remesh::CleanOptions& cleaning,
                  std::span<const std::array<agvd::Index, 2>> barriers = {});
+    //! By lengths, without cleaning: the same vertices and faces.
+    //! \param side_length  as agvd::build_surface takes it.
+    //! \param running      its threads and its progress.
+    //! \throw as agvd::build_surface.
+    GivenSurface(const agvd::MeshView& mesh, std::span<const double> side_length,
+                 const remesh::CleanOptions& running);
 
     [[nodiscard]] const agvd::Surface& surface() const { return surface_; }
     [[nodiscard]] std::vector<agvd::SurfacePoint> to_surface(

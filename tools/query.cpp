@@ -28,6 +28,28 @@ void cut_along_barriers(const DiagramArguments& arguments, Console& console, Ope
                         .surface;
 }
 
+// What cleaning repairs is an error here: lengths belong to the edges that are there.
+void connect_by_lengths(const DiagramArguments& arguments, Console& console, OpenedInput& input) {
+    if (arguments.sites.empty()) {
+        throw agvd::InvalidOption(
+            "--edge-lengths needs --sites, as sites are sampled in space; name the sites");
+    }
+    const agvd::MeshView mesh = input.file.mesh.view();
+    const std::vector<double> lengths =
+        remesh::read_edge_lengths(arguments.edge_lengths, mesh, console.progress_of("read"));
+    input.surface = naming_file(arguments.edge_lengths, [&] {
+        return agvd::build_surface(mesh, lengths, arguments.common.threads,
+                                   console.progress_of("clean"));
+    });
+    input.clean.mesh = input.file.mesh;
+}
+
+std::vector<SurfacePoint> on_surface(const OpenedInput& input,
+                                     const std::vector<SurfacePoint>& given) {
+    if (input.surface.has_own_lengths) return given;
+    return remesh::to_cleaned(given, input.file.mesh.view(), input.clean);
+}
+
 std::vector<SurfacePoint> sample(const DiagramArguments& arguments, const agvd::Surface& surface,
                                  Console& console) {
     remesh::SamplingOptions sampling = arguments.sampling;
@@ -50,6 +72,16 @@ void add_barriers(CLI::App& app, DiagramArguments& arguments) {
     app.add_option("--barriers", arguments.barriers,
                    "Edges that no path crosses: lines of two vertices, counted from 0. The mesh is "
                    "cut along them: their vertices come once for each side")
+        ->type_name("FILE");
+}
+
+void add_edge_lengths(CLI::App& app, DiagramArguments& arguments) {
+    start_group(app, heading::geodesics);
+    app.add_option("--edge-lengths", arguments.edge_lengths,
+                   "Lengths of the edges in place of those between positions: lines of two "
+                   "vertices, counted from 0, and a length. The mesh is not cleaned, and its "
+                   "positions are for drawing")
+        ->excludes(app.get_option("--barriers"))
         ->type_name("FILE");
 }
 
@@ -83,6 +115,10 @@ OpenedInput open_input(const DiagramArguments& arguments, Console& console,
     const agvd::MeshView mesh = input.file.mesh.view();
     console.info(describe(arguments.input, mesh));
     console.expect(stages(mesh.triangles.size()));
+    if (!arguments.edge_lengths.empty()) {
+        connect_by_lengths(arguments, console, input);
+        return input;
+    }
     remesh::CleanOptions cleaning = arguments.cleaning;
     cleaning.num_threads = arguments.common.threads;
     cleaning.progress = console.progress_of("clean");
@@ -101,8 +137,7 @@ GivenSites sites_on(const OpenedInput& input, const DiagramArguments& arguments,
     } else {
         const agvd::MeshView mesh = input.file.mesh.view();
         remesh::SitesFile given = read_given_sites(arguments, mesh, console);
-        sites.points = naming_file(
-            arguments.sites, [&] { return remesh::to_cleaned(given.sites, mesh, input.clean); });
+        sites.points = naming_file(arguments.sites, [&] { return on_surface(input, given.sites); });
         sites.roles = std::move(given.points);
     }
     const double slit = input.clean.slit_length;
@@ -124,7 +159,7 @@ std::vector<SurfacePoint> points_on(const OpenedInput& input, const fs::path& pa
                                     Console& console) {
     const agvd::MeshView mesh = input.file.mesh.view();
     const std::vector<SurfacePoint> given = read_points(path, mesh, console);
-    return naming_file(path, [&] { return remesh::to_cleaned(given, mesh, input.clean); });
+    return naming_file(path, [&] { return on_surface(input, given); });
 }
 
 void write_lines(const QueryArguments& arguments, const remesh::Lines& lines, Console& console) {

@@ -69,7 +69,12 @@ struct OpenedInput {
 //! Adds --barriers.
 void add_barriers(CLI::App& app, DiagramArguments& arguments);
 
-//! Reads, cleans and connects IN, and cuts it along --barriers.
+//! Adds --edge-lengths.
+void add_edge_lengths(CLI::App& app, DiagramArguments& arguments);
+
+//! Reads, cleans and connects IN, and cuts it along --barriers. With --edge-lengths nothing is
+//! cleaned.
+//! \throw agvd::InvalidOption  there are lengths and no --sites.
 //! \param stages  what is expected, by the number of faces.
 [[nodiscard]] OpenedInput open_input(
     const DiagramArguments& arguments, Console& console,

@@ -61,6 +61,60 @@ TEST_F(AgvdDistance, CountsFromTheStartsOfPoints) {
               4);
 }
 
+// The positions are those of the square, drawn twice as wide.
+TEST_F(AgvdDistance, LengthsMayStandForPositions) {
+    agvd::TriangleMesh wide = square_;
+    for (agvd::Vec3& p : wide.positions) p.x() *= 2;
+    const std::string in = put("wide.off", wide);
+    std::ostringstream edges;
+    edges.precision(17);
+    for (const agvd::Triangle& t : square_.triangles) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const agvd::Index a = t[k], b = t[(k + 1) % 3];
+            edges << a << ' ' << b << ' ' << (square_.positions[a] - square_.positions[b]).norm()
+                  << '\n';
+        }
+    }
+    const std::string lengths = put("lengths", edges.str()), sites = put("v", "v 9\nv 50\n");
+    const auto outcome =
+        distance({in, "--sites", sites, "--edge-lengths", lengths, "-o", at("d.ply"), "-q"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const std::vector<double> distances = column("d.ply", 1);
+    for (std::size_t v = 0; v < square_.positions.size(); ++v) {
+        const double a = (square_.positions[v] - square_.positions[9]).norm();
+        const double b = (square_.positions[v] - square_.positions[50]).norm();
+        EXPECT_NEAR(distances[v], std::min(a, b), 1e-12);
+    }
+    // By its own lengths the mesh gives the same bytes.
+    ASSERT_EQ(distance({in_, "--sites", sites, "-o", at("own.ply"), "-q"}).exit_code, 0);
+    const std::string before = bytes("own.ply");
+    ASSERT_EQ(distance({in_, "--sites", sites, "--edge-lengths", lengths, "-o", at("own.ply"),
+                        "--force", "-q"})
+                  .exit_code,
+              0);
+    EXPECT_EQ(bytes("own.ply"), before);
+    for (const char* output : {"c.ply", "c.vtp"}) {
+        EXPECT_EQ(run(AGVD_PROGRAM, {"diagram", in, "--sites", sites, "--edge-lengths", lengths,
+                                     "-o", at(output), "-q"})
+                      .exit_code,
+                  0);
+    }
+    const auto refused = [&](const std::string& name, std::vector<std::string> options) {
+        options.insert(options.begin(), {in, "--edge-lengths", name, "-q", "-o", at("no.ply")});
+        return distance(std::move(options)).exit_code;
+    };
+    EXPECT_EQ(refused(lengths, {"-n", "3"}), 2);
+    EXPECT_EQ(refused(lengths, {"--sites", sites, "--barriers", sites}), 2);
+    EXPECT_EQ(refused(put("few", "0 1 .1\n"), {"--sites", sites}), 4);
+    EXPECT_EQ(refused(put("more", edges.str() + "0 30 1\n"), {"--sites", sites}), 4);
+    EXPECT_EQ(refused(put("two", edges.str() + "0 1 7\n"), {"--sites", sites}), 4);
+    EXPECT_EQ(refused(put("bad", "0 1\n"), {"--sites", sites}), 3);
+    EXPECT_EQ(run(AGVD_PROGRAM,
+                  {"diagram", in, "--sites", sites, "--edge-lengths", lengths, "-o", at("c.agvd")})
+                  .exit_code,
+              2);
+}
+
 // The open plane has .5.
 TEST_F(AgvdDistance, NoPathCrossesABarrier) {
     agvd::TriangleMesh mesh = shapes::grid(40);

@@ -250,3 +250,26 @@ def test_no_path_crosses_a_barrier():
         remesh.voronoi(V, F, [0], barriers=[[0, 99999]])
     with pytest.raises(remesh.InvalidInput):
         remesh.voronoi(V, F, [0], barriers=[[0, 1000]])
+
+
+def test_lengths_may_stand_for_positions():
+    V, F = flat_square(12)
+    lengths = np.linalg.norm(V[F] - V[np.roll(F, -1, axis=1)], axis=2)
+    by_positions = remesh.voronoi(V, F, [5, 77, 130], 0)
+    same = remesh.voronoi(V, F, [5, 77, 130], 0, edge_lengths=lengths)
+    assert np.array_equal(same.distances, by_positions.distances)
+    assert np.array_equal(same.labels, by_positions.labels)
+    rolled = np.stack([np.sin(2 * V[:, 0]), 2 * V[:, 1], np.cos(2 * V[:, 0])], axis=1) / 2
+    bent = remesh.voronoi(rolled, F, [5, 77, 130], 0, edge_lengths=lengths)
+    assert np.allclose(bent.distances, by_positions.distances, atol=1e-12)
+    assert bent.cell_area.sum() == pytest.approx(1)
+    far = remesh.geodesic_distance(0 * V, F, [5], 0, edge_lengths=2 * lengths)
+    assert np.allclose(far, 2 * np.linalg.norm(V - V[5], axis=1), atol=1e-12)
+    assert np.allclose(remesh.geodesic_distance(0 * V, F, [5], 0, edge_lengths=lengths,
+                                                targets=[130]), np.linalg.norm(V[130] - V[5]))
+    with pytest.raises(remesh.InvalidInput, match="edge_lengths has the shape"):
+        remesh.voronoi(V, F, [0], edge_lengths=lengths[:3])
+    with pytest.raises(remesh.InvalidOption, match="do not go together"):
+        remesh.voronoi(V, F, [0], edge_lengths=lengths, barriers=[[0, 1]])
+    with pytest.raises(remesh.InvalidInput, match="has no area"):
+        remesh.voronoi(V[[0, 1, 14]], [[0, 1, 2]], [0], edge_lengths=[[1, 1, 3]])

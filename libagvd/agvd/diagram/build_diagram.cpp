@@ -110,6 +110,9 @@ private:
         base_.to_input(piece.from, piece.to, parts_);
         const MeshView mesh = base_.input().mesh.view();
         const auto length_of = [&](std::size_t i) {
+            if (base_.input().has_own_lengths) {
+                return face_distance(base_.input(), parts_[i], parts_[i + 1]);
+            }
             return (position(mesh, parts_[i + 1]) - position(mesh, parts_[i])).norm();
         };
         double length = 0;

@@ -50,8 +50,13 @@ OpenedSurface cut_along(const Surface& surface, std::span<const std::uint8_t> is
             }
         }
     }
-    return {build_surface(std::move(mesh), std::move(connectivity), num_threads, progress),
-            std::move(original)};
+    std::vector<double> side_length;
+    if (surface.has_own_lengths) {
+        for (Index h = 0; h < surface.twin.size(); ++h) side_length.push_back(surface.length_of(h));
+    }
+    return {
+        build_surface(std::move(mesh), std::move(connectivity), side_length, num_threads, progress),
+        std::move(original)};
 }
 
 }  // namespace agvd

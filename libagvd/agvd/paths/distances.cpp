@@ -82,7 +82,8 @@ Distances find_distances(const Surface& surface, std::span<const SurfacePoint> s
     check_sites(surface, points);
     check_sites(surface, sites);
     std::vector<std::optional<SurfacePoint>> places(points.begin(), points.end());
-    if (!(options.max_distance < infinity) || !(options.max_distance >= 0)) {
+    if (!(options.max_distance < infinity) || !(options.max_distance >= 0) ||
+        surface.has_own_lengths) {
         return distances_on(surface, sites, places, {}, options);  // Which refuses NaN.
     }
     Poller poller(options.progress);

@@ -71,6 +71,19 @@ enum class Repeats { Told, Allowed };
 [[nodiscard]] std::vector<std::array<Index, 2>> read_edges(const std::filesystem::path& path,
                                                            const Progress& progress = {});
 
+//! A text file with two vertices and a length per line, in mesh units; what follows # is a comment.
+//! Each edge of the mesh must have a length.
+//!
+//! \return #F x 3: of the side from corner k of a face to corner k + 1.
+//! \throw IoError       the file cannot be read, or a line has another form.
+//! \throw InvalidInput  a line names what is no edge of the mesh, or has a length that is not above
+//!        0, or an edge has two lengths, or none.
+//!        All name the file, the line or the edge, and the remedy.
+//! Cost: O(file size + #F log #F).
+[[nodiscard]] std::vector<double> read_edge_lengths(const std::filesystem::path& path,
+                                                    const MeshView& mesh,
+                                                    const Progress& progress = {});
+
 //! What a file of `agvd diagram` holds.
 struct DiagramFile {
     TriangleMesh mesh;                //!< That the diagram lies on.

@@ -245,7 +245,78 @@ private:
     std::optional<ClosestPointTree> tree_;  // Made for the first `p`.
 };
 
+// An edge of a mesh or of a file, the lower vertex first.
+struct LengthOfEdge {
+    Index low, high;
+    double length;
+    std::size_t start;  // Of its line.
+};
+
+LengthOfEdge read_length(const SourceFile& file, TextScanner& scan) {
+    LengthOfEdge edge{0, 0, 0, scan.offset()};
+    for (Index* const vertex : {&edge.low, &edge.high}) {
+        const std::int64_t value = scan.integer("a vertex index");
+        if (value < 0 || value >= no_index) {
+            file.fail_malformed(edge.start, "the vertex index ", value,
+                                " is out of range; count vertices from 0");
+        }
+        *vertex = static_cast<Index>(value);
+    }
+    if (edge.low > edge.high) std::swap(edge.low, edge.high);
+    edge.length = scan.number("a length");
+    if (!(edge.length > 0 && std::isfinite(edge.length))) {
+        file.fail_unusable(edge.start,
+                           "the length of an edge is not finite or not above 0; correct the line");
+    }
+    return edge;
+}
+
 }  // namespace
+
+std::vector<double> read_edge_lengths(const std::filesystem::path& path, const MeshView& mesh,
+                                      const Progress& progress) {
+    Poller poller(progress);
+    const SourceFile file = load_file(path, poller);
+    std::vector<LengthOfEdge> edges;
+    read_lines(file, "the file holds no edge; write lines of two vertex indices and a length",
+               [&](TextScanner& scan) { edges.push_back(read_length(file, scan)); });
+    const auto ends = [](const LengthOfEdge& e) { return std::pair(e.low, e.high); };
+    const auto is_before = [&](const LengthOfEdge& a, const LengthOfEdge& b) {
+        return ends(a) < ends(b);
+    };
+    std::stable_sort(edges.begin(), edges.end(), is_before);
+    for (std::size_t i = 1; i < edges.size(); ++i) {
+        if (ends(edges[i]) != ends(edges[i - 1]) || edges[i].length == edges[i - 1].length)
+            continue;
+        file.fail_unusable(edges[i].start, "the edge has another length on an earlier line; ",
+                           "give it one");
+    }
+    std::vector<bool> is_used(edges.size(), false);
+    std::vector<double> lengths;
+    for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto [low, high] =
+                std::minmax({mesh.triangles[f][k], mesh.triangles[f][(k + 1) % 3]});
+            const auto [first, end] = std::equal_range(edges.begin(), edges.end(),
+                                                       LengthOfEdge{low, high, 0, 0}, is_before);
+            if (first == end) {
+                throw InvalidInput(path.string() + ": the edge from vertex " + std::to_string(low) +
+                                   " to " + std::to_string(high) +
+                                   " of the mesh has no length; add a line");
+            }
+            lengths.push_back(first->length);
+            std::fill(is_used.begin() + (first - edges.begin()),
+                      is_used.begin() + (end - edges.begin()), true);
+        }
+    }
+    const auto unused = std::find(is_used.begin(), is_used.end(), false);
+    if (unused != is_used.end()) {
+        const LengthOfEdge& edge = edges[static_cast<std::size_t>(unused - is_used.begin())];
+        file.fail_unusable(edge.start, "the mesh has no edge from vertex ", edge.low, " to ",
+                           edge.high, "; correct the line");
+    }
+    return lengths;
+}
 
 SitesFile read_sites(const std::filesystem::path& path, const MeshView& mesh,
                      const Progress& progress, Repeats repeats) {

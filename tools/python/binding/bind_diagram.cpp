@@ -37,14 +37,14 @@ py::array_t<std::int64_t> sides_of(const std::vector<agvd::VoronoiEdge>& edges) 
 
 py::dict run_voronoi(const Doubles& positions, const Indices& triangles, const Indices& faces,
                      const Doubles& barycentric, const Indices& groups, const Doubles& weights,
-                     const Indices& barriers, const std::string& engine,
-                     std::optional<double> max_error, bool keep_slits, int num_threads,
-                     const py::object& function) {
+                     const Indices& barriers, const Doubles& side_lengths,
+                     const std::string& engine, std::optional<double> max_error, bool keep_slits,
+                     int num_threads, const py::object& function) {
     const agvd::MeshView mesh = view_of(positions, triangles);
     const agvd::PropagationOptions options =
         propagation_options(groups, weights, engine, max_error, num_threads);
     const std::vector<agvd::SurfacePoint> sites = points_of(faces, barycentric);
-    const cli::SurfaceOptions as_surface{keep_slits, edges_of(barriers)};
+    const cli::SurfaceOptions as_surface{keep_slits, edges_of(barriers), vector_of(side_lengths)};
     PythonProgress progress(function,
                             {{"clean", 1}, {"propagate", 1}, {"diagram", 1}, {"dual", 1}});
     cli::DrawnDiagram drawn = progress.run([&] {
@@ -71,13 +71,14 @@ py::dict run_voronoi(const Doubles& positions, const Indices& triangles, const I
 py::array_t<double> run_distances(const Doubles& positions, const Indices& triangles,
                                   const Indices& faces, const Doubles& barycentric,
                                   const Doubles& weights, const Indices& barriers,
-                                  const std::string& engine, std::optional<double> max_error,
-                                  bool keep_slits, int num_threads, const py::object& function) {
+                                  const Doubles& side_lengths, const std::string& engine,
+                                  std::optional<double> max_error, bool keep_slits, int num_threads,
+                                  const py::object& function) {
     const agvd::MeshView mesh = view_of(positions, triangles);
     const agvd::PropagationOptions options =
         propagation_options({}, weights, engine, max_error, num_threads);
     const std::vector<agvd::SurfacePoint> sites = points_of(faces, barycentric);
-    const cli::SurfaceOptions as_surface{keep_slits, edges_of(barriers)};
+    const cli::SurfaceOptions as_surface{keep_slits, edges_of(barriers), vector_of(side_lengths)};
     PythonProgress progress(function, {{"clean", 1}, {"propagate", 1}});
     return to_array<double>(progress.run([&] {
         return cli::vertex_distances(mesh, sites, options, as_surface,
@@ -91,14 +92,15 @@ void bind_diagram(py::module_& module) {
     module.def("voronoi", &run_voronoi, py::arg("positions").noconvert(),
                py::arg("triangles").noconvert(), py::arg("faces").noconvert(),
                py::arg("barycentric").noconvert(), py::arg("groups").noconvert(),
-               py::arg("weights").noconvert(), py::arg("barriers").noconvert(), py::arg("engine"),
-               py::arg("max_error"), py::arg("keep_slits"), py::arg("num_threads"),
-               py::arg("progress"));
+               py::arg("weights").noconvert(), py::arg("barriers").noconvert(),
+               py::arg("side_lengths").noconvert(), py::arg("engine"), py::arg("max_error"),
+               py::arg("keep_slits"), py::arg("num_threads"), py::arg("progress"));
     module.def("geodesic_distance", &run_distances, py::arg("positions").noconvert(),
                py::arg("triangles").noconvert(), py::arg("faces").noconvert(),
                py::arg("barycentric").noconvert(), py::arg("weights").noconvert(),
-               py::arg("barriers").noconvert(), py::arg("engine"), py::arg("max_error"),
-               py::arg("keep_slits"), py::arg("num_threads"), py::arg("progress"));
+               py::arg("barriers").noconvert(), py::arg("side_lengths").noconvert(),
+               py::arg("engine"), py::arg("max_error"), py::arg("keep_slits"),
+               py::arg("num_threads"), py::arg("progress"));
 }
 
 }  // namespace python

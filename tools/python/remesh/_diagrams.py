@@ -110,8 +110,21 @@ def _barriers(barriers: Any, mesh: _kinds.Given) -> _arrays.Indices:
     return _arrays.to_indices(given)
 
 
+def _lengths(edge_lengths: Any, barriers: Any, mesh: _kinds.Given) -> _arrays.Floats:
+    if edge_lengths is None:
+        return np.empty(0)
+    given = np.asarray(edge_lengths)
+    if given.dtype.kind not in "fiu" or given.shape != mesh.F.shape:
+        raise InvalidInput(f"edge_lengths has the shape {given.shape} and holds {given.dtype}; "
+                           "give the lengths of the three sides of each face, "
+                           f"{mesh.F.shape}")
+    if barriers is not None:
+        raise InvalidOption("edge_lengths and barriers do not go together; leave one out")
+    return np.require(given, np.float64, ["C", "A"])
+
+
 def voronoi(V: Any, F: Any = None, sites: Any = None, max_error: float | None = None, *,
-            groups: Any = None, weights: Any = None, barriers: Any = None, engine: str = "window",
+            groups: Any = None, weights: Any = None, barriers: Any = None, edge_lengths: Any = None, engine: str = "window",
             keep_slits: bool = False, threads: int = 0,
             progress: Progress | None = None) -> Voronoi:
     """The geodesic Voronoi diagram of sites on a surface.
@@ -125,6 +138,10 @@ def voronoi(V: Any, F: Any = None, sites: Any = None, max_error: float | None = 
     farther from its own place than another one owns nothing: its ``cell_area`` is 0.
     barriers: edges that no path crosses (m x 2 vertices). The mesh is cut along them; of a vertex
     on them the nearest side counts, and a site there is on the side of its face.
+    edge_lengths: in place of those between the positions, which then are for drawing only (#F x 3
+    numbers: of the side from corner k of a face to corner k + 1). The mesh is not cleaned: what
+    cleaning repairs is an error. Not together with barriers; sites are vertices, or faces and
+    barycentric coordinates.
     engine: ``"window"`` or ``"steiner"``: see the README.
     keep_slits: open edges at one place, such as the two sides of a slit, are not welded.
 
@@ -141,19 +158,19 @@ def voronoi(V: Any, F: Any = None, sites: Any = None, max_error: float | None = 
     mesh = _kinds.take(V, F)
     faces, barycentric = take_sites(mesh, sites)
     return Voronoi(**_remesh.voronoi(mesh.V, mesh.F, faces, barycentric,
-                                     _groups(groups, len(faces)), _weights(weights, len(faces)), _barriers(barriers, mesh),
+                                     _groups(groups, len(faces)), _weights(weights, len(faces)), _barriers(barriers, mesh), _lengths(edge_lengths, barriers, mesh),
                                      *_common(engine, max_error, keep_slits, threads), progress))
 
 
 def geodesic_distance(V: Any, F: Any = None, sources: Any = None, max_error: float | None = None, *,
                       targets: Any = None, radius: float | None = None, weights: Any = None,
-                      barriers: Any = None, engine: str = "window", keep_slits: bool = False, threads: int = 0,
+                      barriers: Any = None, edge_lengths: Any = None, engine: str = "window", keep_slits: bool = False, threads: int = 0,
                       progress: Progress | None = None) -> NDArray[np.float64]:
     """#V: the distance along the surface of each vertex from the nearest of the sources; infinity
     where there is none on the same component.
 
-    sources: as ``sites`` of voronoi(). max_error, weights, barriers, engine, keep_slits:
-    likewise.
+    sources: as ``sites`` of voronoi(). max_error, weights, barriers, edge_lengths, engine,
+    keep_slits: likewise.
     targets: points given in the same ways; the result is their distances, one for each.
     radius: what is farther away gets infinity; only faces so near to a source are looked at.
     targets and radius need the engine ``"window"``.
@@ -172,11 +189,11 @@ def geodesic_distance(V: Any, F: Any = None, sources: Any = None, max_error: flo
         to = (faces, barycentric) if targets is None else take_sites(mesh, targets)
         return _remesh.distances_at(
             mesh.V, mesh.F, faces, barycentric, _weights(weights, len(faces)),
-            _barriers(barriers, mesh), *to, targets is not None,
+            _barriers(barriers, mesh), _lengths(edge_lengths, barriers, mesh), *to, targets is not None,
             float("inf") if radius is None else _arrays.number(radius, "radius"),
             1e-4 if error is None else error, slits, num_threads, progress)
     return _remesh.geodesic_distance(mesh.V, mesh.F, faces, barycentric,
-                                     _weights(weights, len(faces)), _barriers(barriers, mesh),
+                                     _weights(weights, len(faces)), _barriers(barriers, mesh), _lengths(edge_lengths, barriers, mesh),
                                      *_common(engine, max_error, keep_slits, threads), progress)
 
 

@@ -103,7 +103,8 @@ private:
         double longest = 0;
         for (Index h = 3 * face; h < 3 * face + 3; ++h) {
             const Index corner = surface_.tail(h);
-            const double in_space = (positions[corner] - positions[vertex]).norm();
+            const double in_space =
+                surface_.has_own_lengths ? 0 : (positions[corner] - positions[vertex]).norm();
             least = std::min(least, distance[corner] + in_space);
             longest = std::max(longest, surface_.length_of(h));
         }
