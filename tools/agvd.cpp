@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <array>
 
+#include "agvd/diagram/cut_cells.h"
 #include "arguments.h"
 #include "based_diagram.h"
 #include "expected_stages.h"
 #include "help.h"
+#include "mesh_paths.h"
 #include "paper/compare_diagrams.h"
 #include "query.h"
 #include "remesh/meshfile/atomic_file.h"
@@ -31,7 +33,8 @@ cli::BasedDiagram build(const agvd::Surface& surface, const std::vector<agvd::Su
 constexpr const char* diagram_footer =
     "Examples:\n"
     "  agvd diagram bunny.ply -n 100 -o cells.vtp -o labels.ply\n"
-    "  agvd diagram bunny.ply --sites sites.txt -o edges.obj\n\n"
+    "  agvd diagram bunny.ply --sites sites.txt -o edges.obj\n"
+    "  agvd diagram bunny.ply -n 100 -o cells.vtp --cells cut.ply\n\n"
     "Behind a point of --sites may stand `site N`, the number of the site that it\n"
     "belongs to (several points may; on all lines or on none), and `start D`, a\n"
     "distance that counts from there on: an additive weight.\n\n"
@@ -71,7 +74,44 @@ void check_has_positions(const cli::QueryArguments& arguments) {
     }
 }
 
-void run_diagram(const cli::QueryArguments& arguments, cli::Console& console) {
+struct DiagramRun : cli::QueryArguments {
+    fs::path cells;  // The cut mesh; empty: none.
+};
+
+void check_cells(const DiagramRun& arguments) {
+    if (arguments.cells.empty()) return;
+    const fs::path& output = arguments.cells;
+    const fs::path name = output.extension() == ".gz" ? output.stem() : output;
+    const std::array known{".ply", ".vtp", ".vtk"};
+    if (std::find(known.begin(), known.end(), name.extension()) == known.end()) {
+        throw agvd::IoError(output.string() +
+                            ": cells are written to meshes with properties of faces; use .ply, "
+                            ".vtp or .vtk");
+    }
+    cli::check_output(
+        output, {arguments.input, arguments.sites, arguments.barriers, arguments.edge_lengths},
+        arguments.force);
+    for (const fs::path& other : arguments.outputs) {
+        if (!cli::is_same_file(output, other)) continue;
+        throw agvd::InvalidOption(output.string() +
+                                  " is named twice as an output; choose another file");
+    }
+}
+
+// The mesh cut along the bisectors, each face with its cell.
+std::string format_cells(const fs::path& path, const agvd::Surface& surface,
+                         const agvd::Diagram& diagram, const agvd::Progress& progress) {
+    const agvd::CutCells cells = agvd::cut_cells(surface, diagram, progress);
+    remesh::Attribute site{.name = "site", .type = remesh::NumberType::Int32};
+    for (const agvd::SiteId s : cells.face_site) {
+        site.values.push_back(s.is_valid() ? static_cast<double>(s.value()) : -1.0);
+    }
+    return remesh::format_mesh({path}, cells.mesh.view(), {.of_faces = {std::move(site)}},
+                               progress);
+}
+
+void run_diagram(const DiagramRun& arguments, cli::Console& console) {
+    check_cells(arguments);
     check_has_positions(arguments);
     cli::check_outputs(arguments, {arguments.sites, arguments.barriers, arguments.edge_lengths},
                        remesh::check_diagram_extension);
@@ -95,6 +135,10 @@ void run_diagram(const cli::QueryArguments& arguments, cli::Console& console) {
     for (const fs::path& output : arguments.outputs) {
         files.push_back(
             {output, remesh::format_diagram(output, surface, sites, diagram, writing, roles)});
+    }
+    if (!arguments.cells.empty()) {
+        files.push_back(
+            {arguments.cells, format_cells(arguments.cells, surface, diagram, writing)});
     }
     remesh::write_files_atomically(files, writing);
     const auto unreached = std::count_if(diagram.nearest_site.begin(), diagram.nearest_site.end(),
@@ -210,13 +254,18 @@ void run_compare(const CompareArguments& arguments, cli::Console& console) {
     if (!is_json_on_stdout) cli::print(to_text(comparison, info) + '\n');
 }
 
-CLI::App* add_diagram(CLI::App& app, cli::QueryArguments& arguments) {
+CLI::App* add_diagram(CLI::App& app, DiagramRun& arguments) {
     CLI::App* command = app.add_subcommand(
         "diagram", "Compute the diagram of sites on a mesh and write it to files");
     cli::add_diagram_options(*command, arguments);
     cli::add_barriers(*command, arguments);
     cli::add_edge_lengths(*command, arguments);
     cli::add_outputs(*command, arguments.outputs);
+    command
+        ->add_option("--cells", arguments.cells,
+                     "Also write the mesh cut along the bisectors: triangles with the property "
+                     "site (.ply, .vtp or .vtk)")
+        ->type_name("FILE");
     command->footer(std::string(diagram_footer) + cli::exit_code_help);
     return command;
 }
@@ -262,7 +311,7 @@ int main(int argc, char** argv) {
     CLI::App app("Geodesic Voronoi diagrams of triangle meshes.", "agvd");
     app.require_subcommand(1);
     app.footer(cli::exit_code_help);
-    cli::QueryArguments for_diagram;
+    DiagramRun for_diagram;
     CompareArguments for_compare;
     const CLI::App* diagram = add_diagram(app, for_diagram);
     const std::array queries{cli::add_distance(app), cli::add_path(app), cli::add_isolines(app)};

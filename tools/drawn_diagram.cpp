@@ -72,6 +72,18 @@ DrawnDiagram draw_diagram(const agvd::MeshView& mesh,
     return drawn;
 }
 
+agvd::CutCells cut_cells(const agvd::MeshView& mesh,
+                         const std::vector<agvd::SurfacePoint>& given_sites,
+                         const agvd::PropagationOptions& options, const SurfaceOptions& as_surface,
+                         const StageProgress& progress_of) {
+    const GivenSurface given = given_surface(mesh, as_surface, options, progress_of);
+    const agvd::Diagram diagram =
+        based_diagram(given.surface(), given.to_surface(given_sites), options, progress_of).diagram;
+    agvd::CutCells cells = agvd::cut_cells(given.surface(), diagram, progress_of("diagram"));
+    for (Index& face : cells.face_origin) face = given.face_of(face);
+    return cells;
+}
+
 std::vector<double> vertex_distances(const agvd::MeshView& mesh,
                                      const std::vector<agvd::SurfacePoint>& given_sites,
                                      agvd::PropagationOptions options,

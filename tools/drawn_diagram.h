@@ -7,6 +7,7 @@
 #include <functional>
 #include <vector>
 
+#include "agvd/diagram/cut_cells.h"
 #include "agvd/diagram/diagram.h"
 #include "agvd/propagation/propagate.h"
 
@@ -53,6 +54,14 @@ struct SurfaceOptions {
                                         const agvd::PropagationOptions& options,
                                         const SurfaceOptions& as_surface,
                                         const StageProgress& progress_of);
+
+//! The mesh cut along the bisectors. Parameters and errors as above.
+//! \return its face_origin names the caller's faces.
+[[nodiscard]] agvd::CutCells cut_cells(const agvd::MeshView& mesh,
+                                       const std::vector<agvd::SurfacePoint>& sites,
+                                       const agvd::PropagationOptions& options,
+                                       const SurfaceOptions& as_surface,
+                                       const StageProgress& progress_of);
 
 //! #V: the distance of each of the caller's vertices from the nearest site; infinity where none
 //! reaches. Parameters and errors as above.

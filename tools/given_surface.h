@@ -34,6 +34,11 @@ public:
     [[nodiscard]] std::vector<agvd::SurfacePoint> to_given(
         const std::vector<agvd::SurfacePoint>& points) const;
 
+    //! The caller's face that a face of the surface is, or is a part of.
+    [[nodiscard]] agvd::Index face_of(agvd::Index face) const {
+        return clean_.face_origin.empty() ? face : clean_.face_origin[face];
+    }
+
     //! For each of the caller's vertices the vertex of the surface at its place: of several the one
     //! with the least value. no_index: it is in no face of the surface.
     //! \param value  by vertex of the surface.

@@ -4,6 +4,7 @@
 
 #include "agvd/core/error.h"
 #include "agvd/core/version.h"
+#include "agvd/diagram/cut_cells.h"
 #include "agvd/diagram/diagram.h"
 #include "agvd/intrinsic/intrinsic_triangulation.h"
 #include "agvd/mesh/closest_point.h"

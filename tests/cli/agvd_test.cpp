@@ -114,6 +114,27 @@ TEST_F(AgvdDiagram, SitesMayHaveSeveralPointsAndStarts) {
     EXPECT_NE(path.err.find("paths lead to points without `site`"), std::string::npos) << path.err;
 }
 
+TEST_F(AgvdDiagram, CellsAreFacesOfACutMesh) {
+    const std::string in = put("in.off", shapes::sphere(3));
+    const auto outcome =
+        diagram({in, "-n", "20", "-o", at("d.agvd"), "--cells", at("cut.ply"), "-q"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const remesh::DiagramFile file = remesh::read_diagram(at("d.agvd"));
+    const remesh::MeshFile cut =
+        remesh::read_mesh(at("cut.ply"), remesh::ReadOptions{.with_attributes = true});
+    const std::vector<double>& sites = cut.attributes.of_faces.at(0).values;
+    ASSERT_EQ(sites.size(), cut.mesh.triangles.size());
+    std::vector<double> area(20, 0);
+    for (std::size_t f = 0; f < sites.size(); ++f) {
+        area.at(static_cast<std::size_t>(sites[f])) +=
+            agvd::doubled_normal(cut.mesh.positions, cut.mesh.triangles[f]).norm() / 2;
+    }
+    for (std::size_t s = 0; s < 20; ++s) EXPECT_NEAR(area[s], file.diagram.cell_area[s], 1e-11);
+    EXPECT_EQ(diagram({in, "-n", "3", "-o", at("e.ply"), "--cells", at("e.obj")}).exit_code, 3);
+    EXPECT_EQ(diagram({in, "-n", "3", "-o", at("e.ply"), "--cells", at("e.ply")}).exit_code, 2);
+    EXPECT_EQ(num_files(), 3u);
+}
+
 TEST_F(AgvdDiagram, SitesMayLieInDirtyMeshes) {
     // Face 0 is degenerate and dropped in cleaning; sites keep the numbers of the file. One end of
     // it is a corner of the square, the other is nowhere on the surface.

@@ -273,3 +273,19 @@ def test_lengths_may_stand_for_positions():
         remesh.voronoi(V, F, [0], edge_lengths=lengths, barriers=[[0, 1]])
     with pytest.raises(remesh.InvalidInput, match="has no area"):
         remesh.voronoi(V[[0, 1, 14]], [[0, 1, 2]], [0], edge_lengths=[[1, 1, 3]])
+
+
+def test_cells_may_be_cut_out():
+    V, F = flat_square(8)
+    points = np.array([[0.21, 0.33, 0], [0.84, 0.7, 0], [0.1, 0.95, 0]])
+    W, G, site, source = remesh.cut_cells(V, F, points, 0)
+    corners = W[G]
+    areas = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])[:, 2] / 2
+    assert (areas > 0).all()
+    diagram = remesh.voronoi(V, F, points, 0)
+    for s in range(3):
+        assert areas[site == s].sum() == pytest.approx(diagram.cell_area[s], abs=1e-12)
+    nearest = np.linalg.norm(corners.mean(axis=1)[:, None] - points, axis=2).argmin(axis=1)
+    assert np.array_equal(site, nearest)
+    whole = np.bincount(source, areas, len(F))
+    assert np.allclose(whole, 1 / 128)

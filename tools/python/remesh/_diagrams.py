@@ -162,6 +162,31 @@ def voronoi(V: Any, F: Any = None, sites: Any = None, max_error: float | None = 
                                      *_common(engine, max_error, keep_slits, threads), progress))
 
 
+def cut_cells(V: Any, F: Any = None, sites: Any = None, max_error: float | None = None, *,
+              groups: Any = None, weights: Any = None, barriers: Any = None,
+              edge_lengths: Any = None, engine: str = "window", keep_slits: bool = False,
+              threads: int = 0, progress: Progress | None = None
+              ) -> tuple[NDArray[np.float64], NDArray[np.uint32], NDArray[np.int64],
+                         NDArray[np.int64]]:
+    """The mesh cut along the bisectors of voronoi(): vertices, faces, the site of each face (-1:
+    none reaches it), and the face of the input that it is a part of. It is a manifold, and the faces
+    of a site have the area of its cell.
+
+    All parameters are those of voronoi().
+
+    >>> V, F = remesh.examples.sphere(3)
+    >>> W, G, site, source = remesh.cut_cells(V, F, [0, 1])
+    >>> len(G) > len(F), np.unique(site).tolist(), len(source) == len(G)
+    (True, [0, 1], True)
+    """
+    mesh = _kinds.take(V, F)
+    faces, barycentric = take_sites(mesh, sites)
+    return _remesh.cut_cells(mesh.V, mesh.F, faces, barycentric, _groups(groups, len(faces)),
+                             _weights(weights, len(faces)), _barriers(barriers, mesh),
+                             _lengths(edge_lengths, barriers, mesh),
+                             *_common(engine, max_error, keep_slits, threads), progress)
+
+
 def geodesic_distance(V: Any, F: Any = None, sources: Any = None, max_error: float | None = None, *,
                       targets: Any = None, radius: float | None = None, weights: Any = None,
                       barriers: Any = None, edge_lengths: Any = None, engine: str = "window", keep_slits: bool = False, threads: int = 0,

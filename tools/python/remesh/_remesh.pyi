@@ -71,6 +71,10 @@ def voronoi(positions: _Floats, triangles: _Indices, faces: _Indices, barycentri
             groups: _Indices, weights: _Floats, barriers: _Indices,
             side_lengths: _Floats, engine: str, max_error: float | None, keep_slits: bool, num_threads: int,
             progress: _Progress) -> dict[str, Any]: ...
+def cut_cells(positions: _Floats, triangles: _Indices, faces: _Indices, barycentric: _Floats,
+              groups: _Indices, weights: _Floats, barriers: _Indices, side_lengths: _Floats,
+              engine: str, max_error: float | None, keep_slits: bool, num_threads: int,
+              progress: _Progress) -> tuple[_Floats, _Indices, _Numbers, _Numbers]: ...
 def geodesic_distance(positions: _Floats, triangles: _Indices, faces: _Indices,
                       barycentric: _Floats, weights: _Floats, barriers: _Indices,
             side_lengths: _Floats, engine: str, max_error: float | None,
