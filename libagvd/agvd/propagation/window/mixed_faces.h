@@ -99,8 +99,8 @@ inline bool is_source(const Surface& surface, std::span<const double> starts,
     if (!result.vertex_site[v].is_valid()) return false;
     const double from_site =
         result.vertex_distance[v] - start_of(starts, result.vertex_site[v].value());
-    return (surface.can_be_pseudo_source[v] != 0) |
-           (from_site <= near_vertex * surface.length_of(half_edge));
+    return surface.can_be_pseudo_source[v] != 0 ||
+           from_site <= near_vertex * surface.length_of(half_edge);
 }
 
 // Calls each(relay) for the relays that start in a face: those of its placed sites, and of its
