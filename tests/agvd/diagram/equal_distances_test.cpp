@@ -9,6 +9,7 @@
 #include "agvd/diagram/diagram.h"
 #include "agvd/diagram/face_relays.h"
 #include "agvd/intrinsic/intrinsic_triangulation.h"
+#include "agvd/mesh/surface_points.h"
 #include "agvd/propagation/propagate.h"
 #include "support/points.h"
 #include "support/random_meshes.h"
