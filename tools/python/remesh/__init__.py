@@ -14,7 +14,7 @@ once, and gives the same bytes for any number of threads. Ctrl-C ends a call in 
 """
 
 from . import examples, tiles
-from ._diagrams import Voronoi, geodesic_distance, nearest_sites, voronoi
+from ._diagrams import Voronoi, cut_cells, geodesic_distance, nearest_sites, voronoi
 from ._evaluation import evaluate
 from ._files import read, write
 from ._isolines import Isolines, isolines
@@ -53,6 +53,7 @@ __all__ = [
     "Voronoi",
     "__version__",
     "clean",
+    "cut_cells",
     "evaluate",
     "examples",
     "geodesic_distance",
