@@ -1,5 +1,7 @@
 #include "remesh/pipeline/near_mesh.h"
 
+#include <algorithm>
+
 #include "agvd/mesh/surface_points.h"
 #include "remesh/pipeline/domain.h"
 #include "remesh/pipeline/stage_context.h"
@@ -10,8 +12,8 @@
 namespace remesh::detail {
 namespace {
 
-// Points of the input that are looked at besides its vertices.
-constexpr Index num_area_samples = 100'000;
+// Points of the input that are looked at besides its vertices: for each face of the mesh, at most.
+constexpr std::size_t samples_for_each = 32, most_area_samples = 100'000;
 
 }  // namespace
 
@@ -28,8 +30,10 @@ std::optional<double> bring_near(const CurvedSurface& curved, JoinedMesh& joined
                         .num_threads = options.num_threads};
     limit.points.assign(bound.input.positions.begin(), bound.input.positions.end());
     const AreaSamples samples(bound.input);
-    for (Index i = 0; i < num_area_samples; ++i) {
-        limit.points.push_back(position(bound.input, samples.at(i, num_area_samples)));
+    const auto num_samples = static_cast<Index>(
+        std::min(samples_for_each * joined.mesh.triangles.size(), most_area_samples));
+    for (Index i = 0; i < num_samples; ++i) {
+        limit.points.push_back(position(bound.input, samples.at(i, num_samples)));
     }
     const MeshCurves curves(*curved.whole, curved.cut(), curved.plan->network.network);
     return keep_distance(curves, find_mobility(curved, curves, joined), limit, joined.hard,
