@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Samplings that are tried.
-constexpr int most_tries = 3;
+constexpr int most_samplings = 3;
 
 // Finds boundary edges by the positions of their ends.
 class BoundaryEdges {
@@ -200,7 +200,7 @@ void mesh_tile(const fs::path& folder, const TilePlan& plan, Index number,
         run.progress = [&](Stage, double) { return options.progress(0); };
     }
     const Surface& surface = input.cleaned.surface;
-    for (int tries = 0; tries < most_tries; ++tries, ++run.seed) {
+    for (int tries = 0; tries < most_samplings; ++tries, ++run.seed) {
         RemeshResult told;
         std::optional<detail::MeshedTile> meshed = detail::mesh_tile(input, {run, told});
         if (!meshed) continue;
