@@ -7,8 +7,11 @@
 
 #include "arguments.h"
 #include "based_diagram.h"
+#include "diagram_for_page.h"
 #include "expected_stages.h"
 #include "help.h"
+#include "page/viewer.h"
+#include "page_outputs.h"
 #include "paper/compare_diagrams.h"
 #include "query.h"
 #include "remesh/meshfile/atomic_file.h"
@@ -31,7 +34,8 @@ cli::BasedDiagram build(const agvd::Surface& surface, const std::vector<agvd::Su
 constexpr const char* diagram_footer =
     "Examples:\n"
     "  agvd diagram bunny.ply -n 100 -o cells.vtp -o labels.ply\n"
-    "  agvd diagram bunny.ply --sites sites.txt -o edges.obj\n\n"
+    "  agvd diagram bunny.ply --sites sites.txt -o edges.obj\n"
+    "  agvd diagram bunny.ply -n 100 --html cells.html\n\n"
     "Output (.gz behind the extension: compressed):\n"
     "  .vtp   VTK PolyData for ParaView: the cleaned mesh, the Voronoi edges and\n"
     "         boundary arcs as polylines, the sites as vertices; point data site and\n"
@@ -41,8 +45,43 @@ constexpr const char* diagram_footer =
     "  .obj   the polylines as v and l lines\n"
     "  .agvd  everything, exactly: what `agvd compare` reads\n\n";
 
-void run_diagram(const cli::QueryArguments& arguments, cli::Console& console) {
+struct DiagramOfArguments : cli::QueryArguments {
+    fs::path html;        // Empty: none.
+    std::string command;  // The command line: see page::to_shell.
+};
+
+void check_outputs(const DiagramOfArguments& arguments) {
     cli::check_outputs(arguments, {arguments.sites}, remesh::check_diagram_extension);
+    if (arguments.html.empty()) {
+        if (!arguments.outputs.empty()) return;
+        throw agvd::InvalidOption("no output is asked for; add -o FILE or --html FILE");
+    }
+    cli::check_page_option("--html", arguments.html);
+    page::require_viewer("--html");
+    cli::check_output(arguments.html, {arguments.input, arguments.sites}, arguments.force);
+    for (const fs::path& output : arguments.outputs) {
+        if (!cli::is_same_file(output, arguments.html)) continue;
+        throw agvd::InvalidOption(output.string() +
+                                  " is named for two outputs; choose another file");
+    }
+}
+
+std::string page_of(const DiagramOfArguments& arguments, const agvd::Surface& surface,
+                    const std::vector<agvd::SurfacePoint>& sites,
+                    const agvd::PropagationOptions& propagating, const cli::BasedDiagram& based,
+                    cli::Console& console) {
+    page::DiagramPage page =
+        cli::diagram_for_page(surface, sites, based.diagram, propagating, based.certified_error,
+                              [&](const char* stage) { return console.progress_of(stage); });
+    page.version = REMESH_VERSION;
+    page.command = arguments.command;
+    page.name = arguments.input.filename().string();
+    page.warnings = console.warnings();
+    return page::format_page(page, based.diagram, console.progress_of("page"));
+}
+
+void run_diagram(const DiagramOfArguments& arguments, cli::Console& console) {
+    check_outputs(arguments);
     console.expect(cli::stages_with_reading(arguments.input, arguments.sampling.num_samples));
     const cli::OpenedInput input = cli::open_input(arguments, console, [&](std::size_t num_faces) {
         return cli::stages_of_diagram(num_faces, arguments.sampling.num_samples);
@@ -54,23 +93,28 @@ void run_diagram(const cli::QueryArguments& arguments, cli::Console& console) {
     if (clean.slit_length > spacing) console.warn(cli::welded_slit_text(clean.slit_length));
     agvd::PropagationOptions propagating = arguments.propagation;
     propagating.num_threads = arguments.common.threads;
-    const auto [diagram, certified_error] = cli::naming_file(
+    const cli::BasedDiagram based = cli::naming_file(
         arguments.input, [&] { return build(surface, sites, propagating, console); },
         arguments.sites);
-
-    const agvd::Progress writing = console.progress_of("write");
-    std::vector<remesh::FileContent> files;
-    for (const fs::path& output : arguments.outputs) {
-        files.push_back({output, remesh::format_diagram(output, surface, sites, diagram, writing)});
-    }
-    remesh::write_files_atomically(files, writing);
+    const agvd::Diagram& diagram = based.diagram;
     const auto unreached = std::count_if(diagram.nearest_site.begin(), diagram.nearest_site.end(),
                                          [](agvd::SiteId site) { return !site.is_valid(); });
     if (unreached > 0) {
         console.warn("no site reaches " + std::to_string(unreached) +
                      " vertices; place a site on every component");
     }
-    console.info(remesh::to_text(propagating.engine, certified_error));
+
+    const agvd::Progress writing = console.progress_of("write");
+    std::vector<remesh::FileContent> files;
+    for (const fs::path& output : arguments.outputs) {
+        files.push_back({output, remesh::format_diagram(output, surface, sites, diagram, writing)});
+    }
+    if (!arguments.html.empty()) {
+        files.push_back(
+            {arguments.html, page_of(arguments, surface, sites, propagating, based, console)});
+    }
+    remesh::write_files_atomically(files, writing);
+    console.info(remesh::to_text(propagating.engine, based.certified_error));
     console.info(std::to_string(sites.size()) + " sites, " +
                  std::to_string(diagram.vertices.size()) + " Voronoi vertices, " +
                  std::to_string(diagram.edges.size()) + " Voronoi edges");
@@ -169,11 +213,16 @@ void run_compare(const CompareArguments& arguments, cli::Console& console) {
     if (!is_json_on_stdout) cli::print(to_text(comparison, info) + '\n');
 }
 
-CLI::App* add_diagram(CLI::App& app, cli::QueryArguments& arguments) {
+CLI::App* add_diagram(CLI::App& app, DiagramOfArguments& arguments) {
     CLI::App* command = app.add_subcommand(
         "diagram", "Compute the diagram of sites on a mesh and write it to files");
     cli::add_diagram_options(*command, arguments);
     cli::add_outputs(*command, arguments.outputs);
+    command
+        ->add_option("--html", arguments.html,
+                     "Write a page that shows cells, bisectors, sites and lines of equal distance: "
+                     "one file for any browser, which needs no network")
+        ->type_name("FILE");
     command->footer(std::string(diagram_footer) + cli::exit_code_help);
     return command;
 }
@@ -219,7 +268,8 @@ int main(int argc, char** argv) {
     CLI::App app("Geodesic Voronoi diagrams of triangle meshes.", "agvd");
     app.require_subcommand(1);
     app.footer(cli::exit_code_help);
-    cli::QueryArguments for_diagram;
+    DiagramOfArguments for_diagram;
+    for_diagram.command = page::to_shell(argc, argv, "agvd");
     CompareArguments for_compare;
     const CLI::App* diagram = add_diagram(app, for_diagram);
     const std::array queries{cli::add_distance(app), cli::add_path(app), cli::add_isolines(app)};

@@ -31,10 +31,10 @@ std::string check_length(const char* name, const std::string& text) {
     return "the " + std::string(name) + " is " + text + "; use a number above 0";
 }
 
-void add_outputs(CLI::App& app, std::vector<fs::path>& outputs) {
+CLI::Option* add_outputs(CLI::App& app, std::vector<fs::path>& outputs) {
     start_group(app, heading::files);
-    app.add_option("-o,--output", outputs, "File to write; repeat the option to write more files")
-        ->required()
+    return app
+        .add_option("-o,--output", outputs, "File to write; repeat the option to write more files")
         ->type_name("FILE")
         ->allow_extra_args(false);
 }
