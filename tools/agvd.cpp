@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <array>
 
+#include "agvd/diagram/cut_cells.h"
 #include "arguments.h"
 #include "based_diagram.h"
 #include "diagram_for_page.h"
 #include "expected_stages.h"
 #include "help.h"
+#include "mesh_paths.h"
 #include "page/viewer.h"
 #include "page_outputs.h"
 #include "paper/compare_diagrams.h"
@@ -35,7 +37,11 @@ constexpr const char* diagram_footer =
     "Examples:\n"
     "  agvd diagram bunny.ply -n 100 -o cells.vtp -o labels.ply\n"
     "  agvd diagram bunny.ply --sites sites.txt -o edges.obj\n"
-    "  agvd diagram bunny.ply -n 100 --html cells.html\n\n"
+    "  agvd diagram bunny.ply -n 100 --html cells.html\n"
+    "  agvd diagram bunny.ply -n 100 -o cells.vtp --cells cut.ply\n\n"
+    "Behind a point of --sites may stand `site N`, the number of the site that it\n"
+    "belongs to (several points may; on all lines or on none), and `start D`, a\n"
+    "distance that counts from there on: an additive weight.\n\n"
     "Output (.gz behind the extension: compressed):\n"
     "  .vtp   VTK PolyData for ParaView: the cleaned mesh, the Voronoi edges and\n"
     "         boundary arcs as polylines, the sites as vertices; point data site and\n"
@@ -45,28 +51,93 @@ constexpr const char* diagram_footer =
     "  .obj   the polylines as v and l lines\n"
     "  .agvd  everything, exactly: what `agvd compare` reads\n\n";
 
-struct DiagramOfArguments : cli::QueryArguments {
+// Names the first sites that own nothing: others are nearer everywhere.
+void warn_of_empty_cells(const agvd::Diagram& diagram, cli::Console& console) {
+    constexpr std::size_t most_named = 10;
+    std::string names;
+    std::size_t count = 0;
+    for (std::size_t s = 0; s < diagram.num_sites; ++s) {
+        if (diagram.cell_area[s] != 0 || diagram.cell_euler[s] != 0) continue;
+        if (++count <= most_named) names += (count == 1 ? " " : ", ") + std::to_string(s);
+    }
+    if (count == 0) return;
+    console.warn((count == 1 ? "a site owns" : std::to_string(count) + " sites own") +
+                 " nothing, as others are nearer everywhere:" + names +
+                 (count > most_named ? ", ..." : ""));
+}
+
+// A file for `agvd compare` has no room for lengths.
+void check_has_positions(const cli::QueryArguments& arguments) {
+    if (arguments.edge_lengths.empty()) return;
+    for (const fs::path& output : arguments.outputs) {
+        const fs::path name = output.extension() == ".gz" ? output.stem() : output;
+        if (name.extension() != ".agvd") continue;
+        throw agvd::InvalidOption(output.string() +
+                                  ": a .agvd file has positions only; with --edge-lengths write "
+                                  ".vtp, .ply or .obj");
+    }
+}
+
+struct DiagramRun : cli::QueryArguments {
+    fs::path cells;       // The cut mesh; empty: none.
     fs::path html;        // Empty: none.
     std::string command;  // The command line: see page::to_shell.
 };
 
-void check_outputs(const DiagramOfArguments& arguments) {
-    cli::check_outputs(arguments, {arguments.sites}, remesh::check_diagram_extension);
+void check_page(const DiagramRun& arguments) {
     if (arguments.html.empty()) {
-        if (!arguments.outputs.empty()) return;
-        throw agvd::InvalidOption("no output is asked for; add -o FILE or --html FILE");
+        if (!arguments.outputs.empty() || !arguments.cells.empty()) return;
+        throw agvd::InvalidOption(
+            "no output is asked for; add -o FILE, --cells FILE or --html FILE");
     }
     cli::check_page_option("--html", arguments.html);
     page::require_viewer("--html");
-    cli::check_output(arguments.html, {arguments.input, arguments.sites}, arguments.force);
-    for (const fs::path& output : arguments.outputs) {
-        if (!cli::is_same_file(output, arguments.html)) continue;
-        throw agvd::InvalidOption(output.string() +
+    cli::check_output(
+        arguments.html,
+        {arguments.input, arguments.sites, arguments.barriers, arguments.edge_lengths},
+        arguments.force);
+    std::vector<fs::path> others = arguments.outputs;
+    if (!arguments.cells.empty()) others.push_back(arguments.cells);
+    for (const fs::path& other : others) {
+        if (!cli::is_same_file(other, arguments.html)) continue;
+        throw agvd::InvalidOption(other.string() +
                                   " is named for two outputs; choose another file");
     }
 }
 
-std::string page_of(const DiagramOfArguments& arguments, const agvd::Surface& surface,
+void check_cells(const DiagramRun& arguments) {
+    if (arguments.cells.empty()) return;
+    const fs::path& output = arguments.cells;
+    const fs::path name = output.extension() == ".gz" ? output.stem() : output;
+    const std::array known{".ply", ".vtp", ".vtk"};
+    if (std::find(known.begin(), known.end(), name.extension()) == known.end()) {
+        throw agvd::IoError(output.string() +
+                            ": cells are written to meshes with properties of faces; use .ply, "
+                            ".vtp or .vtk");
+    }
+    cli::check_output(
+        output, {arguments.input, arguments.sites, arguments.barriers, arguments.edge_lengths},
+        arguments.force);
+    for (const fs::path& other : arguments.outputs) {
+        if (!cli::is_same_file(output, other)) continue;
+        throw agvd::InvalidOption(output.string() +
+                                  " is named twice as an output; choose another file");
+    }
+}
+
+// The mesh cut along the bisectors, each face with its cell.
+std::string format_cells(const fs::path& path, const agvd::Surface& surface,
+                         const agvd::Diagram& diagram, const agvd::Progress& progress) {
+    const agvd::CutCells cells = agvd::cut_cells(surface, diagram, progress);
+    remesh::Attribute site{.name = "site", .type = remesh::NumberType::Int32};
+    for (const agvd::SiteId s : cells.face_site) {
+        site.values.push_back(s.is_valid() ? static_cast<double>(s.value()) : -1.0);
+    }
+    return remesh::format_mesh({path}, cells.mesh.view(), {.of_faces = {std::move(site)}},
+                               progress);
+}
+
+std::string page_of(const DiagramRun& arguments, const agvd::Surface& surface,
                     const std::vector<agvd::SurfacePoint>& sites,
                     const agvd::PropagationOptions& propagating, const cli::BasedDiagram& based,
                     cli::Console& console) {
@@ -80,42 +151,54 @@ std::string page_of(const DiagramOfArguments& arguments, const agvd::Surface& su
     return page::format_page(page, based.diagram, console.progress_of("page"));
 }
 
-void run_diagram(const DiagramOfArguments& arguments, cli::Console& console) {
-    check_outputs(arguments);
+void run_diagram(const DiagramRun& arguments, cli::Console& console) {
+    check_cells(arguments);
+    check_page(arguments);
+    check_has_positions(arguments);
+    cli::check_outputs(arguments, {arguments.sites, arguments.barriers, arguments.edge_lengths},
+                       remesh::check_diagram_extension);
     console.expect(cli::stages_with_reading(arguments.input, arguments.sampling.num_samples));
     const cli::OpenedInput input = cli::open_input(arguments, console, [&](std::size_t num_faces) {
         return cli::stages_of_diagram(num_faces, arguments.sampling.num_samples);
     });
-    const remesh::CleanResult& clean = input.clean;
     const agvd::Surface& surface = input.surface;
-    const std::vector<agvd::SurfacePoint> sites = cli::sites_on(input, arguments, console);
-    const double spacing = remesh::mean_spacing(surface, sites.size());
-    if (clean.slit_length > spacing) console.warn(cli::welded_slit_text(clean.slit_length));
+    const auto [sites, roles] = cli::sites_on(input, arguments, console);
+    if (!arguments.html.empty()) {
+        cli::require_plain_points(arguments.sites, roles, "--html draws cells of");
+    }
     agvd::PropagationOptions propagating = arguments.propagation;
+    propagating.points = roles;
     propagating.num_threads = arguments.common.threads;
     const cli::BasedDiagram based = cli::naming_file(
-        arguments.input, [&] { return build(surface, sites, propagating, console); },
+        arguments.input,
+        [&, &points = sites] { return build(surface, points, propagating, console); },
         arguments.sites);
     const agvd::Diagram& diagram = based.diagram;
+
+    const agvd::Progress writing = console.progress_of("write");
+    std::vector<remesh::FileContent> files;
+    for (const fs::path& output : arguments.outputs) {
+        files.push_back(
+            {output, remesh::format_diagram(output, surface, sites, diagram, writing, roles)});
+    }
+    if (!arguments.cells.empty()) {
+        files.push_back(
+            {arguments.cells, format_cells(arguments.cells, surface, diagram, writing)});
+    }
     const auto unreached = std::count_if(diagram.nearest_site.begin(), diagram.nearest_site.end(),
                                          [](agvd::SiteId site) { return !site.is_valid(); });
     if (unreached > 0) {
         console.warn("no site reaches " + std::to_string(unreached) +
                      " vertices; place a site on every component");
     }
-
-    const agvd::Progress writing = console.progress_of("write");
-    std::vector<remesh::FileContent> files;
-    for (const fs::path& output : arguments.outputs) {
-        files.push_back({output, remesh::format_diagram(output, surface, sites, diagram, writing)});
-    }
+    warn_of_empty_cells(diagram, console);
     if (!arguments.html.empty()) {
         files.push_back(
             {arguments.html, page_of(arguments, surface, sites, propagating, based, console)});
     }
     remesh::write_files_atomically(files, writing);
     console.info(remesh::to_text(propagating.engine, based.certified_error));
-    console.info(std::to_string(sites.size()) + " sites, " +
+    console.info(std::to_string(diagram.num_sites) + " sites, " +
                  std::to_string(diagram.vertices.size()) + " Voronoi vertices, " +
                  std::to_string(diagram.edges.size()) + " Voronoi edges");
 }
@@ -166,6 +249,11 @@ void check_same_input(const CompareArguments& arguments, const remesh::DiagramFi
                                  "); write both with the same --sites, or the same --samples, "
                                  "--init and --seed");
     }
+    if (a.points != b.points) {
+        throw agvd::InvalidInput(both +
+                                 " group their points differently, or start them at different "
+                                 "distances; write both with the same --sites");
+    }
 }
 
 void run_compare(const CompareArguments& arguments, cli::Console& console) {
@@ -183,7 +271,8 @@ void run_compare(const CompareArguments& arguments, cli::Console& console) {
     });
     agvd::Diagram b;
     if (is_exact) {
-        const agvd::PropagationOptions exact{.max_error = 0, .num_threads = threads};
+        const agvd::PropagationOptions exact{
+            .points = a.points, .max_error = 0, .num_threads = threads};
         b = cli::naming_file(arguments.a,
                              [&] { return build(surface, a.sites, exact, console).diagram; });
     } else {
@@ -201,7 +290,8 @@ void run_compare(const CompareArguments& arguments, cli::Console& console) {
         const std::array<const agvd::Diagram*, 2> diagrams{&a.diagram, &b};
         const auto errors =
             agvd::exact_bisector_errors(surface, a.sites, diagrams,
-                                        {.max_points = arguments.points,
+                                        {.points = a.points,
+                                         .max_points = arguments.points,
                                          .num_threads = threads,
                                          .progress = console.progress_of("compare")});
         comparison.bisectors_a = errors[0];
@@ -213,11 +303,18 @@ void run_compare(const CompareArguments& arguments, cli::Console& console) {
     if (!is_json_on_stdout) cli::print(to_text(comparison, info) + '\n');
 }
 
-CLI::App* add_diagram(CLI::App& app, DiagramOfArguments& arguments) {
+CLI::App* add_diagram(CLI::App& app, DiagramRun& arguments) {
     CLI::App* command = app.add_subcommand(
         "diagram", "Compute the diagram of sites on a mesh and write it to files");
     cli::add_diagram_options(*command, arguments);
+    cli::add_barriers(*command, arguments);
+    cli::add_edge_lengths(*command, arguments);
     cli::add_outputs(*command, arguments.outputs);
+    command
+        ->add_option("--cells", arguments.cells,
+                     "Also write the mesh cut along the bisectors: triangles with the property "
+                     "site (.ply, .vtp or .vtk)")
+        ->type_name("FILE");
     command
         ->add_option("--html", arguments.html,
                      "Write a page that shows cells, bisectors, sites and lines of equal distance: "
@@ -268,7 +365,7 @@ int main(int argc, char** argv) {
     CLI::App app("Geodesic Voronoi diagrams of triangle meshes.", "agvd");
     app.require_subcommand(1);
     app.footer(cli::exit_code_help);
-    DiagramOfArguments for_diagram;
+    DiagramRun for_diagram;
     for_diagram.command = page::to_shell(argc, argv, "agvd");
     CompareArguments for_compare;
     const CLI::App* diagram = add_diagram(app, for_diagram);

@@ -21,7 +21,9 @@ constexpr const char* distance_footer =
     "  agvd distance bunny.ply --sites sites.txt --radius 0.02 -o near.vtp\n"
     "  agvd distance bunny.ply -n 100 --nearest 4 -o ranks.ply\n"
     "  agvd distance bunny.ply --sites sites.txt --targets points.txt -o table.csv\n\n"
-    "FILE has a point on each line: `v VERTEX`, `f FACE B0 B1 B2` or `p X Y Z`.\n\n"
+    "FILE has a point on each line: `v VERTEX`, `f FACE B0 B1 B2` or `p X Y Z`; for\n"
+    "--sites also `site N` behind it, the site that it belongs to, and `start D`, the\n"
+    "distance that it starts with.\n\n"
     "Output (.gz behind the extension: compressed):\n"
     "  .ply, .vtp, .vtk   the cleaned mesh with the vertex properties site (-1: none)\n"
     "         and distance (infinity: not reached); with --nearest also site_2,\n"
@@ -99,7 +101,8 @@ std::vector<remesh::Attribute> columns_of(const agvd::Surface& surface,
 
 void check(const DistanceArguments& arguments) {
     const bool has_targets = !arguments.targets.empty();
-    check_outputs(arguments, {arguments.sites, arguments.targets},
+    check_outputs(arguments,
+                  {arguments.sites, arguments.targets, arguments.barriers, arguments.edge_lengths},
                   has_targets ? check_table_extension : check_mesh_extension);
     if (arguments.nearest > 1 && (has_targets || arguments.radius > 0)) {
         throw agvd::InvalidOption(
@@ -133,12 +136,13 @@ void run_distance(const DistanceArguments& arguments, Console& console) {
         return stages_of_query(num_faces, "write");
     });
     const agvd::Surface& surface = input.surface;
-    const std::vector<agvd::SurfacePoint> sites = sites_on(input, arguments, console);
+    const GivenSites sites = sites_on(input, arguments, console);
     const double max_error = arguments.propagation.max_error.value_or(0);
     const int threads = arguments.common.threads;
     if (arguments.nearest > 1) {
+        require_plain_points(arguments.sites, sites.roles, "--nearest takes");
         const agvd::KNearest ranks =
-            agvd::k_nearest_sites(surface, sites, arguments.nearest,
+            agvd::k_nearest_sites(surface, sites.points, arguments.nearest,
                                   {.max_error = max_error,
                                    .num_threads = threads,
                                    .progress = console.progress_of("propagate")});
@@ -148,8 +152,9 @@ void run_distance(const DistanceArguments& arguments, Console& console) {
     std::vector<agvd::SurfacePoint> targets;
     if (!arguments.targets.empty()) targets = points_on(input, arguments.targets, console);
     const agvd::Distances distances = agvd::find_distances(
-        surface, sites, targets,
-        {.max_distance = arguments.radius > 0 ? arguments.radius : agvd::infinity,
+        surface, sites.points, targets,
+        {.points = sites.roles,
+         .max_distance = arguments.radius > 0 ? arguments.radius : agvd::infinity,
          .max_error = max_error,
          .num_threads = threads,
          .progress = console.progress_of("propagate")});
@@ -170,6 +175,8 @@ Query add_distance(CLI::App& app) {
         "distance", "Write the distances of vertices or points from the nearest sites");
     const auto arguments = std::make_shared<DistanceArguments>();
     add_query_options(*command, *arguments);
+    add_barriers(*command, *arguments);
+    add_edge_lengths(*command, *arguments);
     start_group(*command, heading::count);
     add_count(*command, "--nearest", "Number of sites of each vertex, the nearest first",
               arguments->nearest)

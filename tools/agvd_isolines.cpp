@@ -62,7 +62,8 @@ void run_isolines(const IsolineArguments& arguments, Console& console) {
     const OpenedInput input = open_input(arguments, console, [](std::size_t num_faces) {
         return stages_of_query(num_faces, "isolines");
     });
-    const std::vector<agvd::SurfacePoint> sites = sites_on(input, arguments, console);
+    const std::vector<agvd::SurfacePoint> sites =
+        plain_sites_on(input, arguments, console, "isolines are about");
     agvd::PropagationOptions propagating = arguments.propagation;
     propagating.relay_faces = agvd::all_faces(input.surface);
     propagating.num_threads = arguments.common.threads;
@@ -90,6 +91,7 @@ Query add_isolines(CLI::App& app) {
         "isolines", "Write the lines of equal distance from the sites on a mesh");
     const auto arguments = std::make_shared<IsolineArguments>();
     add_query_options(*command, *arguments);
+    add_barriers(*command, *arguments);
     start_group(*command, heading::count);
     const CLI::Validator length(
         [](const std::string& text) { return check_length("length", text); }, "");

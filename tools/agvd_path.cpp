@@ -41,7 +41,8 @@ void check(const PathArguments& arguments) {
 
 std::vector<agvd::SitePath> paths_to_sites(const PathArguments& arguments, const OpenedInput& input,
                                            Console& console) {
-    const std::vector<agvd::SurfacePoint> sites = sites_on(input, arguments, console);
+    const std::vector<agvd::SurfacePoint> sites =
+        plain_sites_on(input, arguments, console, "paths lead to");
     const std::vector<agvd::SurfacePoint> targets = points_on(input, arguments.targets, console);
     agvd::PropagationOptions propagating = arguments.propagation;
     propagating.relay_faces = agvd::all_faces(input.surface);
@@ -120,6 +121,7 @@ Query add_path(CLI::App& app) {
         "path", "Write the shortest paths from points to their sites, or between pairs of points");
     const auto arguments = std::make_shared<PathArguments>();
     add_query_options(*command, *arguments);
+    add_barriers(*command, *arguments);
     start_group(*command, heading::place);
     auto* const targets = command->add_option("--targets", arguments->targets,
                                               "Points from which paths lead to the nearest site");

@@ -11,7 +11,6 @@
 
 #include "help.h"
 #include "mesh_paths.h"
-#include "remesh/meshfile/diagram_file.h"
 #include "remesh/meshfile/mesh_file.h"
 
 namespace cli {
@@ -289,11 +288,19 @@ remesh::MeshFile read_input(const DiagramArguments& arguments, Console& console,
     return file;
 }
 
-std::vector<agvd::SurfacePoint> read_given_sites(const DiagramArguments& arguments,
-                                                 const agvd::MeshView& mesh, Console& console) {
+remesh::SitesFile read_given_sites(const DiagramArguments& arguments, const agvd::MeshView& mesh,
+                                   Console& console) {
     remesh::SitesFile file = remesh::read_sites(arguments.sites, mesh, console.progress_of("read"));
     for (const std::string& warning : file.warnings) console.warn(warning);
-    return std::move(file.sites);
+    return file;
+}
+
+void require_plain_points(const std::filesystem::path& path, const agvd::SitePoints& points,
+                          const char* what) {
+    if (points.site.empty() && points.start.empty()) return;
+    throw agvd::InvalidInput(path.string() + ": " + what +
+                             " points without `site` and `start`; remove these words, or use "
+                             "`agvd diagram` or `agvd distance`");
 }
 
 std::vector<agvd::SurfacePoint> read_points(const std::filesystem::path& path,
@@ -301,6 +308,7 @@ std::vector<agvd::SurfacePoint> read_points(const std::filesystem::path& path,
     remesh::SitesFile file =
         remesh::read_sites(path, mesh, console.progress_of("read"), remesh::Repeats::Allowed);
     for (const std::string& warning : file.warnings) console.warn(warning);
+    require_plain_points(path, file.points, "targets are");
     return std::move(file.sites);
 }
 

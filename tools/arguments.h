@@ -13,6 +13,7 @@
 #include "agvd/propagation/propagate.h"
 #include "cli.h"
 #include "remesh/clean/clean_input.h"
+#include "remesh/meshfile/diagram_file.h"
 #include "remesh/meshfile/mesh_file.h"
 #include "remesh/sites/sites.h"
 
@@ -25,8 +26,10 @@ namespace cli {
 //! Values of the options; all are in their documented range once run() calls the job.
 struct DiagramArguments {
     std::filesystem::path input;
-    std::string from;             //!< Its format; empty: by the extension.
-    std::filesystem::path sites;  //!< Empty: sample.
+    std::string from;                    //!< Its format; empty: by the extension.
+    std::filesystem::path sites;         //!< Empty: sample.
+    std::filesystem::path barriers;      //!< Edges that no path crosses; empty: none.
+    std::filesystem::path edge_lengths;  //!< In place of positions; empty: none.
     remesh::CleanOptions cleaning;
     remesh::SamplingOptions sampling;
     double sample_percent = 0;  //!< Of the input's vertices; 0: sampling.num_samples counts.
@@ -114,10 +117,15 @@ enum class WithAttributes { No, Yes };
 [[nodiscard]] remesh::MeshFile read_input(const DiagramArguments& arguments, Console& console,
                                           WithAttributes attributes = WithAttributes::No);
 
-//! Reads --sites: points of the mesh as it was read.
-[[nodiscard]] std::vector<agvd::SurfacePoint> read_given_sites(const DiagramArguments& arguments,
-                                                               const agvd::MeshView& mesh,
-                                                               Console& console);
+//! Reads --sites: points of the mesh as it was read. Its warnings are told.
+[[nodiscard]] remesh::SitesFile read_given_sites(const DiagramArguments& arguments,
+                                                 const agvd::MeshView& mesh, Console& console);
+
+//! For what takes points only.
+//! \param what  takes them, as the text begins.
+//! \throw agvd::InvalidInput  points belong to sites, or start at a distance above 0.
+void require_plain_points(const std::filesystem::path& path, const agvd::SitePoints& points,
+                          const char* what);
 
 //! Reads points of the mesh as it was read: a file of sites in which places may repeat.
 [[nodiscard]] std::vector<agvd::SurfacePoint> read_points(const std::filesystem::path& path,

@@ -21,6 +21,16 @@ std::vector<Value> carry(const std::vector<Index>& places, const std::vector<Val
     return result;
 }
 
+GivenSurface given_surface(const agvd::MeshView& mesh, const SurfaceOptions& as_surface,
+                           const agvd::PropagationOptions& options,
+                           const StageProgress& progress_of) {
+    const remesh::CleanOptions cleaning{.keep_slits = as_surface.keep_slits,
+                                        .num_threads = options.num_threads,
+                                        .progress = progress_of("clean")};
+    if (as_surface.side_lengths.empty()) return {mesh, cleaning, as_surface.barriers};
+    return {mesh, as_surface.side_lengths, cleaning};
+}
+
 Polylines draw(const agvd::Diagram& diagram, const agvd::MeshView& mesh) {
     Polylines lines;
     lines.offsets.push_back(0);
@@ -41,11 +51,9 @@ Polylines draw(const agvd::Diagram& diagram, const agvd::MeshView& mesh) {
 
 DrawnDiagram draw_diagram(const agvd::MeshView& mesh,
                           const std::vector<agvd::SurfacePoint>& given_sites,
-                          const agvd::PropagationOptions& options, bool keep_slits,
+                          const agvd::PropagationOptions& options, const SurfaceOptions& as_surface,
                           const StageProgress& progress_of) {
-    const GivenSurface given(mesh, {.keep_slits = keep_slits,
-                                    .num_threads = options.num_threads,
-                                    .progress = progress_of("clean")});
+    const GivenSurface given = given_surface(mesh, as_surface, options, progress_of);
     const agvd::Surface& surface = given.surface();
     const std::vector<agvd::SurfacePoint> sites = given.to_surface(given_sites);
     BasedDiagram based = based_diagram(surface, sites, options, progress_of);
@@ -64,13 +72,24 @@ DrawnDiagram draw_diagram(const agvd::MeshView& mesh,
     return drawn;
 }
 
+agvd::CutCells cut_cells(const agvd::MeshView& mesh,
+                         const std::vector<agvd::SurfacePoint>& given_sites,
+                         const agvd::PropagationOptions& options, const SurfaceOptions& as_surface,
+                         const StageProgress& progress_of) {
+    const GivenSurface given = given_surface(mesh, as_surface, options, progress_of);
+    const agvd::Diagram diagram =
+        based_diagram(given.surface(), given.to_surface(given_sites), options, progress_of).diagram;
+    agvd::CutCells cells = agvd::cut_cells(given.surface(), diagram, progress_of("diagram"));
+    for (Index& face : cells.face_origin) face = given.face_of(face);
+    return cells;
+}
+
 std::vector<double> vertex_distances(const agvd::MeshView& mesh,
                                      const std::vector<agvd::SurfacePoint>& given_sites,
-                                     agvd::PropagationOptions options, bool keep_slits,
+                                     agvd::PropagationOptions options,
+                                     const SurfaceOptions& as_surface,
                                      const StageProgress& progress_of) {
-    const GivenSurface given(mesh, {.keep_slits = keep_slits,
-                                    .num_threads = options.num_threads,
-                                    .progress = progress_of("clean")});
+    const GivenSurface given = given_surface(mesh, as_surface, options, progress_of);
     const std::vector<agvd::SurfacePoint> sites = given.to_surface(given_sites);
     const agvd::IntrinsicTriangulation base =
         base_for(given.surface(), sites.size(), progress_of("clean"));

@@ -3,9 +3,11 @@
 //! package.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <vector>
 
+#include "agvd/diagram/cut_cells.h"
 #include "agvd/diagram/diagram.h"
 #include "agvd/propagation/propagate.h"
 
@@ -34,20 +36,39 @@ struct DrawnDiagram {
     std::vector<double> distances;  //!< #V: infinity where no site reaches.
 };
 
+//! How the caller's mesh becomes a surface.
+struct SurfaceOptions {
+    bool keep_slits = false;  //!< As in remesh::CleanOptions.
+    //! Pairs of the caller's vertices: edges that no path crosses.
+    std::vector<std::array<agvd::Index, 2>> barriers = {};
+    //! #F x 3: lengths in place of positions, of the side from corner k of a face to corner k + 1;
+    //! empty: none. The mesh is not cleaned then, and has no barriers.
+    std::vector<double> side_lengths = {};
+};
+
 //! \param sites    on the caller's faces.
 //! \param options  their progress is ignored.
-//! \throw as remesh::clean_input, remesh::to_cleaned and agvd::propagate.
+//! \throw as remesh::clean_input, remesh::to_cleaned, remesh::carry_edges and agvd::propagate.
 [[nodiscard]] DrawnDiagram draw_diagram(const agvd::MeshView& mesh,
                                         const std::vector<agvd::SurfacePoint>& sites,
-                                        const agvd::PropagationOptions& options, bool keep_slits,
+                                        const agvd::PropagationOptions& options,
+                                        const SurfaceOptions& as_surface,
                                         const StageProgress& progress_of);
+
+//! The mesh cut along the bisectors. Parameters and errors as above.
+//! \return its face_origin names the caller's faces.
+[[nodiscard]] agvd::CutCells cut_cells(const agvd::MeshView& mesh,
+                                       const std::vector<agvd::SurfacePoint>& sites,
+                                       const agvd::PropagationOptions& options,
+                                       const SurfaceOptions& as_surface,
+                                       const StageProgress& progress_of);
 
 //! #V: the distance of each of the caller's vertices from the nearest site; infinity where none
 //! reaches. Parameters and errors as above.
 [[nodiscard]] std::vector<double> vertex_distances(const agvd::MeshView& mesh,
                                                    const std::vector<agvd::SurfacePoint>& sites,
                                                    agvd::PropagationOptions options,
-                                                   bool keep_slits,
+                                                   const SurfaceOptions& as_surface,
                                                    const StageProgress& progress_of);
 
 }  // namespace cli

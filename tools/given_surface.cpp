@@ -1,5 +1,6 @@
 #include "given_surface.h"
 
+#include "agvd/mesh/cut_surface.h"
 #include "remesh/clean/carry.h"
 
 namespace cli {
@@ -7,25 +8,43 @@ namespace cli {
 using agvd::Index;
 using agvd::SurfacePoint;
 
-GivenSurface::GivenSurface(const agvd::MeshView& mesh, const remesh::CleanOptions& cleaning)
+GivenSurface::GivenSurface(const agvd::MeshView& mesh, const remesh::CleanOptions& cleaning,
+                           std::span<const std::array<Index, 2>> barriers)
     : mesh_(mesh),
       clean_(remesh::clean_input(mesh, cleaning)),
-      surface_(agvd::build_surface(clean_.mesh.view(), cleaning.num_threads, cleaning.progress)) {}
+      surface_(agvd::build_surface(clean_.mesh.view(), cleaning.num_threads, cleaning.progress)) {
+    if (barriers.empty()) return;
+    const std::vector<std::uint8_t> is_cut = remesh::carry_edges(barriers, mesh_, clean_, surface_);
+    surface_ = agvd::cut_along(surface_, is_cut, cleaning.num_threads, cleaning.progress).surface;
+}
+
+GivenSurface::GivenSurface(const agvd::MeshView& mesh, std::span<const double> side_length,
+                           const remesh::CleanOptions& running)
+    : mesh_(mesh),
+      surface_(agvd::build_surface(mesh, side_length, running.num_threads, running.progress)) {}
 
 std::vector<SurfacePoint> GivenSurface::to_surface(const std::vector<SurfacePoint>& points) const {
+    if (surface_.has_own_lengths) return points;
     return remesh::to_cleaned(points, mesh_, clean_);
 }
 
 std::vector<SurfacePoint> GivenSurface::to_given(const std::vector<SurfacePoint>& points) const {
+    if (surface_.has_own_lengths) return points;
     return remesh::to_original(points, mesh_, clean_);
 }
 
 std::vector<Index> GivenSurface::vertices_of_least(std::span<const double> value) const {
     std::vector<Index> result(mesh_.positions.size(), agvd::no_index);
+    if (surface_.has_own_lengths) {
+        for (const agvd::Triangle& t : mesh_.triangles) {
+            for (const Index v : t) result[v] = v;
+        }
+        return result;
+    }
     for (std::size_t f = 0; f < clean_.mesh.triangles.size(); ++f) {
         for (const Index given : mesh_.triangles[clean_.face_origin[f]]) {
-            for (const Index cleaned : clean_.mesh.triangles[f]) {
-                if (clean_.mesh.positions[cleaned] != mesh_.positions[given]) continue;
+            for (const Index cleaned : surface_.mesh.triangles[f]) {
+                if (surface_.mesh.positions[cleaned] != mesh_.positions[given]) continue;
                 Index& best = result[given];
                 if (best == agvd::no_index || value[cleaned] < value[best]) best = cleaned;
             }

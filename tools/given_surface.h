@@ -2,6 +2,9 @@
 //! The caller's mesh, cleaned, as a surface: of the Python module and the npm package.
 #pragma once
 
+#include <array>
+#include <span>
+
 #include "agvd/mesh/mesh.h"
 #include "agvd/mesh/surface.h"
 #include "remesh/clean/clean_input.h"
@@ -13,15 +16,28 @@ namespace cli {
 class GivenSurface {
 public:
     //! \param mesh      outlives this.
+    //! \param barriers  edges of the mesh along which the surface is cut.
     //! \param cleaning  its progress is that of this whole.
-    //! \throw as remesh::clean_input.
-    GivenSurface(const agvd::MeshView& mesh, const remesh::CleanOptions& cleaning);
+    //! \throw as remesh::clean_input and remesh::carry_edges.
+    GivenSurface(const agvd::MeshView& mesh, const remesh::CleanOptions& cleaning,
+                 std::span<const std::array<agvd::Index, 2>> barriers = {});
+    //! By lengths, without cleaning: the same vertices and faces.
+    //! \param side_length  as agvd::build_surface takes it.
+    //! \param running      its threads and its progress.
+    //! \throw as agvd::build_surface.
+    GivenSurface(const agvd::MeshView& mesh, std::span<const double> side_length,
+                 const remesh::CleanOptions& running);
 
     [[nodiscard]] const agvd::Surface& surface() const { return surface_; }
     [[nodiscard]] std::vector<agvd::SurfacePoint> to_surface(
         const std::vector<agvd::SurfacePoint>& points) const;
     [[nodiscard]] std::vector<agvd::SurfacePoint> to_given(
         const std::vector<agvd::SurfacePoint>& points) const;
+
+    //! The caller's face that a face of the surface is, or is a part of.
+    [[nodiscard]] agvd::Index face_of(agvd::Index face) const {
+        return clean_.face_origin.empty() ? face : clean_.face_origin[face];
+    }
 
     //! For each of the caller's vertices the vertex of the surface at its place: of several the one
     //! with the least value. no_index: it is in no face of the surface.

@@ -3,16 +3,52 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "agvd/mesh/cut_surface.h"
 #include "help.h"
 #include "remesh/clean/carry.h"
 #include "remesh/meshfile/atomic_file.h"
+#include "remesh/sites/prepared_surface.h"
 #include "report/report.h"
+#include "shortfalls.h"
 
 namespace cli {
 namespace {
 
 namespace fs = std::filesystem;
 using agvd::SurfacePoint;
+
+// Edges of IN that cleaning split are no barriers any more: that would leave gaps.
+void cut_along_barriers(const DiagramArguments& arguments, Console& console, OpenedInput& input) {
+    const auto edges = remesh::read_edges(arguments.barriers, console.progress_of("read"));
+    const std::vector<std::uint8_t> is_cut = naming_file(arguments.barriers, [&] {
+        return remesh::carry_edges(edges, input.file.mesh.view(), input.clean, input.surface);
+    });
+    input.surface = agvd::cut_along(input.surface, is_cut, arguments.common.threads,
+                                    console.progress_of("clean"))
+                        .surface;
+}
+
+// What cleaning repairs is an error here: lengths belong to the edges that are there.
+void connect_by_lengths(const DiagramArguments& arguments, Console& console, OpenedInput& input) {
+    if (arguments.sites.empty()) {
+        throw agvd::InvalidOption(
+            "--edge-lengths needs --sites, as sites are sampled in space; name the sites");
+    }
+    const agvd::MeshView mesh = input.file.mesh.view();
+    const std::vector<double> lengths =
+        remesh::read_edge_lengths(arguments.edge_lengths, mesh, console.progress_of("read"));
+    input.surface = naming_file(arguments.edge_lengths, [&] {
+        return agvd::build_surface(mesh, lengths, arguments.common.threads,
+                                   console.progress_of("clean"));
+    });
+    input.clean.mesh = input.file.mesh;
+}
+
+std::vector<SurfacePoint> on_surface(const OpenedInput& input,
+                                     const std::vector<SurfacePoint>& given) {
+    if (input.surface.has_own_lengths) return given;
+    return remesh::to_cleaned(given, input.file.mesh.view(), input.clean);
+}
 
 std::vector<SurfacePoint> sample(const DiagramArguments& arguments, const agvd::Surface& surface,
                                  Console& console) {
@@ -29,6 +65,24 @@ std::string check_length(const char* name, const std::string& text) {
     const std::optional<Amount> amount = parse_amount(text);
     if (amount && !amount->is_percent) return {};
     return "the " + std::string(name) + " is " + text + "; use a number above 0";
+}
+
+void add_barriers(CLI::App& app, DiagramArguments& arguments) {
+    start_group(app, heading::geodesics);
+    app.add_option("--barriers", arguments.barriers,
+                   "Edges that no path crosses: lines of two vertices, counted from 0. The mesh is "
+                   "cut along them: their vertices come once for each side")
+        ->type_name("FILE");
+}
+
+void add_edge_lengths(CLI::App& app, DiagramArguments& arguments) {
+    start_group(app, heading::geodesics);
+    app.add_option("--edge-lengths", arguments.edge_lengths,
+                   "Lengths of the edges in place of those between positions: lines of two "
+                   "vertices, counted from 0, and a length. The mesh is not cleaned, and its "
+                   "positions are for drawing")
+        ->excludes(app.get_option("--barriers"))
+        ->type_name("FILE");
 }
 
 CLI::Option* add_outputs(CLI::App& app, std::vector<fs::path>& outputs) {
@@ -61,6 +115,10 @@ OpenedInput open_input(const DiagramArguments& arguments, Console& console,
     const agvd::MeshView mesh = input.file.mesh.view();
     console.info(describe(arguments.input, mesh));
     console.expect(stages(mesh.triangles.size()));
+    if (!arguments.edge_lengths.empty()) {
+        connect_by_lengths(arguments, console, input);
+        return input;
+    }
     remesh::CleanOptions cleaning = arguments.cleaning;
     cleaning.num_threads = arguments.common.threads;
     cleaning.progress = console.progress_of("clean");
@@ -68,23 +126,40 @@ OpenedInput open_input(const DiagramArguments& arguments, Console& console,
     console.info(remesh::to_text(input.clean.counts));
     input.surface = agvd::build_surface(input.clean.mesh.view(), arguments.common.threads,
                                         console.progress_of("clean"));
+    if (!arguments.barriers.empty()) cut_along_barriers(arguments, console, input);
     return input;
 }
 
-std::vector<SurfacePoint> sites_on(const OpenedInput& input, const DiagramArguments& arguments,
-                                   Console& console) {
-    if (arguments.sites.empty()) return sample(arguments, input.surface, console);
-    const agvd::MeshView mesh = input.file.mesh.view();
-    const std::vector<SurfacePoint> given = read_given_sites(arguments, mesh, console);
-    return naming_file(arguments.sites,
-                       [&] { return remesh::to_cleaned(given, mesh, input.clean); });
+GivenSites sites_on(const OpenedInput& input, const DiagramArguments& arguments, Console& console) {
+    GivenSites sites;
+    if (arguments.sites.empty()) {
+        sites.points = sample(arguments, input.surface, console);
+    } else {
+        const agvd::MeshView mesh = input.file.mesh.view();
+        remesh::SitesFile given = read_given_sites(arguments, mesh, console);
+        sites.points = naming_file(arguments.sites, [&] { return on_surface(input, given.sites); });
+        sites.roles = std::move(given.points);
+    }
+    const double slit = input.clean.slit_length;
+    if (slit > remesh::mean_spacing(input.surface, sites.points.size())) {
+        console.warn(welded_slit_text(slit));
+    }
+    return sites;
+}
+
+std::vector<SurfacePoint> plain_sites_on(const OpenedInput& input,
+                                         const DiagramArguments& arguments, Console& console,
+                                         const char* what) {
+    GivenSites given = sites_on(input, arguments, console);
+    require_plain_points(arguments.sites, given.roles, what);
+    return std::move(given.points);
 }
 
 std::vector<SurfacePoint> points_on(const OpenedInput& input, const fs::path& path,
                                     Console& console) {
     const agvd::MeshView mesh = input.file.mesh.view();
     const std::vector<SurfacePoint> given = read_points(path, mesh, console);
-    return naming_file(path, [&] { return remesh::to_cleaned(given, mesh, input.clean); });
+    return naming_file(path, [&] { return on_surface(input, given); });
 }
 
 void write_lines(const QueryArguments& arguments, const remesh::Lines& lines, Console& console) {

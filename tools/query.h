@@ -63,19 +63,39 @@ void check_outputs(const QueryArguments& arguments,
 struct OpenedInput {
     remesh::MeshFile file;
     remesh::CleanResult clean;
-    agvd::Surface surface;
+    agvd::Surface surface;  //!< Of clean.mesh, cut along the barriers.
 };
 
-//! Reads, cleans and connects IN.
+//! Adds --barriers.
+void add_barriers(CLI::App& app, DiagramArguments& arguments);
+
+//! Adds --edge-lengths.
+void add_edge_lengths(CLI::App& app, DiagramArguments& arguments);
+
+//! Reads, cleans and connects IN, and cuts it along --barriers. With --edge-lengths nothing is
+//! cleaned.
+//! \throw agvd::InvalidOption  there are lengths and no --sites.
 //! \param stages  what is expected, by the number of faces.
 [[nodiscard]] OpenedInput open_input(
     const DiagramArguments& arguments, Console& console,
     const std::function<std::vector<ExpectedStage>(std::size_t num_faces)>& stages);
 
-//! The sites of --sites, or sampled ones, on the cleaned mesh.
-[[nodiscard]] std::vector<agvd::SurfacePoint> sites_on(const OpenedInput& input,
-                                                       const DiagramArguments& arguments,
-                                                       Console& console);
+//! Points on the cleaned mesh, and what they stand for.
+struct GivenSites {
+    std::vector<agvd::SurfacePoint> points;
+    agvd::SitePoints roles;
+};
+
+//! The sites of --sites, or sampled ones.
+[[nodiscard]] GivenSites sites_on(const OpenedInput& input, const DiagramArguments& arguments,
+                                  Console& console);
+
+//! The same for what takes points only.
+//! \param what  takes them, as the text of the error begins.
+//! \throw agvd::InvalidInput  they are sites of several points, or have starts.
+[[nodiscard]] std::vector<agvd::SurfacePoint> plain_sites_on(const OpenedInput& input,
+                                                             const DiagramArguments& arguments,
+                                                             Console& console, const char* what);
 
 //! The points of a file, on the cleaned mesh.
 [[nodiscard]] std::vector<agvd::SurfacePoint> points_on(const OpenedInput& input,

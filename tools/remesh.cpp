@@ -395,7 +395,9 @@ Input prepare(const Arguments& arguments, cli::Console& console) {
         options.cleaning.weld = cli::length_of(*arguments.weld, input.mesh.view());
     }
     if (!arguments.sites.empty()) {
-        options.sites = cli::read_given_sites(arguments, input.mesh.view(), console);
+        remesh::SitesFile given = cli::read_given_sites(arguments, input.mesh.view(), console);
+        cli::require_plain_points(arguments.sites, given.points, "vertices are made of");
+        options.sites = std::move(given.sites);
     }
     if (!arguments.feature_edges.empty()) {
         options.feature_edges =

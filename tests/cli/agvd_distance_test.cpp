@@ -45,6 +45,113 @@ TEST_F(AgvdDistance, OfVerticesIsAPropertyOfTheMesh) {
     }
 }
 
+TEST_F(AgvdDistance, CountsFromTheStartsOfPoints) {
+    const std::string sites = put("late", "p .1 .2 0\np .9 .9 0 start .3\n");
+    const auto outcome = distance({in_, "--sites", sites, "-o", at("d.ply"), "-q"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const std::vector<double> found = column("d.ply", 0), distances = column("d.ply", 1);
+    for (std::size_t v = 0; v < square_.positions.size(); ++v) {
+        const double a = (square_.positions[v] - agvd::Vec3(.1, .2, 0)).norm();
+        const double b = (square_.positions[v] - agvd::Vec3(.9, .9, 0)).norm() + .3;
+        EXPECT_EQ(found[v], a < b ? 0 : 1);
+        EXPECT_NEAR(distances[v], std::min(a, b), 1e-14);
+    }
+    EXPECT_EQ(distance({in_, "--sites", sites, "--nearest", "2", "-o", at("k.ply")}).exit_code, 4);
+    EXPECT_EQ(distance({in_, "--sites", sites_, "--targets", sites, "-o", at("t.csv")}).exit_code,
+              4);
+}
+
+// The positions are those of the square, drawn twice as wide.
+TEST_F(AgvdDistance, LengthsMayStandForPositions) {
+    agvd::TriangleMesh wide = square_;
+    for (agvd::Vec3& p : wide.positions) p.x() *= 2;
+    const std::string in = put("wide.off", wide);
+    std::ostringstream edges;
+    edges.precision(17);
+    for (const agvd::Triangle& t : square_.triangles) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const agvd::Index a = t[k], b = t[(k + 1) % 3];
+            edges << a << ' ' << b << ' ' << (square_.positions[a] - square_.positions[b]).norm()
+                  << '\n';
+        }
+    }
+    const std::string lengths = put("lengths", edges.str()), sites = put("v", "v 9\nv 50\n");
+    const auto outcome =
+        distance({in, "--sites", sites, "--edge-lengths", lengths, "-o", at("d.ply"), "-q"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const std::vector<double> distances = column("d.ply", 1);
+    for (std::size_t v = 0; v < square_.positions.size(); ++v) {
+        const double a = (square_.positions[v] - square_.positions[9]).norm();
+        const double b = (square_.positions[v] - square_.positions[50]).norm();
+        EXPECT_NEAR(distances[v], std::min(a, b), 1e-12);
+    }
+    // By its own lengths the mesh gives the same bytes.
+    ASSERT_EQ(distance({in_, "--sites", sites, "-o", at("own.ply"), "-q"}).exit_code, 0);
+    const std::string before = bytes("own.ply");
+    ASSERT_EQ(distance({in_, "--sites", sites, "--edge-lengths", lengths, "-o", at("own.ply"),
+                        "--force", "-q"})
+                  .exit_code,
+              0);
+    EXPECT_EQ(bytes("own.ply"), before);
+    for (const char* output : {"c.ply", "c.vtp"}) {
+        EXPECT_EQ(run(AGVD_PROGRAM, {"diagram", in, "--sites", sites, "--edge-lengths", lengths,
+                                     "-o", at(output), "-q"})
+                      .exit_code,
+                  0);
+    }
+    const auto refused = [&](const std::string& name, std::vector<std::string> options) {
+        options.insert(options.begin(), {in, "--edge-lengths", name, "-q", "-o", at("no.ply")});
+        return distance(std::move(options)).exit_code;
+    };
+    EXPECT_EQ(refused(lengths, {"-n", "3"}), 2);
+    EXPECT_EQ(refused(lengths, {"--sites", sites, "--barriers", sites}), 2);
+    EXPECT_EQ(refused(put("few", "0 1 .1\n"), {"--sites", sites}), 4);
+    EXPECT_EQ(refused(put("more", edges.str() + "0 30 1\n"), {"--sites", sites}), 4);
+    EXPECT_EQ(refused(put("two", edges.str() + "0 1 7\n"), {"--sites", sites}), 4);
+    EXPECT_EQ(refused(put("bad", "0 1\n"), {"--sites", sites}), 3);
+    EXPECT_EQ(run(AGVD_PROGRAM,
+                  {"diagram", in, "--sites", sites, "--edge-lengths", lengths, "-o", at("c.agvd")})
+                  .exit_code,
+              2);
+}
+
+// The open plane has .5.
+TEST_F(AgvdDistance, NoPathCrossesABarrier) {
+    agvd::TriangleMesh mesh = shapes::grid(40);
+    for (agvd::Vec3& p : mesh.positions) p *= 2;
+    const std::string in = put("large.off", mesh);
+    std::string edges = "# from (.2, 1) to (1.8, 1)\n";
+    for (int column = 4; column < 36; ++column) {
+        edges +=
+            std::to_string(41 * column + 20) + ' ' + std::to_string(41 * (column + 1) + 20) + '\n';
+    }
+    const std::string barriers = put("slit", edges), sites = put("site", "p 1 .75 0\n");
+    const auto outcome = distance({in, "--sites", sites, "--barriers", barriers, "--targets",
+                                   put("t", "p 1 1.25 0\n"), "-o", at("t.csv"), "-q"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_NE(bytes("t.csv").find("0,1.67630546"), std::string::npos) << bytes("t.csv");
+    ASSERT_EQ(
+        distance({in, "--sites", sites, "--barriers", barriers, "-o", at("d.ply"), "-q"}).exit_code,
+        0);
+    EXPECT_EQ(column("d.ply", 1).size(), mesh.positions.size() + 31);
+    EXPECT_NEAR(column("d.ply", 1)[41 * 20 + 25], 1.67630546, 1e-8);
+    for (const char* engine : {"window", "steiner"}) {
+        const auto diagram =
+            run(AGVD_PROGRAM, {"diagram", in, "--sites", sites, "--barriers", barriers, "--engine",
+                               engine, "-o", at("c.ply"), "-o", at("c.agvd"), "-q"});
+        ASSERT_EQ(diagram.exit_code, 0) << diagram.err;
+        EXPECT_NEAR(column("c.ply", 1)[41 * 20 + 25], 1.67630546, 1e-2);
+        EXPECT_EQ(run(AGVD_PROGRAM, {"compare", at("c.agvd"), "exact", "-q"}).exit_code, 0);
+    }
+    const auto wrong = distance(
+        {in, "--sites", sites, "--barriers", put("wrong", "0 100\n"), "-o", at("no.ply"), "-q"});
+    EXPECT_EQ(wrong.exit_code, 4);
+    EXPECT_NE(wrong.err.find("wrong"), std::string::npos) << wrong.err;
+    EXPECT_EQ(
+        distance({in, "--sites", sites, "--barriers", at("none"), "-o", at("no.ply")}).exit_code,
+        3);
+}
+
 TEST_F(AgvdDistance, OfTargetsIsATable) {
     const auto outcome =
         distance({in_, "--sites", sites_, "--targets", put("t", "p .5 .3 0\np .8 .7 0\nv 0\n"),

@@ -71,6 +71,70 @@ TEST_F(AgvdDiagram, ASlitIsWeldedWithAWarningOrLeftOpen) {
     EXPECT_NE(outcome.err.find("a slit of length 0.5 "), std::string::npos) << outcome.err;
 }
 
+// Sites 0 and 2 are one, and site 1 starts so late that its border passes at x = .6.
+TEST_F(AgvdDiagram, SitesMayHaveSeveralPointsAndStarts) {
+    const std::string in = put("in.off", shapes::grid(10));
+    const std::string sites = put("s",
+                                  "p .5 .5 0 site 0\np .9 .5 0 site 1 start .2\n"
+                                  "p .1 .5 0 site 0\np .55 .5 0 site 2 start .3\n");
+    for (const char* engine : {"window", "steiner"}) {
+        const auto outcome = diagram({in, "--sites", sites, "--engine", engine, "-q", "-o",
+                                      at("d.agvd"), "-o", at("d.ply")});
+        ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+        EXPECT_NE(outcome.err.find("a site owns nothing, as others are nearer everywhere: 2"),
+                  std::string::npos)
+            << outcome.err;
+        const remesh::DiagramFile file = remesh::read_diagram(at("d.agvd"));
+        EXPECT_EQ(file.sites.size(), 4u);
+        EXPECT_EQ(file.diagram.num_sites, 3u);
+        EXPECT_NEAR(file.diagram.cell_area[0] + file.diagram.cell_area[1], 1, 1e-12);
+        EXPECT_EQ(file.diagram.cell_area[2], 0);
+        for (std::size_t v = 0; v < file.mesh.positions.size(); ++v) {
+            const auto from = [&](double x) {
+                return (file.mesh.positions[v] - agvd::Vec3(x, .5, 0)).norm();
+            };
+            const double own = std::min(from(.1), from(.5)), other = from(.9) + .2;
+            EXPECT_NEAR(file.diagram.nearest_distance[v], std::min(own, other), 1e-2) << v;
+            if (std::abs(own - other) < 1e-2) continue;
+            EXPECT_EQ(file.diagram.nearest_site[v].value(), own < other ? 0u : 1u) << v;
+        }
+        const auto compared =
+            run(AGVD_PROGRAM, {"compare", at("d.agvd"), "exact", "--report", "-", "-q"});
+        ASSERT_EQ(compared.exit_code, 0) << compared.err;
+        const auto report = nlohmann::json::parse(compared.out);
+        EXPECT_LT(report.at("wrong_label_percent").get<double>(), 1) << compared.out;
+        EXPECT_LT(report.at("bisector_error_a").at("max").get<double>(), 0.05) << compared.out;
+    }
+    const std::string plain = put("plain", "p .5 .5 0\n");
+    EXPECT_EQ(diagram({in, "--sites", plain, "-q", "-o", at("plain.agvd")}).exit_code, 0);
+    EXPECT_EQ(run(AGVD_PROGRAM, {"compare", at("d.agvd"), at("plain.agvd")}).exit_code, 4);
+    const auto path =
+        run(AGVD_PROGRAM, {"path", in, "--sites", sites, "--targets", plain, "-o", at("p.obj")});
+    EXPECT_EQ(path.exit_code, 4);
+    EXPECT_NE(path.err.find("paths lead to points without `site`"), std::string::npos) << path.err;
+}
+
+TEST_F(AgvdDiagram, CellsAreFacesOfACutMesh) {
+    const std::string in = put("in.off", shapes::sphere(3));
+    const auto outcome =
+        diagram({in, "-n", "20", "-o", at("d.agvd"), "--cells", at("cut.ply"), "-q"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const remesh::DiagramFile file = remesh::read_diagram(at("d.agvd"));
+    const remesh::MeshFile cut =
+        remesh::read_mesh(at("cut.ply"), remesh::ReadOptions{.with_attributes = true});
+    const std::vector<double>& sites = cut.attributes.of_faces.at(0).values;
+    ASSERT_EQ(sites.size(), cut.mesh.triangles.size());
+    std::vector<double> area(20, 0);
+    for (std::size_t f = 0; f < sites.size(); ++f) {
+        area.at(static_cast<std::size_t>(sites[f])) +=
+            agvd::doubled_normal(cut.mesh.positions, cut.mesh.triangles[f]).norm() / 2;
+    }
+    for (std::size_t s = 0; s < 20; ++s) EXPECT_NEAR(area[s], file.diagram.cell_area[s], 1e-11);
+    EXPECT_EQ(diagram({in, "-n", "3", "-o", at("e.ply"), "--cells", at("e.obj")}).exit_code, 3);
+    EXPECT_EQ(diagram({in, "-n", "3", "-o", at("e.ply"), "--cells", at("e.ply")}).exit_code, 2);
+    EXPECT_EQ(num_files(), 3u);
+}
+
 TEST_F(AgvdDiagram, SitesMayLieInDirtyMeshes) {
     // Face 0 is degenerate and dropped in cleaning; sites keep the numbers of the file. One end of
     // it is a corner of the square, the other is nowhere on the surface.

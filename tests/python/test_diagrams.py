@@ -199,3 +199,93 @@ def test_nearest_sites_are_ranked():
     assert (sites[:, 3] == -1).all() and np.isinf(distances[:, 3]).all()
     with pytest.raises(remesh.InvalidOption):
         remesh.nearest_sites(V, F, points, 0)
+
+
+def test_points_may_make_groups_and_start_late():
+    V, F = flat_square(10)
+    points = np.array([[0.2, 0.3, 0], [0.8, 0.7, 0], [0.3, 0.9, 0], [0.82, 0.72, 0]])
+    weights = np.array([0, 0.1, 0.3, 0.4])
+    groups = [1, 0, 1, 2]
+    far = np.linalg.norm(V[:, None] - points, axis=2) + weights
+    diagram = remesh.voronoi(V, F, points, 0, groups=groups, weights=weights)
+    assert np.allclose(diagram.distances, far.min(axis=1), atol=1e-12)
+    assert np.array_equal(diagram.labels, np.array(groups)[far.argmin(axis=1)])
+    assert diagram.cell_area.shape == (3,) and diagram.cell_area[2] == 0
+    assert diagram.cell_area.sum() == pytest.approx(1)
+    assert diagram.site_positions.shape == (4, 3)
+    assert np.allclose(remesh.geodesic_distance(V, F, points, 0, weights=weights), far.min(axis=1))
+    assert np.allclose(remesh.geodesic_distance(V, F, points, 0, weights=weights, targets=points),
+                       (np.linalg.norm(points[:, None] - points, axis=2) + weights).min(axis=1))
+    with pytest.raises(remesh.InvalidOption, match="weights"):
+        remesh.voronoi(V, F, points, weights=[1, 2])
+    with pytest.raises(remesh.InvalidOption, match="groups"):
+        remesh.voronoi(V, F, points, groups=[0, 1])
+    with pytest.raises(remesh.InvalidSites, match="belongs to site 9"):
+        remesh.voronoi(V, F, points, groups=[0, 1, 9, 2])
+    with pytest.raises(remesh.InvalidSites, match="site 1 has no point"):
+        remesh.voronoi(V, F, points, groups=[0, 2, 2, 0])
+    with pytest.raises(remesh.InvalidSites, match="starts at the distance -1"):
+        remesh.voronoi(V, F, points, weights=[0, -1, 0, 0])
+
+
+def test_no_path_crosses_a_barrier():
+    V, F = flat_square(40)
+    V = 2 * V
+    row = 41 * np.arange(4, 37) + 20
+    slit = np.stack([row[:-1], row[1:]], axis=1)
+    source, target = 41 * 20 + 15, 41 * 20 + 25
+    assert np.linalg.norm(V[source] - V[target]) == pytest.approx(0.5)
+    around = 2 * np.hypot(0.8, 0.25)
+    assert remesh.geodesic_distance(V, F, [source], 0)[target] == pytest.approx(0.5, abs=1e-12)
+    far = remesh.geodesic_distance(V, F, [source], 0, barriers=slit)
+    assert far[target] == pytest.approx(around, abs=1e-12)
+    assert far[row[16]] == pytest.approx(0.25)  # The near side.
+    assert remesh.geodesic_distance(V, F, [source], 0, barriers=slit,
+                                    targets=[target]) == pytest.approx(around, abs=1e-12)
+    diagram = remesh.voronoi(V, F, [source, target], barriers=slit)
+    assert diagram.cell_area.sum() == pytest.approx(4)
+    with pytest.raises(remesh.InvalidInput, match="barriers"):
+        remesh.voronoi(V, F, [0], barriers=[0, 1])
+    with pytest.raises(remesh.InvalidInput, match="names vertex 99999"):
+        remesh.voronoi(V, F, [0], barriers=[[0, 99999]])
+    with pytest.raises(remesh.InvalidInput):
+        remesh.voronoi(V, F, [0], barriers=[[0, 1000]])
+
+
+def test_lengths_may_stand_for_positions():
+    V, F = flat_square(12)
+    lengths = np.linalg.norm(V[F] - V[np.roll(F, -1, axis=1)], axis=2)
+    by_positions = remesh.voronoi(V, F, [5, 77, 130], 0)
+    same = remesh.voronoi(V, F, [5, 77, 130], 0, edge_lengths=lengths)
+    assert np.array_equal(same.distances, by_positions.distances)
+    assert np.array_equal(same.labels, by_positions.labels)
+    rolled = np.stack([np.sin(2 * V[:, 0]), 2 * V[:, 1], np.cos(2 * V[:, 0])], axis=1) / 2
+    bent = remesh.voronoi(rolled, F, [5, 77, 130], 0, edge_lengths=lengths)
+    assert np.allclose(bent.distances, by_positions.distances, atol=1e-12)
+    assert bent.cell_area.sum() == pytest.approx(1)
+    far = remesh.geodesic_distance(0 * V, F, [5], 0, edge_lengths=2 * lengths)
+    assert np.allclose(far, 2 * np.linalg.norm(V - V[5], axis=1), atol=1e-12)
+    assert np.allclose(remesh.geodesic_distance(0 * V, F, [5], 0, edge_lengths=lengths,
+                                                targets=[130]), np.linalg.norm(V[130] - V[5]))
+    with pytest.raises(remesh.InvalidInput, match="edge_lengths has the shape"):
+        remesh.voronoi(V, F, [0], edge_lengths=lengths[:3])
+    with pytest.raises(remesh.InvalidOption, match="do not go together"):
+        remesh.voronoi(V, F, [0], edge_lengths=lengths, barriers=[[0, 1]])
+    with pytest.raises(remesh.InvalidInput, match="has no area"):
+        remesh.voronoi(V[[0, 1, 14]], [[0, 1, 2]], [0], edge_lengths=[[1, 1, 3]])
+
+
+def test_cells_may_be_cut_out():
+    V, F = flat_square(8)
+    points = np.array([[0.21, 0.33, 0], [0.84, 0.7, 0], [0.1, 0.95, 0]])
+    W, G, site, source = remesh.cut_cells(V, F, points, 0)
+    corners = W[G]
+    areas = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])[:, 2] / 2
+    assert (areas > 0).all()
+    diagram = remesh.voronoi(V, F, points, 0)
+    for s in range(3):
+        assert areas[site == s].sum() == pytest.approx(diagram.cell_area[s], abs=1e-12)
+    nearest = np.linalg.norm(corners.mean(axis=1)[:, None] - points, axis=2).argmin(axis=1)
+    assert np.array_equal(site, nearest)
+    whole = np.bincount(source, areas, len(F))
+    assert np.allclose(whole, 1 / 128)

@@ -10,9 +10,11 @@ namespace checks {
 //! Every edge has two distinct sides and two ends or none; ends, sites and loops around vertices
 //! fit together; areas sum to the surface's (of the components with a site); and the Euler
 //! characteristics of cells, edges and vertices sum to the surface's.
-//! Cells are connected, and their Euler characteristics are those that their loops give.
-//! Polylines run from face to face, and inside a face no two of their segments cross.
-void expect_valid_complex(const agvd::Surface& surface, const agvd::Diagram& diagram);
+//! Cells are connected (or have at most so many parts), and their Euler characteristics are those
+//! that their loops give. Polylines run from face to face, and inside a face no two of their
+//! segments cross.
+void expect_valid_complex(const agvd::Surface& surface, const agvd::Diagram& diagram,
+                          int most_parts = 1);
 
 //! All fields are equal; of a propagation all except the work done and the memory used.
 void expect_same(const agvd::Surface& a, const agvd::Surface& b);

@@ -249,29 +249,48 @@ std::vector<BisectorError> exact_bisector_errors(const Surface& surface,
                                                  std::span<const Diagram* const> diagrams,
                                                  const BisectorErrorOptions& options) {
     if (options.max_points < 1) throw InvalidOption("max_points is 0; use 1 or more");
-    std::vector<SiteDistanceQuery> queries;  // Left and right site of each sample in turn.
-    std::vector<std::size_t> begin{0};       // Of each diagram's.
+    std::vector<std::vector<SiteId>> points_of(sites.size());  // By site.
+    for (Index i = 0; i < sites.size(); ++i) {
+        points_of[options.points.site_of(i)].push_back(SiteId(i));
+    }
+    // The points of the left and of the right site of each sample in turn.
+    std::vector<SiteDistanceQuery> queries;
+    std::vector<std::size_t> ends;      // Of the queries of each side of a sample.
+    std::vector<std::size_t> begin{0};  // Of each diagram's sides.
     for (const Diagram* diagram : diagrams) {
         poll(options.progress, 0);
         const auto samples = bisector_samples(surface, *diagram);
         const std::size_t step = (samples.size() + options.max_points - 1) / options.max_points;
         for (std::size_t i = 0; i < samples.size(); i += step) {
             const auto& [point, left, right, distance] = samples[i];
-            queries.push_back({left, point, distance});
-            queries.push_back({right, point, distance});
+            for (const SiteId site : {left, right}) {
+                for (const SiteId p : points_of[site.value()]) {
+                    queries.push_back({p, point, distance});
+                }
+                ends.push_back(queries.size());
+            }
         }
-        begin.push_back(queries.size());
+        begin.push_back(ends.size());
     }
     const std::vector<double> exact =
         site_distances(surface, sites, queries, options.num_threads, options.progress);
-    const double cell_radius = mean_cell_radius(surface, sites.size());
+    const auto least = [&](std::size_t side) {
+        double distance = infinity;
+        for (std::size_t q = side == 0 ? 0 : ends[side - 1]; q < ends[side]; ++q) {
+            const std::vector<double>& start = options.points.start;
+            const double from = start.empty() ? 0 : start[queries[q].site.value()];
+            distance = std::min(distance, from + exact[q]);
+        }
+        return distance;
+    };
+    const double cell_radius = mean_cell_radius(surface, diagrams[0]->num_sites);
     std::vector<BisectorError> result;
     for (std::size_t d = 0; d < diagrams.size(); ++d) {
         std::vector<double> errors;
-        for (std::size_t q = begin[d]; q < begin[d + 1]; q += 2) {
-            const bool is_reached = exact[q] < infinity && exact[q + 1] < infinity;
-            errors.push_back(is_reached ? std::abs(exact[q] - exact[q + 1]) / cell_radius
-                                        : infinity);
+        for (std::size_t side = begin[d]; side < begin[d + 1]; side += 2) {
+            const double left = least(side), right = least(side + 1);
+            const bool is_reached = left < infinity && right < infinity;
+            errors.push_back(is_reached ? std::abs(left - right) / cell_radius : infinity);
         }
         result.push_back(summarize(std::move(errors)));
     }

@@ -70,6 +70,7 @@ struct LoopCurves {
 
 //! `{}` gives the defaults.
 struct BisectorErrorOptions {
+    SitePoints points = {};  //!< What the points given as sites stand for.
     //! >= 1; of more points that a diagram has, every k-th is measured.
     Index max_points = 20'000;
     int num_threads = 0;     //!< >= 0; 0: all cores. Same result for any number.
@@ -77,7 +78,8 @@ struct BisectorErrorOptions {
 };
 
 //! |dA - dB| of each diagram, dA and dB being the exact distances (window engine) of points of its
-//! bisectors from the two sites that they are said to be between. A point that one of them does not
+//! bisectors from the two sites that they are said to be between; of a site's points the nearest
+//! counts. A point that one of them does not
 //! reach counts as infinitely wrong.
 //!
 //! \param diagrams  of the same surface and sites; they share the searches.

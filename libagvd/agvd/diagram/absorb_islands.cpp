@@ -19,12 +19,12 @@ bool has(const CellSet& cells, Index site) { return site != no_index && cells[si
 
 // --- Where sites lie ---------------------------------------------------------------------------
 
-// The interval of an edge that holds a site on it.
-Index interval_of(const StageInput& in, const EdgeLabels& labels, Index site, Index half_edge) {
+// The interval of an edge that holds a point on it, if it is of the point's site.
+Index interval_of(const StageInput& in, const EdgeLabels& labels, Index point, Index half_edge) {
     const Surface& surface = in.surface;
     const Index e = surface.edge[half_edge];
     const bool forward = surface.edge_half[e] == half_edge;
-    const double at = in.sites[site].barycentric[(half_edge + (forward ? 1 : 0)) % 3];
+    const double at = in.points[point].barycentric[(half_edge + (forward ? 1 : 0)) % 3];
     const Index tail = surface.tail(surface.edge_half[e]);
     const Index head = surface.head(surface.edge_half[e]);
     Index holder = tail;
@@ -35,28 +35,30 @@ Index interval_of(const StageInput& in, const EdgeLabels& labels, Index site, In
                           holder = after;
                           label = site_after;
                       });
-    return label == site ? holder : no_index;
+    return label == in.site_of_point[point] ? holder : no_index;
 }
 
-// The node of the site's cell that holds it; no_index: none, or an inner point.
-Index holder_of(const StageInput& input, const EdgeLabels& labels, Index site) {
-    const SurfacePoint& point = input.sites[site];
+// The node that holds a point, if it is of the point's site; no_index: none, or an inner point.
+Index holder_of(const StageInput& input, const EdgeLabels& labels, Index i) {
+    const SurfacePoint& point = input.points[i];
+    const Index site = input.site_of_point[i];
     if (const auto vertex = vertex_of(input.surface, point)) {
         return labels.point_site[*vertex] == site ? *vertex : no_index;
     }
     const auto half_edge = half_edge_of(point);
-    if (half_edge) return interval_of(input, labels, site, *half_edge);
+    if (half_edge) return interval_of(input, labels, i, *half_edge);
     // A site inside an unlisted face owns the face.
     const Index face = point.face.value();
     const Index v = input.surface.mesh.triangles[face][0];
     return labels.mixed_index[face] == no_index && labels.point_site[v] == site ? v : no_index;
 }
 
-// The sites whose position belongs to another cell. Islands that are absorbed change nothing of it.
-CellSet find_displaced(const StageInput& input, const EdgeLabels& labels) {
-    CellSet displaced(input.sites.size());
-    for (Index s = 0; s < displaced.size(); ++s) {
-        displaced[s] = holder_of(input, labels, s) == no_index ? 1 : 0;
+// The sites all of whose points belong to other cells. Islands that are absorbed change nothing of
+// it.
+CellSet find_displaced(const StageInput& input, Index num_sites, const EdgeLabels& labels) {
+    CellSet displaced(num_sites, 1);
+    for (Index i = 0; i < input.points.size(); ++i) {
+        if (holder_of(input, labels, i) != no_index) displaced[input.site_of_point[i]] = 0;
     }
     for (const InnerPoint& point : labels.inner_points) displaced[point.site] = 0;
     return displaced;
@@ -89,7 +91,7 @@ struct IslandSearch {
     std::span<const Index> faces;  // All that the cells in doubt reach into.
     DiagramParts& parts;
     UnionFind sets;                   // Of nodes.
-    std::vector<Index> mainland;      // By site: the root of the set that holds it.
+    CellSet is_mainland;              // By root: whether the set holds a point of its site.
     std::map<Index, Index> new_site;  // By root of an island.
     std::vector<Row> island_rows;     // With an interval on an island.
 };
@@ -165,21 +167,20 @@ void unite_connected(IslandSearch& search) {
 
 void find_mainland(IslandSearch& search) {
     const EdgeLabels& labels = search.parts.labels;
-    search.mainland.assign(search.in.sites.size(), no_index);
+    search.is_mainland.assign(labels.point_site.size() + labels.crossings.size(), 0);
     for (Index i = 0; i < labels.inner_points.size(); ++i) {
-        const Index site = labels.inner_points[i].site;
-        if (!has(search.in_doubt, site)) continue;
-        search.mainland[site] = search.sets.root(search.in.surface.num_vertices() + i);
+        if (!has(search.in_doubt, labels.inner_points[i].site)) continue;
+        search.is_mainland[search.sets.root(search.in.surface.num_vertices() + i)] = 1;
     }
-    for (Index s = 0; s < search.mainland.size(); ++s) {
-        if (!has(search.in_doubt, s)) continue;
-        const Index node = holder_of(search.in, labels, s);
-        if (node != no_index) search.mainland[s] = search.sets.root(node);
+    for (Index i = 0; i < search.in.points.size(); ++i) {
+        if (!has(search.in_doubt, search.in.site_of_point[i])) continue;
+        const Index node = holder_of(search.in, labels, i);
+        if (node != no_index) search.is_mainland[search.sets.root(node)] = 1;
     }
 }
 
 bool is_island(IslandSearch& search, Index node, Index site) {
-    return has(search.in_doubt, site) && search.sets.root(node) != search.mainland[site];
+    return has(search.in_doubt, site) && search.is_mainland[search.sets.root(node)] == 0;
 }
 
 // Calls back for each row of these faces that has crossings.
@@ -300,7 +301,7 @@ std::vector<Index> relabel_islands(const StageInput& input, const CellSet& in_do
 }  // namespace
 
 Diagram absorb_islands(const StageInput& input, DiagramParts& parts) {
-    const CellSet displaced = find_displaced(input, parts.labels);
+    const CellSet displaced = find_displaced(input, parts.num_sites, parts.labels);
     while (true) {
         input.poller.poll();
         Ticker ticker(input.poller);

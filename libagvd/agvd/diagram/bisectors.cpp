@@ -13,8 +13,6 @@ namespace {
 // Equalities are met up to this share of the triangle's longest side: below it lies rounding.
 constexpr double convergence = 1e-11;
 constexpr int max_newton_steps = 25;
-// Relays chosen at one point stand for their sites this far along (share of the chord).
-constexpr double near_enough = 0.02;
 constexpr int max_arc_depth = 4;  // At most 2^4 pieces an arc and face.
 // A search that strays this far (share of the size) from its start does not come back.
 constexpr double lost = 2;
@@ -240,7 +238,7 @@ std::optional<BisectorPoint> project(const TriangleSites& triangle, Relays a, Re
         const double gap = ra.distance - rb.distance;
         const double distance = std::max(ra.distance, rb.distance);
         if (std::abs(gap) <= convergence * (triangle.size + distance)) {
-            if (std::abs(s - chosen_at) <= near_enough * length) {
+            if (s == chosen_at) {
                 if (!(outside(triangle, p) <= inside_tolerance * triangle.size)) return {};
                 return BisectorPoint{p, distance};
             }
@@ -263,9 +261,11 @@ void sample_bisector(const TriangleSites& triangle, const std::array<Index, 2>& 
 
 double arc_undercut(const TriangleSites& triangle, const std::array<Index, 2>& sites,
                     const Chord& chord) {
+    if (!((chord.to - chord.from).norm() > inside_tolerance * triangle.size)) return 0;
     const auto point = project(triangle, relays_of_site(triangle, sites[0]),
                                relays_of_site(triangle, sites[1]), chord);
-    return point ? undercut(triangle, point->position, point->distance, sites) : 0;
+    if (!point) return no_voronoi_vertex * triangle.size;
+    return undercut(triangle, point->position, point->distance, sites);
 }
 
 bool joins_straight(std::span<const Relay> relays, const std::array<Vec2, 3>& corners,

@@ -10,7 +10,7 @@ namespace agvd {
 //! Distances at a breakpoint that differ by more (share of the longest side) contradict it.
 inline constexpr double largest_disagreement = 1e-2;
 //! A point this far outside (share of the longest side) still counts as inside.
-inline constexpr double inside_tolerance = 1e-9;
+inline constexpr double inside_tolerance = 1e-11;
 
 using Relays = std::span<const PlanarRelay>;
 
@@ -54,7 +54,9 @@ struct BisectorPoint {
 void sample_bisector(const TriangleSites& triangle, const std::array<Index, 2>& sites,
                      const Chord& chord, double tolerance, Arcs& out);
 
-//! By how much a third site is nearer in the middle of the bisector of two sites.
+//! By how much a third site is nearer in the middle of the bisector of two sites; where the
+//! bisector has none inside the triangle beside the chord, no_voronoi_vertex times the triangle's
+//! size.
 [[nodiscard]] double arc_undercut(const TriangleSites& triangle, const std::array<Index, 2>& sites,
                                   const Chord& chord);
 

@@ -1,15 +1,17 @@
 #include "agvd/diagram/diagram.h"
 
+#include <algorithm>
 #include <numeric>
 
+#include "agvd/diagram/face_relays.h"
 #include "agvd/diagram/stages.h"
 
 namespace agvd {
 namespace {
 
 // All stages but drawing the points.
-Diagram build_complex(const StageInput& input, DiagramParts& parts) {
-    parts.num_sites = static_cast<Index>(input.sites.size());
+Diagram build_complex(const StageInput& input, Index num_sites, DiagramParts& parts) {
+    parts.num_sites = num_sites;
     parts.boundary_loops = boundary_loops(input.surface);
     label_vertices(input, parts.labels);
     label_edges(input, parts.labels);
@@ -24,17 +26,43 @@ Diagram build_complex(const StageInput& input, DiagramParts& parts) {
     return absorb_islands(input, parts);
 }
 
+// The points that own their own places, and their sites.
+struct OwnPlaces {
+    std::vector<SurfacePoint> points;
+    std::vector<Index> sites;
+    Index num_sites;
+};
+
+OwnPlaces own_places(const Surface& surface, std::span<const SurfacePoint> points,
+                     const Propagation& propagation) {
+    const std::vector<Index>& sites = propagation.site_of_point;
+    if (sites.empty()) {
+        OwnPlaces all{{points.begin(), points.end()}, std::vector<Index>(points.size()), 0};
+        std::iota(all.sites.begin(), all.sites.end(), Index{0});
+        all.num_sites = size_of(all.sites);
+        return all;
+    }
+    OwnPlaces own{{}, {}, *std::max_element(sites.begin(), sites.end()) + 1};
+    for (Index i = 0; i < points.size(); ++i) {
+        if (label_at(surface, propagation, points[i]).site.value() != sites[i]) continue;
+        own.points.push_back(points[i]);
+        own.sites.push_back(sites[i]);
+    }
+    return own;
+}
+
 // \param relays  not null: freed when they have been read for the last time.
 Diagram build(const Surface& surface, std::span<const SurfacePoint> sites,
               const Propagation& propagation, const DiagramOptions& options,
               std::vector<Relay>* relays) {
     Poller poller(options.progress);
     poller.poll();
-    const SitePlacement placement(surface, sites);
+    const OwnPlaces own = own_places(surface, sites, propagation);
+    const SitePlacement placement(surface, own.points, own.sites);
     DiagramParts parts;
-    Diagram diagram = build_complex({surface, sites, placement, propagation,
+    Diagram diagram = build_complex({surface, own.points, own.sites, placement, propagation,
                                      options.chord_tolerance, options.num_threads, poller},
-                                    parts);
+                                    own.num_sites, parts);
     if (relays != nullptr) std::vector<Relay>().swap(*relays);
     draw_points(surface, parts, Ticker(poller), diagram);
     measure_cells(surface, parts, Ticker(poller), diagram);
@@ -82,6 +110,9 @@ private:
         base_.to_input(piece.from, piece.to, parts_);
         const MeshView mesh = base_.input().mesh.view();
         const auto length_of = [&](std::size_t i) {
+            if (base_.input().has_own_lengths) {
+                return face_distance(base_.input(), parts_[i], parts_[i + 1]);
+            }
             return (position(mesh, parts_[i + 1]) - position(mesh, parts_[i])).norm();
         };
         double length = 0;

@@ -124,7 +124,7 @@ struct PointLabel {
 // path at distance w from the site: the image, or the end of the interval where paths bend.
 
 // Share of a segment: label changes nearer to each other are not told apart.
-inline constexpr double shortest_interval = 1e-9;
+inline constexpr double shortest_interval = 1e-11;
 // At a change the two distances are equal up to this: below it lies rounding.
 inline constexpr double equal_distances = 1e-11;
 

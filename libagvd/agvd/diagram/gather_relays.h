@@ -307,13 +307,19 @@ private:
         const Motion to = to_face_frame(surface_, half_edge);
         for (const StraightPiece& won : pieces_) {
             const Vec2 image = forward ? won.from : Vec2(length - won.from.x(), -won.from.y());
-            const bool is_on_edge = std::abs(image.y()) <= on_edge * length;
-            if (image.y() > 0 && !is_on_edge) continue;  // Comes from this face.
+            if (image.y() > on_edge * length) continue;  // Comes from this face.
             const Vec2 begin(forward ? won.begin : length - won.end, 0);
             const Vec2 end(forward ? won.end : length - won.begin, 0);
+            if (image.y() >= -on_edge * length) {
+                // Paths leave the edge where it is the nearest to the image.
+                const Vec2 leaves(std::clamp(image.x(), begin.x(), end.x()), 0);
+                out.push_back(
+                    point_relay(to(leaves), won.weight + (leaves - image).norm(), won.site));
+                continue;
+            }
             out.push_back({to(image), to(begin), to(end), won.weight,
                            won.weight + (begin - image).norm(), won.weight + (end - image).norm(),
-                           won.site, is_on_edge});
+                           won.site, false});
         }
     }
 

@@ -11,8 +11,9 @@ namespace agvd {
 //! Keeps references. Stages name mixed faces by their positions in Propagation::mixed_faces.
 struct StageInput {
     const Surface& surface;
-    std::span<const SurfacePoint> sites;
-    const SitePlacement& placement;  //!< Of the sites.
+    std::span<const SurfacePoint> points;  //!< Those of the sites that own their own places.
+    std::span<const Index> site_of_point;  //!< #points.
+    const SitePlacement& placement;        //!< Of the points; their sites, not their numbers.
     const Propagation& propagation;
     double chord_tolerance;  //!< As in DiagramOptions.
     int num_threads;         //!< As in DiagramOptions.

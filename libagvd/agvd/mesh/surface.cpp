@@ -8,6 +8,7 @@
 #include <string>
 
 #include "agvd/core/error.h"
+#include "agvd/core/number_text.h"
 #include "agvd/core/parallel.h"
 #include "agvd/mesh/any_mesh.h"
 #include "agvd/mesh/scale.h"
@@ -112,19 +113,72 @@ void number_edges(Surface& surface, Ticker& ticker) {
     surface.edge_half.shrink_to_fit();
 }
 
-void measure(Surface& surface, int num_threads, Poller& poller) {
+void measure_edges(Surface& surface, int num_threads, Poller& poller) {
     surface.length.resize(surface.num_edges());
     const auto measure_edge = [&](Index e) {
         surface.length[e] = surface.length_in_space(surface.edge_half[e]);
     };
     parallel_each(surface.num_edges(), pass_grain, num_threads, measure_edge, poller);
+}
+
+// \param side_length  by half-edge.
+void take_lengths(Surface& surface, std::span<const double> side_length, Ticker& ticker) {
+    constexpr double agreement = 1e-12;
+    surface.has_own_lengths = true;
+    surface.length.resize(surface.num_edges());
+    const auto name = [&](Index h) {
+        return "the edge from vertex " + std::to_string(surface.tail(h)) + " to " +
+               std::to_string(surface.head(h));
+    };
+    for (Index e = 0; e < surface.num_edges(); ++e) {
+        ticker.tick();
+        const Index h = surface.edge_half[e], twin = surface.twin[h];
+        const double length = side_length[h];
+        if (!(length > 0 && std::isfinite(length))) {
+            throw InvalidInput(name(h) + " has the length " + number_text(length) +
+                               "; use a number above 0");
+        }
+        if (twin != no_index && !(std::abs(side_length[twin] - length) <= agreement * length)) {
+            throw InvalidInput(name(h) + " has the lengths " + number_text(length) + " and " +
+                               number_text(side_length[twin]) +
+                               " in its two faces; give it one length");
+        }
+        surface.length[e] = length;
+    }
+}
+
+// The apex from the three lengths; the height by Kahan's formula, exact to some roundings of the
+// longest side.
+Vec2 apex_by_lengths(const Surface& surface, Index h) {
+    const double base = surface.length_of(h), right = surface.length_of(Surface::next(h)),
+                 left = surface.length_of(Surface::previous(h));
+    std::array sides{base, right, left};
+    std::sort(sides.begin(), sides.end());
+    const auto [c, b, a] = sides;
+    const double product = (a + (b + c)) * (c - (a - b)) * (c + (a - b)) * (a + (b - c));
+    const double height = product > 0 ? std::sqrt(product) / (2 * base) : 0;
+    return {((left - right) * ((left + right) / base) + base) / 2, height};
+}
+
+// Whether the face has the lengths that it has in space.
+bool lies_in_space(const Surface& surface, Index face) {
+    for (Index h = 3 * face; h < 3 * face + 3; ++h) {
+        const Index along = surface.edge_half[surface.edge[h]];
+        if (surface.length_of(h) != surface.length_in_space(along)) return false;
+    }
+    return true;
+}
+
+void find_all_apexes(Surface& surface, int num_threads, Poller& poller) {
     surface.apex.resize(surface.twin.size());
     poller.poll();
     const auto num_half_edges = static_cast<Index>(surface.twin.size());
     std::vector<Index> degenerate(num_chunks(num_half_edges, pass_grain), no_index);
     const auto find_apexes = [&](Index chunk, Index begin, Index end) {
         for (Index h = begin; h < end; ++h) {
-            surface.apex[h] = surface.apex_in_space(h);
+            surface.apex[h] = surface.has_own_lengths && !lies_in_space(surface, h / 3)
+                                  ? apex_by_lengths(surface, h)
+                                  : surface.apex_in_space(h);
             const double height = surface.apex[h].y();
             const bool has_area = height > 0 && std::isfinite(height);
             if (!has_area) degenerate[chunk] = std::min(degenerate[chunk], h);
@@ -195,7 +249,31 @@ Surface build_surface(const MeshView& mesh, int num_threads, const Progress& pro
                          *std::move(connectivity), num_threads, progress);
 }
 
+Surface build_surface(const MeshView& mesh, std::span<const double> side_length, int num_threads,
+                      const Progress& progress) {
+    if (side_length.size() != 3 * mesh.triangles.size()) {
+        throw InvalidInput("there are " + std::to_string(side_length.size()) + " lengths for " +
+                           std::to_string(mesh.triangles.size()) +
+                           " faces; give one for each side of each face");
+    }
+    Poller poller(progress);
+    Ticker ticker(poller);
+    check_elements(mesh, ticker);
+    std::string reason;
+    std::optional<Connectivity> connectivity = pair_sides(mesh, ticker, reason);
+    if (!connectivity) throw InvalidInput(reason + remedy);
+    return build_surface({{mesh.positions.begin(), mesh.positions.end()},
+                          {mesh.triangles.begin(), mesh.triangles.end()}},
+                         *std::move(connectivity), side_length, num_threads, progress);
+}
+
 Surface build_surface(TriangleMesh mesh, Connectivity connectivity, int num_threads,
+                      const Progress& progress) {
+    return build_surface(std::move(mesh), std::move(connectivity), {}, num_threads, progress);
+}
+
+Surface build_surface(TriangleMesh mesh, Connectivity connectivity,
+                      std::span<const double> side_length, int num_threads,
                       const Progress& progress) {
     Poller poller(progress);
     Surface surface;
@@ -204,7 +282,12 @@ Surface build_surface(TriangleMesh mesh, Connectivity connectivity, int num_thre
     surface.outgoing = std::move(connectivity.outgoing);
     Ticker ticker(poller);
     number_edges(surface, ticker);
-    measure(surface, num_threads, poller);
+    if (side_length.empty()) {
+        measure_edges(surface, num_threads, poller);
+    } else {
+        take_lengths(surface, side_length, ticker);
+    }
+    find_all_apexes(surface, num_threads, poller);
     find_pseudo_sources(surface, num_threads, poller);
     return surface;
 }

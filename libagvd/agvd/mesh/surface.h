@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <span>
 
 #include "agvd/core/progress.h"
 #include "agvd/mesh/mesh.h"
@@ -45,6 +46,8 @@ struct Surface {
     //! boundary above pi. The excess must pass 1e-9, so that flat vertices are not taken for
     //! saddles.
     std::vector<std::uint8_t> can_be_pseudo_source;
+    //! The lengths were given: positions are for drawing, and distances between them say nothing.
+    bool has_own_lengths = false;
 
     //! #V.
     [[nodiscard]] Index num_vertices() const { return static_cast<Index>(mesh.positions.size()); }
@@ -110,6 +113,21 @@ inline Vec2 Surface::apex_in_space(Index half_edge) const {
 //! Cost: O(n).
 [[nodiscard]] Surface build_surface(TriangleMesh mesh, Connectivity connectivity, int num_threads,
                                     const Progress& progress = {});
+
+//! The same by lengths in place of positions, which then are for drawing only.
+//!
+//! Where the lengths of a face are those between its positions, bit for bit, its shape is taken
+//! from these, so that a mesh given by its own lengths gives the same bits as without.
+//! \param side_length  #F x 3, mesh units: of the side from corner k of a face to corner k + 1. Both
+//!                     sides of an edge must agree within 1e-12 of it.
+//! \throw InvalidInput  as above, but positions need only be finite; a length is not finite or not
+//!        above 0, two sides of an edge differ, or three sides make no triangle with an area.
+[[nodiscard]] Surface build_surface(const MeshView& mesh, std::span<const double> side_length,
+                                    int num_threads = 0, const Progress& progress = {});
+//! \param connectivity  find_connectivity(mesh).
+[[nodiscard]] Surface build_surface(TriangleMesh mesh, Connectivity connectivity,
+                                    std::span<const double> side_length, int num_threads,
+                                    const Progress& progress);
 
 //! The place of a value in ascending ones.
 [[nodiscard]] inline Index rank_of(std::span<const Index> ascending, Index value) {

@@ -41,7 +41,8 @@ std::vector<Index> faces_of(Places places) {
 Distances distances_on(const Surface& surface, std::span<const SurfacePoint> sites, Places places,
                        std::span<const Index> vertices, const DistanceOptions& options) {
     const Propagation propagation = propagate(surface, sites,
-                                              {.max_error = options.max_error,
+                                              {.points = options.points,
+                                               .max_error = options.max_error,
                                                .max_distance = options.max_distance,
                                                .relay_faces = faces_of(places),
                                                .num_threads = options.num_threads,
@@ -81,7 +82,8 @@ Distances find_distances(const Surface& surface, std::span<const SurfacePoint> s
     check_sites(surface, points);
     check_sites(surface, sites);
     std::vector<std::optional<SurfacePoint>> places(points.begin(), points.end());
-    if (!(options.max_distance < infinity) || !(options.max_distance >= 0)) {
+    if (!(options.max_distance < infinity) || !(options.max_distance >= 0) ||
+        surface.has_own_lengths) {
         return distances_on(surface, sites, places, {}, options);  // Which refuses NaN.
     }
     Poller poller(options.progress);

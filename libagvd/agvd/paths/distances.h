@@ -15,6 +15,7 @@ namespace agvd {
 
 //! `{}` gives the defaults.
 struct DistanceOptions {
+    SitePoints points = {};  //!< What the points given as sites stand for.
     //! Mesh units, >= 0: what is farther away is not reached.
     double max_distance = std::numeric_limits<double>::infinity();
     double max_error = default_max_error;  //!< Relative, in [0, 1); 0: exact in double.
@@ -36,7 +37,7 @@ struct Distances {
 //!
 //! With a radius only a patch of the surface is looked at: the faces that are near a site in space
 //! and connected to it by such faces.
-//! \param sites   as in propagate().
+//! \param sites   as in propagate(), with options.points.
 //! \param points  where distances are wanted besides the vertices; may be empty.
 //! \throw InvalidOption  an option is out of range.
 //! \throw InvalidSites   a site or a point names a face that does not exist, or is off the face.

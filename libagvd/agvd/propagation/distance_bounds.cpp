@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "agvd/core/parallel.h"
+#include "agvd/propagation/engines.h"
 #include "agvd/propagation/layout.h"
 #include "agvd/propagation/site_placement.h"
 
@@ -76,20 +77,20 @@ BoundsSearch::BoundsSearch(const Surface& surface, const SurfaceLayout& layout, 
       keys_(graph_.ends.size(), to_key(unreached, no_index)),
       queued_in_(keys_.size(), no_index) {}
 
-void BoundsSearch::add(const SurfacePoint& point, Index site) {
-    const auto start = [&](Index vertex, double distance) {
+void BoundsSearch::add(const SurfacePoint& point, Index site, double start) {
+    const auto reach = [&](Index vertex, double distance) {
         const Key key = to_key(static_cast<float>(distance) * length_rounding, site);
         if (key >= keys_[vertex]) return;
         keys_[vertex] = key;
         queue(vertex);
     };
     if (const auto vertex = vertex_of(surface_, point)) {
-        start(*vertex, 0);
+        reach(*vertex, start);
         return;
     }
     for_each_side(surface_, point, [&](const SurfacePoint& p, Index) {
         for (Index h = 3 * p.face.value(); h < 3 * p.face.value() + 3; ++h) {
-            start(surface_.tail(h), position_in_frame(surface_, p, h).norm());
+            reach(surface_.tail(h), start + position_in_frame(surface_, p, h).norm());
         }
     });
 }
@@ -189,9 +190,9 @@ void BoundsSearch::search_slab(std::span<const Index> starts, Chunk& chunk, Tick
 
 DistanceBounds distance_bounds(const Surface& surface, const SurfaceLayout& layout,
                                std::span<const SurfacePoint> sites, int num_threads,
-                               const Progress& progress) {
+                               const Progress& progress, std::span<const double> starts) {
     BoundsSearch search(surface, layout, num_threads);
-    for (Index s = 0; s < sites.size(); ++s) search.add(sites[s], s);
+    for (Index s = 0; s < sites.size(); ++s) search.add(sites[s], s, start_of(starts, s));
     search.run(progress);
     DistanceBounds bounds;
     bounds.distance.resize(surface.num_vertices());

@@ -28,7 +28,8 @@ public:
                  Index num_steps = 0);
 
     //! Adds a site. The next run() follows its paths.
-    void add(const SurfacePoint& point, Index site);
+    //! \param start  its distance from itself, >= 0.
+    void add(const SurfacePoint& point, Index site, double start = 0);
     //! Cost: about that of one Dijkstra sweep over the edges where something is new.
     //! \throw Cancelled  the search is of no use any more.
     void run(const Progress& progress = {});
@@ -67,8 +68,10 @@ private:
 };
 
 //! The bounds of given sites. Parameters as above.
+//! \param starts  of the sites; empty: 0.
 [[nodiscard]] DistanceBounds distance_bounds(const Surface& surface, const SurfaceLayout& layout,
                                              std::span<const SurfacePoint> sites, int num_threads,
-                                             const Progress& progress = {});
+                                             const Progress& progress = {},
+                                             std::span<const double> starts = {});
 
 }  // namespace agvd

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <numeric>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include "agvd/core/error.h"
+#include "agvd/core/number_text.h"
 #include "agvd/mesh/surface_points.h"
 #include "agvd/propagation/steiner/steiner_nodes.h"
 
@@ -58,25 +60,107 @@ void check_options(const Surface& surface, const PropagationOptions& options) {
     if (options.engine == Engine::Steiner) check_steiner_options(surface, options);
 }
 
-// Propagates the distinct sites only. A site that lies on an earlier one owns nothing, but its
-// windows would run as far as those of the earlier one. `run_windows` is the window engine.
+void check_points(const SitePoints& points, std::size_t num_points) {
+    for (const std::size_t size : {points.site.size(), points.start.size()}) {
+        if (size == 0 || size == num_points) continue;
+        throw InvalidOption("there are " + std::to_string(num_points) + " points, and " +
+                            std::to_string(size) +
+                            " sites or starts of them; give one for each point, or none");
+    }
+    for (std::size_t i = 0; i < points.start.size(); ++i) {
+        if (points.start[i] >= 0 && points.start[i] < infinity) continue;
+        throw InvalidSites("point " + std::to_string(i) + " starts at the distance " +
+                           number_text(points.start[i]) +
+                           "; use a number of 0 or more: adding one number to all starts changes "
+                           "no cell");
+    }
+    if (points.site.empty()) return;
+    std::vector<bool> has_point(num_points, false);
+    for (const Index site : points.site) {
+        if (site < num_points) has_point[site] = true;
+    }
+    const Index num_sites = *std::max_element(points.site.begin(), points.site.end()) + 1;
+    const auto first = std::find(has_point.begin(), has_point.end(), false);
+    const auto missing = static_cast<Index>(first - has_point.begin());
+    if (missing >= num_sites && num_sites != 0) return;
+    throw InvalidSites("site " + std::to_string(missing) + " has no point, but site " +
+                       std::to_string(num_sites - 1) +
+                       " has; number the sites from 0 without gaps");
+}
+
+// The points that are propagated: of those at one place the one with the least start, then of the
+// lowest site. In the order of their sites, so that ties between points are those between sites.
+std::vector<Index> points_that_count(const Surface& surface, std::span<const SurfacePoint> points,
+                                     const SitePoints& roles) {
+    if (roles.site.empty() && roles.start.empty()) return distinct_points(surface, points);
+    std::vector<Index> order(points.size());
+    std::iota(order.begin(), order.end(), Index{0});
+    std::sort(order.begin(), order.end(), [&](Index a, Index b) {
+        return std::tuple(start_of(roles.start, a), roles.site_of(a), a) <
+               std::tuple(start_of(roles.start, b), roles.site_of(b), b);
+    });
+    std::vector<Index> kept = take(order, distinct_points(surface, take(points, order)));
+    std::sort(kept.begin(), kept.end(), [&](Index a, Index b) {
+        return std::pair(roles.site_of(a), a) < std::pair(roles.site_of(b), b);
+    });
+    return kept;
+}
+
+// Leaves out the mixed faces whose relays and corners are of one site, unless they are asked for.
+void drop_faces_of_one_site(const Surface& surface, std::span<const Index> asked_for,
+                            Propagation& result) {
+    std::vector<Relay> relays;
+    Index kept = 0;
+    for (Index i = 0; i < result.mixed_faces.size(); ++i) {
+        const Index face = result.mixed_faces[i];
+        const std::span<const Relay> own = relays_of(result, i);
+        const SiteId site = result.vertex_site[surface.mesh.triangles[face][0]];
+        const auto& corners = surface.mesh.triangles[face];
+        const bool is_mixed =
+            std::any_of(corners.begin(), corners.end(),
+                        [&](Index v) { return result.vertex_site[v] != site; }) ||
+            std::any_of(own.begin(), own.end(), [&](const Relay& r) { return r.site != site; });
+        if (!is_mixed && !std::binary_search(asked_for.begin(), asked_for.end(), face)) continue;
+        const auto begin = static_cast<Index>(relays.size());
+        relays.insert(relays.end(), own.begin(), own.end());
+        result.mixed_faces[kept] = face;
+        result.relay_ranges[kept++] = {begin, static_cast<Index>(relays.size())};
+    }
+    result.mixed_faces.resize(kept);
+    result.relay_ranges.resize(kept);
+    result.relays = std::move(relays);
+}
+
+// Propagates the points that count only. A point that lies on another one owns nothing, but its
+// windows would run as far as those of the other. `run_windows` is the window engine.
 template <typename Run>
 Propagation propagate_distinct(const Surface& surface, std::span<const SurfacePoint> sites,
                                const PropagationOptions& options, const Run& run_windows) {
     check_options(surface, options);
     check_sites(surface, sites);
-    const auto run = [&](std::span<const SurfacePoint> distinct) {
-        if (options.engine == Engine::Steiner) return propagate_steiner(surface, distinct, options);
-        return run_windows(distinct);
+    const SitePoints& roles = options.points;
+    check_points(roles, sites.size());
+    const auto run = [&](std::span<const SurfacePoint> points, const PropagationOptions& own) {
+        if (own.engine == Engine::Steiner) return propagate_steiner(surface, points, own);
+        return run_windows(points, own);
     };
-    const std::vector<Index> distinct = distinct_points(surface, sites);
-    if (distinct.size() == sites.size()) return run(sites);
-    Propagation result = run(take(sites, distinct));
+    const std::vector<Index> kept = points_that_count(surface, sites, roles);
+    const bool are_plain = roles.site.empty() && roles.start.empty();
+    if (are_plain && kept.size() == sites.size()) return run(sites, options);
+    PropagationOptions own = options;
+    own.points = {};
+    for (const Index point : kept) {
+        if (!roles.start.empty()) own.points.start.push_back(roles.start[point]);
+    }
+    Propagation result = run(take(sites, kept), own);
     const auto rename = [&](SiteId& site) {
-        if (site.is_valid()) site = SiteId(distinct[site.value()]);
+        if (site.is_valid()) site = SiteId(roles.site_of(kept[site.value()]));
     };
     for (SiteId& site : result.vertex_site) rename(site);
     for (Relay& relay : result.relays) rename(relay.site);
+    if (are_plain) return result;
+    if (!roles.site.empty()) drop_faces_of_one_site(surface, options.relay_faces, result);
+    for (Index i = 0; i < sites.size(); ++i) result.site_of_point.push_back(roles.site_of(i));
     return result;
 }
 
@@ -99,17 +183,21 @@ const char* engine_name(Engine engine) { return engine == Engine::Steiner ? "ste
 
 Propagation propagate(const Surface& surface, std::span<const SurfacePoint> sites,
                       const PropagationOptions& options) {
-    return propagate_distinct(surface, sites, options, [&](std::span<const SurfacePoint> distinct) {
-        SurfaceLayout layout(surface, options.num_threads, within(options.progress, 0, 0));
-        return propagate_windows(surface, std::move(layout), distinct, options);
-    });
+    return propagate_distinct(
+        surface, sites, options,
+        [&](std::span<const SurfacePoint> points, const PropagationOptions& own) {
+            SurfaceLayout layout(surface, options.num_threads, within(options.progress, 0, 0));
+            return propagate_windows(surface, std::move(layout), points, own);
+        });
 }
 
 Propagation propagate(const Surface& surface, SurfaceLayout layout,
                       std::span<const SurfacePoint> sites, const PropagationOptions& options) {
-    return propagate_distinct(surface, sites, options, [&](std::span<const SurfacePoint> distinct) {
-        return propagate_windows(surface, std::move(layout), distinct, options);
-    });
+    return propagate_distinct(
+        surface, sites, options,
+        [&](std::span<const SurfacePoint> points, const PropagationOptions& own) {
+            return propagate_windows(surface, std::move(layout), points, own);
+        });
 }
 
 }  // namespace agvd

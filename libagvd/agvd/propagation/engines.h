@@ -1,5 +1,6 @@
 //! \file
-//! The two engines, which propagate() calls with checked options.
+//! The two engines, which propagate() calls with checked options. To them every point is a site of
+//! its own: of PropagationOptions::points they read `start` only.
 #pragma once
 
 #include <cmath>
@@ -11,6 +12,11 @@ namespace agvd {
 //! If more windows of one site are served through one half-edge, the site is propagated again in
 //! the order of distance. Real meshes stay below 700.
 inline constexpr Index default_work_cap = 1 << 11;
+
+//! The distance that a site starts with. \param starts  of the sites; empty: 0.
+[[nodiscard]] inline double start_of(std::span<const double> starts, Index site) {
+    return starts.empty() ? 0 : starts[site];
+}
 
 //! The window engine: every site on its own, as far as upper bounds of the distances allow. Cost:
 //! about O(n sqrt(n / t)) time for exact distances, O(n) for error-bounded ones, O(n) space.

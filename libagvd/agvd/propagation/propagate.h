@@ -24,8 +24,25 @@ enum class Engine : std::uint8_t {
 //! Lower-case name of an engine, for command lines and reports.
 [[nodiscard]] const char* engine_name(Engine engine);
 
+//! What the points given as sites stand for. `{}`: point i is site i, at distance 0 from itself.
+struct SitePoints {
+    //! #points: the site that each point belongs to, of 0, 1, ...; the distance from a site is the
+    //! least from its points. Empty: point i is site i.
+    std::vector<Index> site = {};
+    //! #points, mesh units, finite, >= 0: the distance that each point starts with, an additive
+    //! weight. A site none of whose points is the nearest at its own place owns nothing. Empty: 0.
+    std::vector<double> start = {};
+
+    //! The site of a point.
+    [[nodiscard]] Index site_of(Index point) const { return site.empty() ? point : site[point]; }
+
+    //! Whether both say the same in the same words.
+    friend bool operator==(const SitePoints&, const SitePoints&) = default;
+};
+
 //! `{}` gives the defaults.
 struct PropagationOptions {
+    SitePoints points = {};          //!< What the points given as sites stand for.
     Engine engine = Engine::Window;  //!< How distances are computed.
     //! Relative distance error, in [0, 1); 0: exact in double. Certified: see
     //! Propagation::certified_error. Unset: the window engine takes default_max_error, the Steiner
@@ -97,6 +114,9 @@ struct Propagation {
     std::vector<SiteId> vertex_site;      //!< #V; invalid where no site reaches.
     std::vector<double> vertex_distance;  //!< #V; infinity where no site reaches.
 
+    //! #points, as SitePoints::site; empty: point i is site i, and starts at 0.
+    std::vector<Index> site_of_point;
+
     //! Ascending: vertices that a site reaches, but no window. Their distance is the length of a
     //! path along edges and across pairs of faces, rounded up. Windows with errors leave such gaps;
     //! exact windows do where lengths of edges differ by more than rounding allows.
@@ -111,8 +131,8 @@ struct Propagation {
     std::vector<Relay> relays;
 
     //! Certified: no distance, at a vertex or through the relays, exceeds the exact one by more
-    //! than this share of it (rounding in double apart). The Steiner engine's bound holds at the
-    //! vertices only. Infinity: nothing is certified.
+    //! than this share of it (rounding in double apart); starts are part of distances. The Steiner
+    //! engine's bound holds at the vertices only. Infinity: nothing is certified.
     double certified_error = std::numeric_limits<double>::infinity();
 
     std::size_t peak_bytes = 0;  //!< Most bytes held at once beyond the mesh, result included.
@@ -159,10 +179,11 @@ private:
 
 //! Propagates distances from all sites at once.
 //!
-//! \param sites  t surface points; several may share a face or even a position (the lower index
-//!               then owns it).
+//! \param sites  surface points, each a site if options.points says nothing else; several may share
+//!               a face or even a position (the least start, then the lower index owns it).
 //! \throw InvalidOption    an option is out of range, or the engine cannot do what it asks.
-//! \throw InvalidSites     a site names a face that does not exist or has coordinates off the face.
+//! \throw InvalidSites     a site names a face that does not exist or has coordinates off the face,
+//!                         has no point, or starts at a distance that is out of range.
 //! \throw ConstraintUnmet  the Steiner engine cannot meet max_error.
 //! \throw Cancelled        the progress callback returned false.
 //! Re-entrant.

@@ -32,8 +32,10 @@ void for_each_side(const Surface& surface, const SurfacePoint& point, const Each
 class SitePlacement {
 public:
     SitePlacement() = default;
+    //! \param site_of_point  #sites: the numbers to list; empty: their own.
     //! \throw InvalidSites as check_sites.
-    SitePlacement(const Surface& surface, std::span<const SurfacePoint> sites) {
+    SitePlacement(const Surface& surface, std::span<const SurfacePoint> sites,
+                  std::span<const Index> site_of_point = {}) {
         check_sites(surface, sites);
         std::vector<Index> chosen;
         for (Index s = 0; s < sites.size(); ++s) {
@@ -42,7 +44,7 @@ public:
         for (const Index i : distinct_points(surface, take(sites, chosen))) {
             const Index s = chosen[i];
             for_each_side(surface, sites[s], [&](const SurfacePoint& point, Index) {
-                placed_.push_back({s, point});
+                placed_.push_back({site_of_point.empty() ? s : site_of_point[s], point});
             });
         }
         std::stable_sort(placed_.begin(), placed_.end(),

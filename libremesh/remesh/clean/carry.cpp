@@ -177,8 +177,8 @@ std::vector<std::uint8_t> carry_edges(std::span<const std::array<Index, 2>> edge
     std::vector<SurfacePoint> middles;
     for (const auto& [ends, face] : middle_of) {
         if (face.area < 0) {
-            throw InvalidInput("the feature edge between vertices " + std::to_string(ends.first) +
-                               " and " + std::to_string(ends.second) +
+            throw InvalidInput("the edge between vertices " + std::to_string(ends.first) + " and " +
+                               std::to_string(ends.second) +
                                " is not an edge of the mesh; name the two ends of an edge, "
                                "counted from 0");
         }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "agvd/core/groups.h"
 #include "agvd/core/types.h"
 
 namespace remesh {
@@ -163,15 +164,26 @@ std::vector<InnerEdge> repeated_edges(const GluedMesh& mesh) {
 }
 
 std::vector<DirectedEdge> rim_of(std::span<const Triangle> triangles) {
-    std::vector<DirectedEdge> edges, rim;
-    edges.reserve(3 * triangles.size());
+    std::size_t num_vertices = 0;
     for (const Triangle& t : triangles) {
-        for (std::size_t k = 0; k < 3; ++k) edges.emplace_back(t[k], t[(k + 1) % 3]);
+        num_vertices = std::max(num_vertices, std::size_t{*std::ranges::max_element(t)} + 1);
     }
-    std::sort(edges.begin(), edges.end());
-    for (const auto& [from, to] : edges) {
-        const DirectedEdge back(to, from);
-        if (!std::binary_search(edges.begin(), edges.end(), back)) rim.emplace_back(from, to);
+    const Groups tails(num_vertices, [&](const auto& add) {
+        for (const Triangle& t : triangles) {
+            for (std::size_t k = 0; k < 3; ++k) add(t[(k + 1) % 3], t[k]);
+        }
+    });
+    // The heads come in ascending order, so each group is sorted.
+    const Groups heads(num_vertices, [&](const auto& add) {
+        for (Index head = 0; head < num_vertices; ++head) {
+            for (const Index tail : tails.of(head)) add(tail, head);
+        }
+    });
+    std::vector<DirectedEdge> rim;
+    for (Index from = 0; from < num_vertices; ++from) {
+        for (const Index to : heads.of(from)) {
+            if (!std::ranges::binary_search(heads.of(to), from)) rim.emplace_back(from, to);
+        }
     }
     return rim;
 }

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "agvd/core/union_find.h"
+#include "agvd/mesh/cut_surface.h"
 #include "agvd/mesh/surface.h"
 #include "remesh/curves/curve_network.h"
 
@@ -77,11 +78,6 @@ std::vector<std::vector<Index>> join_ends(const Surface& surface, std::span<cons
     for (Index v = 0; v < sets.size(); ++v) sets[joined.root(v)].push_back(v);
     std::erase_if(sets, [](const std::vector<Index>& set) { return set.size() < 2; });
     return sets;
-}
-
-// Whether a walk around a vertex passes from half-edge h to the one before it.
-bool is_open(const Surface& surface, std::span<const std::uint8_t> is_cut, Index half_edge) {
-    return surface.twin[half_edge] != no_index && is_cut[surface.edge[half_edge]] == 0;
 }
 
 }  // namespace
@@ -157,34 +153,9 @@ CutSurface cut_surface(const Surface& surface, std::span<const std::uint8_t> is_
         if (is_cut[e] != 0 && surface.twin[surface.edge_half[e]] != no_index) is_whole = false;
     }
     if (is_whole) return {&surface, {}, std::move(original), surface.num_vertices()};
-    TriangleMesh mesh = surface.mesh;
-    Connectivity connectivity{surface.twin, surface.outgoing};
-    for (Index h = 0; h < connectivity.twin.size(); ++h) {
-        if (is_cut[surface.edge[h]] != 0) connectivity.twin[h] = no_index;
-    }
-    for (Index v = 0; v < surface.num_vertices(); ++v) {
-        std::vector<Index> firsts;  // The first half-edge of each wedge.
-        for_each_outgoing(surface, v, [&](Index h) {
-            if (!is_open(surface, is_cut, h)) firsts.push_back(h);
-        });
-        for (std::size_t i = 0; i < firsts.size(); ++i) {
-            Index copy = v;
-            if (i > 0) {
-                copy = static_cast<Index>(mesh.positions.size());
-                mesh.positions.push_back(mesh.positions[v]);
-                connectivity.outgoing.push_back(no_index);
-                original.push_back(v);
-            }
-            connectivity.outgoing[copy] = firsts[i];
-            for (Index h = firsts[i];; h = surface.twin[Surface::previous(h)]) {
-                mesh.triangles[Surface::face(h)][h % 3] = copy;
-                if (!is_open(surface, is_cut, Surface::previous(h))) break;
-            }
-        }
-    }
-    return {&surface,
-            build_surface(std::move(mesh), std::move(connectivity), num_threads, progress),
-            std::move(original), surface.num_vertices()};
+    agvd::OpenedSurface opened = agvd::cut_along(surface, is_cut, num_threads, progress);
+    return {&surface, std::move(opened.surface), std::move(opened.original),
+            surface.num_vertices()};
 }
 
 }  // namespace remesh

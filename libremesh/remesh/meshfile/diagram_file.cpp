@@ -50,13 +50,34 @@ public:
             }
         }
         Diagram& diagram = out_.diagram;
-        diagram.num_sites = static_cast<Index>(out_.sites.size());
+        diagram.num_sites = static_cast<Index>(diagram.cell_area.size());
+        if (count_.contains("site_point")) take_points();
         if (diagram.edge_points.back() != diagram.points.size()) {
             fail("the Voronoi edges do not have all curve points");
         }
     }
 
 private:
+    // Each cell has a point, or a site would have no place.
+    void take_points() {
+        std::vector<bool> has_point(out_.sites.size(), false);
+        for (const Index site : out_.points.site) has_point[site] = true;
+        if (std::find(has_point.begin(), has_point.end(), false) != has_point.end()) {
+            fail("a site has no point");
+        }
+        out_.sites = std::move(points_);
+        SitePoints& points = out_.points;
+        bool are_sites = true;
+        for (Index i = 0; i < points.site.size(); ++i) {
+            are_sites = are_sites && points.site[i] == i;
+        }
+        if (are_sites) points.site.clear();
+        if (std::all_of(points.start.begin(), points.start.end(),
+                        [](double start) { return start == 0; })) {
+            points.start.clear();
+        }
+    }
+
     void read_item(const PlyElement& element, std::uint64_t i) {
         Diagram& diagram = out_.diagram;
         if (element.name == "vertex") {
@@ -70,6 +91,12 @@ private:
             if (!(std::abs(row_[5]) < INT32_MAX))
                 fail("the Euler characteristic of a cell is out of range");
             diagram.cell_euler.push_back(static_cast<int>(row_[5]));
+        } else if (element.name == "site_point") {
+            read_row(element, i, {"face", "b0", "b1", "b2", "site", "start"}, {});
+            points_.push_back(point());
+            out_.points.site.push_back(index(row_[4], "site"));
+            out_.points.start.push_back(row_[5]);
+            if (!(row_[5] >= 0)) fail("a point starts at a distance below 0");
         } else if (element.name == "curve_point") {
             read_row(element, i, {"face", "b0", "b1", "b2", "distance"}, {});
             diagram.points.push_back(point());
@@ -195,6 +222,7 @@ private:
     std::size_t start_ = 0;                       // Of the item being read.
     std::vector<double> row_;                     // Numbers of it: 32-bit integers fit.
     std::vector<std::vector<double>> lists_;
+    std::vector<SurfacePoint> points_;  // Of sites, where they are not the sites themselves.
 };
 
 // What is written. Refers to the caller's arrays.
@@ -202,7 +230,11 @@ struct DrawnDiagram {
     const Surface& surface;
     std::span<const SurfacePoint> sites;
     const Diagram& diagram;
+    const SitePoints& points;  // What the sites stand for.
 
+    [[nodiscard]] double start_of(Index site) const {
+        return points.start.empty() ? 0 : points.start[site];
+    }
     [[nodiscard]] Vec3 position(const SurfacePoint& point) const {
         return agvd::position(surface.mesh.view(), point);
     }
@@ -246,8 +278,9 @@ LabelledPoints labelled_points(const DrawnDiagram& drawn, Ticker& ticker) {
         points.add(drawn.surface.mesh.positions[v], diagram.nearest_site[v],
                    diagram.nearest_distance[v]);
     }
-    for (Index s = 0; s < diagram.num_sites; ++s) {
-        points.add(drawn.position(drawn.sites[s]), SiteId(s), 0);
+    for (Index i = 0; i < drawn.sites.size(); ++i) {
+        points.add(drawn.position(drawn.sites[i]), SiteId(drawn.points.site_of(i)),
+                   drawn.start_of(i));
     }
     for (Index e = 0; e < num_edges(diagram); ++e) {
         for (Index p = diagram.edge_points[e]; p < diagram.edge_points[e + 1]; ++p) {
@@ -261,7 +294,7 @@ LabelledPoints labelled_points(const DrawnDiagram& drawn, Ticker& ticker) {
 
 // The sides of all cells of the file: sites, edges, faces.
 std::vector<std::int32_t> sides_of_cells(const DrawnDiagram& drawn, SiteId VoronoiEdge::*side) {
-    std::vector<std::int32_t> numbers(drawn.diagram.num_sites, -1);
+    std::vector<std::int32_t> numbers(drawn.sites.size(), -1);
     for (const VoronoiEdge& edge : drawn.diagram.edges) {
         numbers.push_back(site_number(edge.*side));
     }
@@ -270,7 +303,8 @@ std::vector<std::int32_t> sides_of_cells(const DrawnDiagram& drawn, SiteId Voron
 }
 
 std::string format_vtp_diagram(const DrawnDiagram& drawn, Ticker ticker) {
-    const Index first_site = drawn.surface.num_vertices(), num_sites = drawn.diagram.num_sites;
+    const Index first_site = drawn.surface.num_vertices();
+    const auto num_sites = static_cast<Index>(drawn.sites.size());
     const LabelledPoints points = labelled_points(drawn, ticker);
     VtpWriter writer;
     const auto add_numbers = [&]<typename T>(const char* name, const char* type,
@@ -334,7 +368,8 @@ void append_list(std::string& bytes, const Items& items, const NumberOf& number_
 }
 
 // Of the elements behind vertices and faces.
-std::string diagram_header(const Diagram& diagram) {
+// \param num_points  of sites that are not points themselves.
+std::string diagram_header(const Diagram& diagram, std::size_t num_points) {
     const auto element = [](const char* name, std::size_t count) {
         return std::string("element ") + name + ' ' + std::to_string(count) + '\n';
     };
@@ -344,7 +379,11 @@ std::string diagram_header(const Diagram& diagram) {
            "comment vertex: site whose cell holds it, and geodesic distance from that\n"
            "comment points lie in a face at barycentric coordinates of its corners\n" +
            element("site", diagram.num_sites) + point +
-           "property double cell_area\nproperty int cell_euler\n"
+           "property double cell_area\nproperty int cell_euler\n" +
+           (num_points == 0 ? std::string()
+                            : "comment points of the sites, and the distances they start with\n" +
+                                  element("site_point", num_points) + point +
+                                  "property int site\nproperty double start\n") +
            "comment points of the voronoi edges in turn\n" +
            element("curve_point", diagram.points.size()) + point + "property double distance\n" +
            "comment tail and head: voronoi vertices, -1 for a closed curve\n" +
@@ -361,10 +400,20 @@ std::string diagram_header(const Diagram& diagram) {
 std::string format_whole_diagram(const DrawnDiagram& drawn, Ticker ticker) {
     const Diagram& diagram = drawn.diagram;
     std::string bytes = format_ply_mesh(drawn, ticker);
-    bytes.insert(bytes.find("end_header\n"), diagram_header(diagram));
+    const bool are_points = drawn.points.site.empty() && drawn.points.start.empty();
+    const auto num_points = static_cast<Index>(are_points ? 0 : drawn.sites.size());
+    bytes.insert(bytes.find("end_header\n"), diagram_header(diagram, num_points));
+    std::vector<Index> first(diagram.num_sites, 0);  // A point of each site.
+    for (auto i = static_cast<Index>(drawn.sites.size()); i-- > 0;) {
+        first[drawn.points.site_of(i)] = i;
+    }
     for (Index s = 0; s < diagram.num_sites; ++s) {
-        append_point(bytes, drawn.sites[s]);
+        append_point(bytes, drawn.sites[first[s]]);
         append_all(bytes, diagram.cell_area[s], std::int32_t{diagram.cell_euler[s]});
+    }
+    for (Index i = 0; i < num_points; ++i) {
+        append_point(bytes, drawn.sites[i]);
+        append_all(bytes, drawn.points.site_of(i), drawn.start_of(i));
     }
     for (std::size_t p = 0; p < diagram.points.size(); ++p) {
         ticker.tick();
@@ -410,7 +459,7 @@ DiagramFile read_diagram(const std::filesystem::path& path, const Progress& prog
     Poller poller(progress);
     SourceFile file = load_file(path, poller);
     if (is_gzip(file.bytes)) unpack_gzip(file);
-    DiagramFile result{.mesh = read_ply(file).mesh, .sites = {}, .diagram = {}};
+    DiagramFile result{.mesh = read_ply(file).mesh, .sites = {}, .points = {}, .diagram = {}};
     const PlyHeader header = read_ply_header(file);
     file.is_binary = header.byte_order.has_value();
     if (file.is_binary) {
@@ -423,17 +472,19 @@ DiagramFile read_diagram(const std::filesystem::path& path, const Progress& prog
 
 std::string format_diagram(const std::filesystem::path& path, const Surface& surface,
                            std::span<const SurfacePoint> sites, const Diagram& diagram,
-                           const Progress& progress) {
+                           const Progress& progress, const SitePoints& points) {
     Poller poller(progress);
     const Ticker ticker(poller);
-    std::string bytes = require_diagram_format(path).format({surface, sites, diagram}, ticker);
+    std::string bytes =
+        require_diagram_format(path).format({surface, sites, diagram, points}, ticker);
     return is_compressed({path}) ? pack_gzip(bytes, ticker) : bytes;
 }
 
 void write_diagram(const std::filesystem::path& path, const Surface& surface,
                    std::span<const SurfacePoint> sites, const Diagram& diagram,
-                   const Progress& progress) {
-    write_file_atomically(path, format_diagram(path, surface, sites, diagram, progress), progress);
+                   const Progress& progress, const SitePoints& points) {
+    write_file_atomically(path, format_diagram(path, surface, sites, diagram, progress, points),
+                          progress);
 }
 
 void check_diagram_extension(const std::filesystem::path& path) {

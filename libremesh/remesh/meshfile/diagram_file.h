@@ -16,6 +16,7 @@ namespace remesh {
 //! What was read from a file of sites.
 struct SitesFile {
     std::vector<SurfacePoint> sites;    //!< In the file's order.
+    SitePoints points;                  //!< Sites of the points, and their starts.
     std::vector<std::string> warnings;  //!< With the file's name and the line.
 };
 
@@ -30,6 +31,9 @@ enum class Repeats { Told, Allowed };
 //!     f FACE B0 B1 B2     a point of a triangle by its barycentric coordinates
 //!     p X Y Z             the nearest point of the mesh (the lowest face, if several are as near)
 //!
+//! Behind a point may stand `site N`, the site that it belongs to (on all lines, or on none: then
+//! each line is a site), and `start D`, the distance that it starts with (0 where it is missing).
+//!
 //! FACE is a triangle of read_mesh's result: where a file has larger polygons, each of them counts
 //! as many triangles as it was split into (see MeshFile::face_polygon). A vertex site lies in the
 //! lowest of its faces. Barycentric coordinates whose sum differs from 1 by at most 1e-6 are scaled
@@ -37,8 +41,8 @@ enum class Repeats { Told, Allowed };
 //! root of area / sites) are a warning, and so are sites that lie exactly where earlier ones do.
 //!
 //! \param mesh  #V x 3 positions, finite; #F x 3 indices, in range; may be dirty otherwise.
-//! \throw IoError       the file cannot be read, a line is none of these, or there is no
-//!        site; the text names the file, the line and the remedy.
+//! \throw IoError       the file cannot be read, a line is none of these, only some lines have a
+//!        `site`, or there is no site; the text names the file, the line and the remedy.
 //! \throw InvalidInput  an index is out of range, a vertex is in no face, a coordinate is not
 //!        finite, barycentric coordinates are negative or do not sum to 1, or a point is off the
 //!        mesh by more than the spacing; names file and line.
@@ -67,10 +71,24 @@ enum class Repeats { Told, Allowed };
 [[nodiscard]] std::vector<std::array<Index, 2>> read_edges(const std::filesystem::path& path,
                                                            const Progress& progress = {});
 
+//! A text file with two vertices and a length per line, in mesh units; what follows # is a comment.
+//! Each edge of the mesh must have a length.
+//!
+//! \return #F x 3: of the side from corner k of a face to corner k + 1.
+//! \throw IoError       the file cannot be read, or a line has another form.
+//! \throw InvalidInput  a line names what is no edge of the mesh, or has a length that is not above
+//!        0, or an edge has two lengths, or none.
+//!        All name the file, the line or the edge, and the remedy.
+//! Cost: O(file size + #F log #F).
+[[nodiscard]] std::vector<double> read_edge_lengths(const std::filesystem::path& path,
+                                                    const MeshView& mesh,
+                                                    const Progress& progress = {});
+
 //! What a file of `agvd diagram` holds.
 struct DiagramFile {
     TriangleMesh mesh;                //!< That the diagram lies on.
-    std::vector<SurfacePoint> sites;  //!< On the mesh, in the order of the cells.
+    std::vector<SurfacePoint> sites;  //!< On the mesh; in the order of the cells if each is a site.
+    SitePoints points;                //!< What they stand for.
     Diagram diagram;                  //!< With the points of its edges.
 };
 
@@ -98,19 +116,21 @@ struct DiagramFile {
 //! - agvd: everything, for read_diagram: such a PLY, and as elements of their own the sites and the
 //!   complex. The header's comments explain them.
 //!
-//! \param sites  those that the diagram was built from.
+//! \param sites   those that the diagram was built from.
+//! \param points  what they stand for.
 //! \throw IoError  the extension is unknown or the file cannot be written; says which and
 //!        why.
 //! \throw Cancelled  the progress callback returned false; an old file is unchanged.
 void write_diagram(const std::filesystem::path& path, const Surface& surface,
                    std::span<const SurfacePoint> sites, const Diagram& diagram,
-                   const Progress& progress = {});
+                   const Progress& progress = {}, const SitePoints& points = {});
 
 //! The bytes that write_diagram writes, for write_files_atomically.
 //! \throw IoError, Cancelled  as write_diagram.
 [[nodiscard]] std::string format_diagram(const std::filesystem::path& path, const Surface& surface,
                                          std::span<const SurfacePoint> sites,
-                                         const Diagram& diagram, const Progress& progress = {});
+                                         const Diagram& diagram, const Progress& progress = {},
+                                         const SitePoints& points = {});
 
 //! \throw IoError  write_diagram does not know the extension; the text lists the known ones.
 void check_diagram_extension(const std::filesystem::path& path);

@@ -73,7 +73,9 @@ public:
                 start_ = scan.offset();
                 starts_.push_back(start_);
                 result.sites.push_back(read_site(scan));
+                read_role(scan, result.points);
             });
+        finish_roles(result);
         judge_distances(result);
         if (repeats == Repeats::Told) judge_repeats(result);
         return result;
@@ -147,6 +149,61 @@ private:
                              "; correct the line or begin it with #");
     }
 
+    // The site that a point belongs to, and its start.
+    void read_role(TextScanner& scan, SitePoints& points) {
+        std::optional<Index> site;
+        double start = 0;
+        while (scan.has_word()) {
+            const std::size_t at = scan.offset();
+            const std::string_view key = scan.word();
+            if (key == "site" && !site) {
+                const std::int64_t value = scan.integer("the number of a site");
+                if (value < 0 || value >= no_index) {
+                    file_.fail_malformed(at, "there is no site ", value,
+                                         "; number the sites from 0");
+                }
+                site = static_cast<Index>(value);
+            } else if (key == "start") {
+                start = scan.number("a distance");
+                if (!(start >= 0 && std::isfinite(start))) {
+                    file_.fail_unusable(at,
+                                        "the point starts at a distance that is not finite or "
+                                        "below 0; adding one number to all changes no cell");
+                }
+            } else {
+                scan.go_to(at);  // No end of the line, as will be told.
+                break;
+            }
+        }
+        if (points.site.empty() != !site.has_value() && starts_.size() > 1) {
+            file_.fail_malformed(start_,
+                                 "only some lines say which site their point belongs to; add "
+                                 "`site N` to all, or to none");
+        }
+        if (site) points.site.push_back(*site);
+        points.start.push_back(start);
+    }
+
+    // Each site must have a point. What all lines leave out stays empty.
+    void finish_roles(SitesFile& result) const {
+        SitePoints& points = result.points;
+        if (std::all_of(points.start.begin(), points.start.end(),
+                        [](double start) { return start == 0; })) {
+            points.start.clear();
+        }
+        if (points.site.empty()) return;
+        std::vector<Index> sites = points.site;
+        std::sort(sites.begin(), sites.end());
+        Index next = 0;
+        for (const Index site : sites) {
+            if (site > next) {
+                file_.fail_unusable(0, "no point belongs to site ", next, ", but one to site ",
+                                    site, "; number the sites from 0 without gaps");
+            }
+            next = site + 1;
+        }
+    }
+
     Index index(TextScanner& scan, const char* what, const char* plural, std::size_t count) {
         const std::int64_t value = scan.integer(("a " + std::string(what) + " index").c_str());
         if (value < 0 || static_cast<std::uint64_t>(value) >= count) {
@@ -188,7 +245,78 @@ private:
     std::optional<ClosestPointTree> tree_;  // Made for the first `p`.
 };
 
+// An edge of a mesh or of a file, the lower vertex first.
+struct LengthOfEdge {
+    Index low, high;
+    double length;
+    std::size_t start;  // Of its line.
+};
+
+LengthOfEdge read_length(const SourceFile& file, TextScanner& scan) {
+    LengthOfEdge edge{0, 0, 0, scan.offset()};
+    for (Index* const vertex : {&edge.low, &edge.high}) {
+        const std::int64_t value = scan.integer("a vertex index");
+        if (value < 0 || value >= no_index) {
+            file.fail_malformed(edge.start, "the vertex index ", value,
+                                " is out of range; count vertices from 0");
+        }
+        *vertex = static_cast<Index>(value);
+    }
+    if (edge.low > edge.high) std::swap(edge.low, edge.high);
+    edge.length = scan.number("a length");
+    if (!(edge.length > 0 && std::isfinite(edge.length))) {
+        file.fail_unusable(edge.start,
+                           "the length of an edge is not finite or not above 0; correct the line");
+    }
+    return edge;
+}
+
 }  // namespace
+
+std::vector<double> read_edge_lengths(const std::filesystem::path& path, const MeshView& mesh,
+                                      const Progress& progress) {
+    Poller poller(progress);
+    const SourceFile file = load_file(path, poller);
+    std::vector<LengthOfEdge> edges;
+    read_lines(file, "the file holds no edge; write lines of two vertex indices and a length",
+               [&](TextScanner& scan) { edges.push_back(read_length(file, scan)); });
+    const auto ends = [](const LengthOfEdge& e) { return std::pair(e.low, e.high); };
+    const auto is_before = [&](const LengthOfEdge& a, const LengthOfEdge& b) {
+        return ends(a) < ends(b);
+    };
+    std::stable_sort(edges.begin(), edges.end(), is_before);
+    for (std::size_t i = 1; i < edges.size(); ++i) {
+        if (ends(edges[i]) != ends(edges[i - 1]) || edges[i].length == edges[i - 1].length)
+            continue;
+        file.fail_unusable(edges[i].start, "the edge has another length on an earlier line; ",
+                           "give it one");
+    }
+    std::vector<bool> is_used(edges.size(), false);
+    std::vector<double> lengths;
+    for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto [low, high] =
+                std::minmax({mesh.triangles[f][k], mesh.triangles[f][(k + 1) % 3]});
+            const auto [first, end] = std::equal_range(edges.begin(), edges.end(),
+                                                       LengthOfEdge{low, high, 0, 0}, is_before);
+            if (first == end) {
+                throw InvalidInput(path.string() + ": the edge from vertex " + std::to_string(low) +
+                                   " to " + std::to_string(high) +
+                                   " of the mesh has no length; add a line");
+            }
+            lengths.push_back(first->length);
+            std::fill(is_used.begin() + (first - edges.begin()),
+                      is_used.begin() + (end - edges.begin()), true);
+        }
+    }
+    const auto unused = std::find(is_used.begin(), is_used.end(), false);
+    if (unused != is_used.end()) {
+        const LengthOfEdge& edge = edges[static_cast<std::size_t>(unused - is_used.begin())];
+        file.fail_unusable(edge.start, "the mesh has no edge from vertex ", edge.low, " to ",
+                           edge.high, "; correct the line");
+    }
+    return lengths;
+}
 
 SitesFile read_sites(const std::filesystem::path& path, const MeshView& mesh,
                      const Progress& progress, Repeats repeats) {

@@ -71,8 +71,8 @@ std::vector<SurfacePoint> flat_corners(const BuiltMesh& built) {
 }  // namespace
 
 AttemptEnd run_attempt(const CleanedInput& cleaned, const FoundCurves& found,
-                       const KeptCurves& kept, const SizeField* sizes, InputCrossings& of_input,
-                       const StageContext& context) {
+                       const KeptCurves& kept, const SizeField* sizes, const DistanceBound* bound,
+                       InputCrossings& of_input, const StageContext& context) {
     const auto& [options, result] = context;
     const double spacing = spacing_for(cleaned, options);
     std::unique_ptr<const CurvePlan> plan =
@@ -88,7 +88,8 @@ AttemptEnd run_attempt(const CleanedInput& cleaned, const FoundCurves& found,
                          .whole = &cleaned.surface,
                          .cleaned = &cleaned.finest().surface,
                          .spacing = spacing,
-                         .sizes = sizes};
+                         .sizes = sizes,
+                         .bound = bound};
     std::vector<SurfacePoint> narrow_points;
     BuiltMesh built;
     const auto is_right = [&](const CurvedSurface& surface, std::span<const ChainEdge> chain) {
@@ -115,6 +116,7 @@ AttemptEnd run_attempt(const CleanedInput& cleaned, const FoundCurves& found,
         if (!is_right(domain, sites.chain)) return {.num_needed = built.num_vertices};
     }
     result.sizing = measure_edges(built.mesh.view(), built.sites, options.num_samples, sizes);
+    result.sizing.largest_distance = built.proved_distance.value_or(0);
     const CleanedInput& finest = cleaned.finest();
     result.sites =
         to_original(cleaned.finer != nullptr ? to_finer(cleaned, built.sites) : built.sites,

@@ -10,6 +10,7 @@
 #include "remesh/pipeline/crossings.h"
 #include "remesh/pipeline/domain.h"
 #include "remesh/pipeline/improvable_mesh.h"
+#include "remesh/pipeline/near_mesh.h"
 #include "remesh/pipeline/place_sites.h"
 #include "remesh/pipeline/placed_dual.h"
 #include "remesh/pipeline/stage_context.h"
@@ -62,10 +63,19 @@ public:
         take_crossings(unfit_crossings(finder, placed_.curves, placed, context_.result), placed,
                        built);
         take_mesh(placed, built);
-        if (!is_improvable(domain_, context_.options)) return;
+        const bool is_bound = domain_.bound != nullptr && !domain_.has_junctions();
+        if (!is_bound && !is_improvable(domain_, context_.options)) return;
         JoinedMesh joined = joined_mesh(placed);
-        if (!improve(domain_, finder, joined, built.self_intersections, context_)) return;
+        const bool is_improved =
+            is_improvable(domain_, context_.options) &&
+            improve(domain_, finder, joined, built.self_intersections, context_);
+        if (!is_bound && !is_improved) return;
+        if (is_bound) built.proved_distance = bring_near(domain_, joined, context_);
         const PlacedDual improved{std::move(joined.mesh), {}};
+        if (auto pairs = is_bound ? finder.find(improved) : std::nullopt) {
+            built.crossing_corners.clear();
+            take_crossings(finder.tell_added(improved, *std::move(pairs)), improved, built);
+        }
         built.mesh = whole_mesh(*domain_.whole, improved);
         built.sites = improved.mesh.points;
     }

@@ -7,7 +7,6 @@
 #include "agvd/mesh/closest_point.h"
 #include "agvd/mesh/patch.h"
 #include "agvd/mesh/surface_points.h"
-#include "remesh/clean/coarsen.h"
 #include "remesh/pipeline/curves.h"
 
 namespace remesh::detail {
@@ -31,25 +30,7 @@ Index coarse_faces(Index num_samples) {
 bool may_coarsen(const CleanedInput& cleaned, const RemeshOptions& options) {
     return !refers_to_input(options) && cleaned.locked.empty() && !options.lock_boundary &&
            options.fit.value_or(is_relaxed(options)) && options.propagation.max_error != 0 &&
-           !std::holds_alternative<MaxDistance>(options.sizing.count) &&
-           cleaned.surface.num_faces() / least_gain > coarse_faces(options.num_samples);
-}
-
-// #V: 1 on the boundary, and for the copies of a vertex at which sheets meet.
-std::vector<std::uint8_t> vertices_that_stay(const Surface& surface,
-                                             std::span<const Index> origin) {
-    std::vector<std::uint8_t> stays;
-    for (Index v = 0; v < surface.num_vertices(); ++v) {
-        stays.push_back(surface.is_boundary_vertex(v) ? 1 : 0);
-    }
-    std::vector<std::pair<Index, Index>> copies;  // (origin, vertex)
-    for (Index v = 0; v < origin.size(); ++v) copies.emplace_back(origin[v], v);
-    std::sort(copies.begin(), copies.end());
-    for (std::size_t i = 1; i < copies.size(); ++i) {
-        if (copies[i].first != copies[i - 1].first) continue;
-        stays[copies[i].second] = stays[copies[i - 1].second] = 1;
-    }
-    return stays;
+           !std::holds_alternative<MaxDistance>(options.sizing.count);
 }
 
 // The nearest point among those that are, along the surface, no farther from a vertex than twice as
@@ -68,19 +49,43 @@ SurfacePoint nearest_around(const Surface& surface, Index vertex, const Vec3& po
 
 }  // namespace
 
+std::optional<CoarsenOptions> coarsening_for(Index num_faces, Index num_samples, double spacing) {
+    const Index wanted = coarse_faces(num_samples);
+    if (num_faces / least_gain <= wanted) return std::nullopt;
+    return CoarsenOptions{.num_faces = wanted,
+                          .longest_edge = longest_edge * spacing,
+                          .most_distance = most_distance * spacing};
+}
+
+std::vector<std::uint8_t> vertices_that_stay(const Surface& surface,
+                                             std::span<const Index> origin) {
+    std::vector<std::uint8_t> stays;
+    for (Index v = 0; v < surface.num_vertices(); ++v) {
+        stays.push_back(surface.is_boundary_vertex(v) ? 1 : 0);
+    }
+    std::vector<std::pair<Index, Index>> copies;  // (origin, vertex)
+    for (Index v = 0; v < origin.size(); ++v) copies.emplace_back(origin[v], v);
+    std::sort(copies.begin(), copies.end());
+    for (std::size_t i = 1; i < copies.size(); ++i) {
+        if (copies[i].first != copies[i - 1].first) continue;
+        stays[copies[i].second] = stays[copies[i - 1].second] = 1;
+    }
+    return stays;
+}
+
 std::optional<CleanedInput> coarse_input(const CleanedInput& cleaned, double spacing,
                                          const StageContext& context) {
     const auto& [options, result] = context;
-    if (!may_coarsen(cleaned, options)) return std::nullopt;
+    std::optional<CoarsenOptions> coarsening =
+        coarsening_for(cleaned.surface.num_faces(), options.num_samples, spacing);
+    if (!coarsening || !may_coarsen(cleaned, options)) return std::nullopt;
+    coarsening->num_threads = options.num_threads;
+    coarsening->progress = cleaned_progress(options);
     const StageClock clock(Stage::Clean, result);
     const Surface& fine = cleaned.surface;
     const std::vector<std::uint8_t> is_crease = find_own_creases(cleaned, spacing, options);
-    CoarseMesh coarse = coarsen(fine, is_crease, vertices_that_stay(fine, cleaned.vertex_origin),
-                                {.num_faces = coarse_faces(options.num_samples),
-                                 .longest_edge = longest_edge * spacing,
-                                 .most_distance = most_distance * spacing,
-                                 .num_threads = options.num_threads,
-                                 .progress = cleaned_progress(options)});
+    CoarseMesh coarse =
+        coarsen(fine, is_crease, vertices_that_stay(fine, cleaned.vertex_origin), *coarsening);
     result.coarse_faces = static_cast<Index>(coarse.mesh.triangles.size());
     CleanedInput input;
     input.given = cleaned.given;

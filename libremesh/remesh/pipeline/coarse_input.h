@@ -4,9 +4,21 @@
 
 #include <optional>
 
+#include "remesh/clean/coarsen.h"
 #include "remesh/pipeline/cleaned_input.h"
 
 namespace remesh::detail {
+
+//! How a surface is coarsened for a run of few samples on many faces.
+//! \param spacing  of the sites, mesh units.
+//! \return unset if it has few faces.
+[[nodiscard]] std::optional<CoarsenOptions> coarsening_for(Index num_faces, Index num_samples,
+                                                           double spacing);
+
+//! #V: 1 on the boundary, and for the copies of a vertex at which sheets meet.
+//! \param origin  #V: equal for copies; empty: there are none.
+[[nodiscard]] std::vector<std::uint8_t> vertices_that_stay(const Surface& surface,
+                                                           std::span<const Index> origin);
 
 //! The input on a mesh of some 32 faces for each sample (see coarsen), nowhere farther from it than
 //! a fiftieth of the spacing, root mean square; creases and boundary are those of the input.

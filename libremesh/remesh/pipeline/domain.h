@@ -7,13 +7,16 @@
 
 namespace remesh::detail {
 
+struct DistanceBound;
+
 //! A surface and the curves on it.
 struct CurvedSurface {
     std::unique_ptr<const CurvePlan> plan;
-    const Surface* whole;              //!< The cleaned surface, or the coarse one, uncut.
-    const Surface* cleaned;            //!< The cleaned surface.
-    double spacing = 0;                //!< Mesh units: mean distance of the sites.
-    const SizeField* sizes = nullptr;  //!< Target lengths; null: all equal.
+    const Surface* whole;                  //!< The cleaned surface, or the coarse one, uncut.
+    const Surface* cleaned;                //!< The cleaned surface.
+    double spacing = 0;                    //!< Mesh units: mean distance of the sites.
+    const SizeField* sizes = nullptr;      //!< Target lengths; null: all equal.
+    const DistanceBound* bound = nullptr;  //!< That the mesh is to keep; null: none.
 
     //! The surface, cut along the curves.
     [[nodiscard]] const Surface& cut() const { return plan->network.cut.surface(); }

@@ -8,6 +8,11 @@
 
 namespace remesh::detail {
 
+//! Vertices within so many edges of a border, and the surface within so many spacings of them,
+//! are what free_borders() and improve_in_places() need there.
+inline constexpr Index rings_of_strips = 10;
+inline constexpr double reach_of_strips = 2;
+
 //! Vertices of a mesh at which tiles meet.
 struct TileBorders {
     std::vector<Index> vertices;  //!< Ascending.

@@ -81,6 +81,9 @@ void improve_in_places(const CurvedSurface& curved, JoinedMesh& joined,
         part.hard.emplace_back(from, to);
         if (ring[vertices[from]] == rings_of_places) mobility[from] = Mobility::Fixed;
     }
+    for (Index i = 0; i < vertices.size(); ++i) {
+        if (!joined.stays.empty() && joined.stays[vertices[i]] != 0) mobility[i] = Mobility::Fixed;
+    }
     const std::vector<Index> numbers = repair_shape(
         curves, mobility, part.hard, part.mesh, progress_at(Stage::Place, context.options, 1),
         faces_around(curved.cut(), part.mesh.points, 2 * curved.spacing));
@@ -129,8 +132,7 @@ JoinedMesh joined_mesh(const PlacedDual& placed) {
 }
 
 bool is_improvable(const CurvedSurface& curved, const RemeshOptions& options) {
-    return is_relaxed(options) && !options.sites && !curved.has_junctions() &&
-           !std::holds_alternative<MaxDistance>(options.sizing.count);
+    return is_relaxed(options) && !options.sites && !curved.has_junctions();
 }
 
 bool improve(const CurvedSurface& curved, CrossingFinder& finder, JoinedMesh& joined,
@@ -139,17 +141,18 @@ bool improve(const CurvedSurface& curved, CrossingFinder& finder, JoinedMesh& jo
     std::vector<Mobility> mobility = find_mobility(curved, curves, joined);
     for (int round = 0; round < most_tries; ++round) {
         PlacedDual improved{joined.mesh, {}};
+        std::vector<DirectedEdge> hard = joined.hard;
         std::vector<Index> numbers;
         {
             const StageClock clock(Stage::Place, context.result);
-            numbers = repair_shape(curves, mobility, joined.hard, improved.mesh,
+            numbers = repair_shape(curves, mobility, hard, improved.mesh,
                                    progress_at(Stage::Place, context.options, 1));
         }
         if (numbers.empty()) return false;
         std::optional<FacePairs> pairs = finder.find(improved);
         if (!pairs || pairs->size() <= crossings->all) {
             if (pairs) crossings = finder.tell_added(improved, *std::move(pairs)).counts();
-            joined.mesh = std::move(improved.mesh);
+            joined = {std::move(improved.mesh), std::move(hard)};
             return true;
         }
         for_each_corner(*pairs, improved.mesh.triangles, [&](Index v) {

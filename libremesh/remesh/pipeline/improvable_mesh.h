@@ -14,14 +14,14 @@ struct StageContext;
 //! A mesh whose patches are joined, and its edges along the curves.
 struct JoinedMesh {
     PlacedMesh mesh;
-    std::vector<DirectedEdge> hard;  //!< Those of the boundary included.
+    std::vector<DirectedEdge> hard;        //!< Those of the boundary included.
+    std::vector<std::uint8_t> stays = {};  //!< #V: 1 for vertices that do not move; empty: none.
 };
 
 //! Joins the patches of a mesh. Cost: O(n log n).
 [[nodiscard]] JoinedMesh joined_mesh(const PlacedDual& placed);
 
-//! Whether vertices may move: not with given sites, whose vertices stay, where sheets meet, and
-//! with MaxDistance, where vertices were added so that its bound is met.
+//! Whether vertices may move: not with given sites, whose vertices stay, and where sheets meet.
 [[nodiscard]] bool is_improvable(const CurvedSurface& curved, const RemeshOptions& options);
 
 //! #V: all vertices may move but those at nodes of the network, which may only be merged with

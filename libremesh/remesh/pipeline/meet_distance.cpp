@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <string>
 
 #include "agvd/core/parallel.h"
 #include "agvd/mesh/scale.h"
+#include "remesh/placement/far_points.h"
 #include "remesh/quality/area_samples.h"
 
 namespace remesh::detail {
@@ -18,17 +18,10 @@ namespace {
 
 constexpr Index samples_per_surface = 100'000;
 constexpr Index query_grain = 1024;
-constexpr std::size_t query_steps = 64;
 // Share of the limit from which edges get shorter, and that they aim at.
 constexpr double too_far = 0.75, aimed_share = 0.6;
-// A point beyond this share of the limit counts as too far: nearer to the limit a proof would take
-// ever smaller parts.
-constexpr double provable_share = 0.98;
 
 constexpr int max_rounds = 16;
-// The error that the first edges aim at, as a share of the limit: fitted vertices lie on both sides
-// of the surface, and what is too far is refined.
-constexpr double first_error = 1.7;
 // Each run places its vertices anew, and other points may be too far then. After so many rounds
 // edges get shorter everywhere, too.
 constexpr int local_rounds = 5;
@@ -52,54 +45,11 @@ std::vector<Index> find_face_of_vertex(const MeshView& mesh) {
     return face;
 }
 
-// One of the two surfaces.
-struct Side {
-    MeshView mesh;
-    const ClosestPointTree& tree;
-};
-
-using FarPoint = std::pair<Vec3, ClosestPoint>;  // And the nearest of the other surface.
-
-// Proves that a triangle lies within a limit of a surface, or finds a point that does not. Part of
-// it is near enough if its centroid is, with its radius added, or if its corners are near one
-// triangle of the surface: the distance from a convex set is largest at a corner. Else it is
-// divided.
-// \return a point beyond provable_share of the limit, if there is one.
-std::optional<FarPoint> find_far(const Corners& triangle, const Side& other, double limit,
-                                 Ticker& ticker) {
-    const auto is_near = [&](const Corners& part, FaceId face) {
-        const Corners corners = corners_of(other.mesh, face.value());
-        return std::all_of(part.begin(), part.end(), [&](const Vec3& p) {
-            return closest_point_on_triangle(corners, face, p).distance_sq <= limit * limit;
-        });
-    };
-    std::vector<Corners> parts{triangle};
-    while (!parts.empty()) {
-        ticker.tick(query_steps);
-        const Corners part = parts.back();
-        parts.pop_back();
-        const Vec3 middle = (part[0] + part[1] + part[2]) / 3;
-        const ClosestPoint nearest = other.tree.query(middle);
-        const double distance = std::sqrt(nearest.distance_sq);
-        if (distance > provable_share * limit) return std::pair(middle, nearest);
-        double radius = 0;
-        for (const Vec3& corner : part) radius = std::max(radius, (corner - middle).norm());
-        if (distance + radius <= limit || is_near(part, nearest.point.face)) continue;
-        const Vec3 a = (part[1] + part[2]) / 2, b = (part[2] + part[0]) / 2,
-                   c = (part[0] + part[1]) / 2;
-        parts.push_back({part[0], c, b});
-        parts.push_back({c, part[1], a});
-        parts.push_back({b, a, part[2]});
-        parts.push_back({a, b, c});
-    }
-    return std::nullopt;
-}
-
 // The result, the input, and what is known of them.
 class Comparison {
 public:
-    Comparison(const Side& input, const Side& result, double limit, int num_threads, Poller& poller,
-               std::vector<double>& most_lengths)
+    Comparison(const SearchedMesh& input, const SearchedMesh& result, double limit, int num_threads,
+               Poller& poller, std::vector<double>& most_lengths)
         : input_(input),
           result_(result),
           limit_(limit),
@@ -128,12 +78,13 @@ public:
     }
     // Looks at all of one surface.
     void prove(bool is_input) {
-        const MeshView& mesh = (is_input ? input_ : result_).mesh;
-        const Side& other = is_input ? result_ : input_;
-        run(static_cast<Index>(mesh.triangles.size()), [&](Index f, Found& found, Ticker& ticker) {
-            const auto far = find_far(corners_of(mesh, f), other, limit_, ticker);
-            if (far) take(is_input, far->first, f, far->second, found);
-        });
+        Found found;
+        for (const auto& [face, far] :
+             find_far_faces((is_input ? input_ : result_).mesh, is_input ? result_ : input_, limit_,
+                            num_threads_, poller_)) {
+            take(is_input, far.at, face, far.nearest, found);
+        }
+        take_over(found);
     }
     [[nodiscard]] const MeasuredDistance& farthest() const { return farthest_; }
 
@@ -167,15 +118,16 @@ private:
                 for (Index i = begin; i < end; ++i) look(i, chunks[chunk], ticker);
             },
             poller_);
-        for (const Found& chunk : chunks) {
-            if (chunk.distance.largest > farthest_.largest) farthest_ = chunk.distance;
-            for (const auto& [v, length] : chunk.lengths) {
-                most_lengths_[v] = std::min(most_lengths_[v], length);
-            }
+        for (const Found& chunk : chunks) take_over(chunk);
+    }
+    void take_over(const Found& found) {
+        if (found.distance.largest > farthest_.largest) farthest_ = found.distance;
+        for (const auto& [v, length] : found.lengths) {
+            most_lengths_[v] = std::min(most_lengths_[v], length);
         }
     }
 
-    Side input_, result_;
+    SearchedMesh input_, result_;
     double limit_;
     int num_threads_;
     Poller& poller_;
@@ -209,16 +161,18 @@ RemeshResult meet_distance(const CleanedInput& cleaned, const RemeshOptions& opt
     RemeshOptions finer = options;
     finer.vertex_count = VertexCount::Add;
     finer.sizing.edges = AdaptiveEdges{};
-    MaxError aim{first_error * limit};
+    MaxError aim{limit};
     const TriangleMesh& mesh = cleaned.surface.mesh;
     const ClosestPointTree tree(mesh, cleaned_progress(options));
     const MeshBox box = box_of(mesh, options.num_threads);
+    const DistanceBound bound{mesh.view(), tree, limit};
     std::vector<double> most_lengths(mesh.positions.size(), (box.high - box.low).norm());
     MeasuredDistance best{infinity, false, {}};
     std::size_t num_vertices = 0;
     for (int round = 0; round < max_rounds; ++round) {
         finer.sizing.count = aim;
-        RemeshResult result = run(finer, most_lengths);
+        RemeshResult result = run(finer, most_lengths, &bound);
+        if (result.sizing.largest_distance > 0) return result;  // It is proved.
         const MeasuredDistance found =
             measure_distance(mesh, tree, result.mesh, limit, most_lengths, options.num_threads,
                              progress_at(Stage::Check, options, 1));

@@ -7,6 +7,7 @@
 
 #include "agvd/mesh/closest_point.h"
 #include "remesh/pipeline/cleaned_input.h"
+#include "remesh/pipeline/near_mesh.h"
 
 namespace remesh::detail {
 
@@ -31,15 +32,19 @@ struct MeasuredDistance {
 
 //! A whole run after cleaning.
 //! \param most_lengths  #V of the cleaned mesh: no target is longer.
+//! \param bound  see run_attempt.
 using RunWithLengths =
-    std::function<RemeshResult(const RemeshOptions& options, std::span<const double> most_lengths)>;
+    std::function<RemeshResult(const RemeshOptions& options, std::span<const double> most_lengths,
+                               const DistanceBound* bound)>;
 
-//! Begins with the lengths that curvature asks for, and shortens edges where the result is too far.
+//! A run with the lengths that curvature asks for, which keeps the distance by changes in places
+//! (bring_near). If it does not, further runs with shorter edges where the result is too far.
 //! Vertices that the topology needs are added (VertexCount::Add).
 //! \param cleaned  as before after each run.
 //! \param limit    > 0, mesh units: of MaxDistance.
 //! \throw ConstraintUnmet  it was not met in the rounds made; the text gives the best.
-//! Cost: that of a run and of measure_distance in each of up to 16 rounds.
+//! Cost: mostly that of one run with bring_near; that of measure_distance and of a run in each
+//! further one of up to 16 rounds.
 [[nodiscard]] RemeshResult meet_distance(const CleanedInput& cleaned, const RemeshOptions& options,
                                          double limit, const RunWithLengths& run);
 

@@ -100,7 +100,7 @@ struct RemeshOptions {
     //! and threads work side by side. 500 or more, or 0: in one piece. Only where sites are
     //! relaxed, edges equally long, and there are no given sites, locked elements, junctions, nor
     //! Boundary::Free.
-    Index samples_per_tile = 12'288;
+    Index samples_per_tile = 10'000;
     //! Whether vertices may leave the surface so that the triangles lie nearer to it. Unset: only
     //! if sites are relaxed.
     std::optional<bool> fit = {};

@@ -8,6 +8,7 @@
 #include "agvd/mesh/scale.h"
 #include "remesh/pipeline/region.h"
 #include "remesh/pipeline/run.h"
+#include "remesh/tiles/tiling.h"
 
 namespace remesh {
 namespace {
@@ -72,10 +73,10 @@ void check_options(const RemeshOptions& options, const MeshView& mesh) {
     require(options.num_samples >= 1, "num_samples is 0; use 1 or more");
     require(options.relax_steps >= 0,
             "relax_steps is " + std::to_string(options.relax_steps) + "; use 0 or more");
-    constexpr Index least_per_tile = 500;  // Of smaller ones too much is border.
-    require(options.samples_per_tile == 0 || options.samples_per_tile >= least_per_tile,
+    require(options.samples_per_tile == 0 || options.samples_per_tile >= least_samples_per_tile,
             "samples_per_tile is " + std::to_string(options.samples_per_tile) +
-                "; use 0, for one piece, or " + std::to_string(least_per_tile) + " or more");
+                "; use 0, for one piece, or " + std::to_string(least_samples_per_tile) +
+                " or more");
     require(options.drop_components >= 0 && options.drop_components <= 1,
             "drop_components is " + std::to_string(options.drop_components) +
                 "; use a share from 0 to 1");

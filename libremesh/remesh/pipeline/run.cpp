@@ -70,9 +70,11 @@ class Attempts {
 
 public:
     // \param most_lengths  see find_sizes.
+    // \param bound         see run_attempt.
     Attempts(const CleanedInput& cleaned, const RemeshResult& after_cleaning,
-             const RemeshOptions& given, std::span<const double> most_lengths)
-        : cleaned_(cleaned), options_(given), first_(after_cleaning) {
+             const RemeshOptions& given, std::span<const double> most_lengths,
+             const DistanceBound* bound)
+        : cleaned_(cleaned), options_(given), bound_(bound), first_(after_cleaning) {
         find_lengths(most_lengths);
         if (sizes_.num_samples != options_.num_samples) {
             options_.num_samples = sizes_.num_samples;
@@ -172,8 +174,8 @@ private:
     // \return whether no other curves would give a better one.
     bool try_curves(const KeptCurves& kept, BadPoints& bad) {
         RemeshResult result = first_;
-        AttemptEnd end =
-            run_attempt(cleaned_, found_, kept, sizes_.field.get(), of_input_, {options_, result});
+        AttemptEnd end = run_attempt(cleaned_, found_, kept, sizes_.field.get(), bound_, of_input_,
+                                     {options_, result});
         first_.seconds = result.seconds;
         samples_for_all_ = std::max(samples_for_all_, result.features.samples_for_all);
         const bool is_bare = !has_more_to_drop(kept, result.features);
@@ -230,7 +232,7 @@ private:
         const RunSizes sizes = find_sizes(cleaned_, found_, spacing_for(cleaned_, options_), {},
                                           narrow_points_, points, context);
         AttemptEnd end =
-            run_attempt(cleaned_, found_, kept_, sizes.field.get(), of_input_, context);
+            run_attempt(cleaned_, found_, kept_, sizes.field.get(), bound_, of_input_, context);
         first_.seconds = again.seconds;
         const Index crossings = num_more_crossings(again), before = num_more_crossings(*best_);
         const bool is_nearer = again.verdict.largest_distance < best_->verdict.largest_distance;
@@ -243,6 +245,7 @@ private:
 
     const CleanedInput& cleaned_;
     RemeshOptions options_;
+    const DistanceBound* bound_;
     RemeshResult first_;  // Of cleaning and what was found here; its times include all attempts.
     FoundCurves found_;
     RunSizes sizes_;
@@ -293,7 +296,7 @@ EnoughSamples find_enough(const CleanedInput& cleaned, const RemeshResult& after
             sizes = find_sizes(cleaned, {}, spacing_for(cleaned, more), {}, {}, {}, {more, result});
         }
         const AttemptEnd end =
-            run_attempt(cleaned, {}, {}, sizes.field.get(), of_input, {more, result});
+            run_attempt(cleaned, {}, {}, sizes.field.get(), nullptr, of_input, {more, result});
         if (end.has_mesh) return {.count = reached, .is_tried = true};
         reached = end.num_needed > reached ? end.num_needed : reached + reached / 4 + 1;
     }
@@ -376,20 +379,21 @@ RemeshResult run_stages(const InputMesh& input, const RemeshOptions& given) {
         coarse = coarse_input(cleaned, spacing_for(cleaned, options), {options, result});
         const CleanedInput& used = coarse ? *coarse : cleaned;
         RemeshResult after_cleaning = result;
-        const auto run = [&](const RemeshOptions& changed, std::span<const double> most_lengths) {
-            RemeshResult made = Attempts(used, after_cleaning, changed, most_lengths).run();
+        const auto run = [&](const RemeshOptions& changed, std::span<const double> most_lengths,
+                             const DistanceBound* bound) {
+            RemeshResult made = Attempts(used, after_cleaning, changed, most_lengths, bound).run();
             after_cleaning.seconds = made.seconds;
             return made;
         };
         const auto* distance = std::get_if<MaxDistance>(&options.sizing.count);
         result = distance != nullptr ? meet_distance(cleaned, options, distance->distance, run)
-                                     : run(options, {});
+                                     : run(options, {}, nullptr);
         if (const auto length = corrected_edge_length(result.sizing.mean_edge, options)) {
             options.sizing.count = MeanEdge{*length};
             options.num_samples = sample_count(cleaned, options);
             try {
                 require_least_samples(cleaned.topology, options);
-                result = run(options, {});
+                result = run(options, {}, nullptr);
             } catch (const TooFewSamples&) {
                 // The edges of the first result are as long as the topology allows.
             }

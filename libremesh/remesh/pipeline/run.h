@@ -7,6 +7,7 @@
 
 namespace remesh::detail {
 
+struct DistanceBound;
 struct FoundCurves;
 struct InputCrossings;
 struct KeptCurves;
@@ -33,10 +34,13 @@ struct AttemptEnd {
 //! of the context. Checks that the mesh has the topology of the input, and the vertex count that
 //! was asked for.
 //! \param sizes     target lengths; null: all equal.
+//! \param bound     a distance that the mesh is to keep; null: none. If that is proved, it is told
+//!                  in result.sizing.
 //! \param of_input  of the cleaned input; searched if the result intersects itself.
 [[nodiscard]] AttemptEnd run_attempt(const CleanedInput& cleaned, const FoundCurves& found,
                                      const KeptCurves& kept, const SizeField* sizes,
-                                     InputCrossings& of_input, const StageContext& context);
+                                     const DistanceBound* bound, InputCrossings& of_input,
+                                     const StageContext& context);
 
 //! The mean distance of the sites that the options ask for, mesh units.
 [[nodiscard]] inline double spacing_for(const CleanedInput& cleaned, const RemeshOptions& options) {

@@ -9,11 +9,10 @@
 #include "agvd/core/parallel.h"
 #include "agvd/mesh/surface_points.h"
 #include "remesh/pipeline/build_mesh.h"
-#include "remesh/pipeline/cleaned_input.h"
 #include "remesh/pipeline/free_borders.h"
-#include "remesh/pipeline/place_sites.h"
 #include "remesh/pipeline/placed_dual.h"
 #include "remesh/pipeline/stage_context.h"
+#include "remesh/pipeline/tile_mesher.h"
 #include "remesh/placement/mesh_curves.h"
 #include "remesh/tiles/tiling.h"
 
@@ -21,7 +20,7 @@ namespace remesh::detail {
 namespace {
 
 // A tile as a mesh.
-struct MeshedTile {
+struct TileMesh {
     bool has_mesh = false;
     PlacedMesh mesh = {};                    // On the whole surface.
     std::vector<Index> border_site = {};     // #V: its number; no_index: none.
@@ -30,24 +29,6 @@ struct MeshedTile {
     std::vector<SurfacePoint> narrow_points = {};
     RemeshResult told = {};
 };
-
-// In both directions.
-std::vector<DirectedEdge> edges_on_creases(const MeshCurves& curves, const PlacedMesh& mesh) {
-    std::vector<CurvePlace> place;
-    place.reserve(mesh.points.size());
-    for (const SurfacePoint& point : mesh.points) place.push_back(curves.place_of(point));
-    std::vector<DirectedEdge> edges;
-    for (const Triangle& t : mesh.triangles) {
-        for (Index k = 0; k < 3; ++k) {
-            const Index from = t[k], to = t[(k + 1) % 3];
-            if (!place[from].is_free() && !place[to].is_free() &&
-                curves.are_on_crease(place[from], place[to])) {
-                edges.emplace_back(from, to);
-            }
-        }
-    }
-    return edges;
-}
 
 class TileMesher {
 public:
@@ -63,8 +44,8 @@ public:
     }
 
     // \param poller  polled by all threads.
-    [[nodiscard]] MeshedTile run(Index number, Poller& poller) const {
-        MeshedTile made;
+    [[nodiscard]] TileMesh run(Index number, Poller& poller) const {
+        TileMesh made;
         try {
             mesh(number, poller, made);
         } catch (const InvalidInput&) {
@@ -74,79 +55,54 @@ public:
     }
 
 private:
-    void mesh(Index number, Poller& poller, MeshedTile& made) const {
+    void mesh(Index number, Poller& poller, TileMesh& made) const {
         const Progress progress = poller.progress();
         Tile tile = take_tile(tiling_, faces_[number], Ticker(poller));
-        CleanedInput input;
-        input.surface = build_surface(tile.mesh, 1, progress);
+        TileInput input{.spacing = curved_.spacing};
+        input.cleaned.surface = build_surface(tile.mesh, 1, progress);
         tile.mesh = {};
-        input.topology = analyze_topology(input.surface.mesh.view(), progress);
-        const KeptCurves curves = find_curves(tile, input);
+        input.cleaned.topology = analyze_topology(input.cleaned.surface.mesh.view(), progress);
+        find_curves(tile, input);
+        input.border_site = std::move(tile.border_site);
         RemeshOptions options = context_.options;
         options.num_threads = 1;
         options.num_samples =
-            tiling_.num_inner[number] + static_cast<Index>(input.locked.vertices.size());
+            tiling_.num_inner[number] + static_cast<Index>(input.cleaned.locked.vertices.size());
         if (progress) options.progress = [&](Stage, double) { return progress(0); };
         made.told.seconds = context_.result.seconds;
         for (auto& [stage, seconds] : made.told.seconds) seconds = 0;
-        const StageContext context{options, made.told};
-        CurvedSurface curved{
-            .plan = plan_curves(input, {}, curves, curved_.spacing, nullptr, context),
-            .whole = &input.surface,
-            .cleaned = &input.surface,
-            .spacing = curved_.spacing};
-        if (curved.plan->network.sites_for_boundary > 0) return;
-        Domain domain = prepare_domain(input, std::move(curved), context);
-        const PlacedSites sites = place_sites(domain, context);
-        BuiltMesh built;
-        const std::optional<PlacedDual> placed = place_mesh(domain, sites, built, context);
-        if (!placed) return;
-        take(*placed, sites.curves, domain, tile, context, made);
-        for (const SurfacePoint& point : sites.narrow_points) {
+        std::optional<MeshedTile> meshed = mesh_tile(input, {options, made.told});
+        if (!meshed) return;
+        made.rim = rim_of(meshed->joined.mesh.triangles);
+        made.creases = std::move(meshed->creases);
+        made.border_site = std::move(meshed->border_site);
+        for (SurfacePoint& point : meshed->joined.mesh.points) point = tile.parts.to_whole(point);
+        made.mesh = std::move(meshed->joined.mesh);
+        for (const SurfacePoint& point : meshed->narrow_points) {
             made.narrow_points.push_back(tile.parts.to_whole(point));
         }
         made.has_mesh = true;
     }
 
     // Locks the borders of a tile, and marks its creases.
-    [[nodiscard]] KeptCurves find_curves(const Tile& tile, CleanedInput& input) const {
-        const Surface &surface = input.surface, &whole = *curved_.whole;
-        KeptCurves curves{.has_junctions = false, .has_seams = false};
-        curves.is_crease.assign(surface.num_edges(), 0);
-        input.locked.is_edge.assign(surface.num_edges(), 0);
+    void find_curves(const Tile& tile, TileInput& input) const {
+        const Surface &surface = input.cleaned.surface, &whole = *curved_.whole;
+        LockedElements& locked = input.cleaned.locked;
+        input.is_crease.assign(surface.num_edges(), 0);
+        locked.is_edge.assign(surface.num_edges(), 0);
         for (Index e = 0; e < surface.num_edges(); ++e) {
             const Index h = surface.edge_half[e];
             const Index of_whole = tile.parts.half_edge_of_whole(h);
             if (surface.twin[h] == no_index) {
                 const bool is_border = of_whole == no_index || whole.twin[of_whole] != no_index;
-                input.locked.is_edge[e] = is_border ? 1 : 0;
+                locked.is_edge[e] = is_border ? 1 : 0;
             } else if (of_whole != no_index && is_crease_[whole.edge[of_whole]] != 0) {
-                curves.is_crease[e] = 1;
+                input.is_crease[e] = 1;
             }
         }
         for (Index v = 0; v < tile.border_site.size(); ++v) {
-            if (tile.border_site[v] != no_index) input.locked.vertices.push_back(v);
+            if (tile.border_site[v] != no_index) locked.vertices.push_back(v);
         }
-        return curves;
-    }
-
-    // Improves the mesh of a tile and takes it to the whole surface.
-    static void take(const PlacedDual& placed, const CurveSites& sites, const Domain& domain,
-                     const Tile& tile, const StageContext& context, MeshedTile& made) {
-        JoinedMesh joined = joined_mesh(placed);
-        made.border_site.assign(joined.mesh.points.size(), no_index);
-        const std::vector<Index>& nodes = domain.plan->network.network.nodes;
-        const JoinedPatches& patches = *placed.patches;
-        for (Index v = 0; v < patches.group.size(); ++v) {
-            if (patches.group[v] >= sites.num_nodes()) continue;
-            made.border_site[patches.glued.vertex[v]] = tile.border_site[nodes[patches.group[v]]];
-        }
-        improve_in_places(domain, joined, context);
-        const MeshCurves curves(*domain.whole, domain.cut(), domain.plan->network.network);
-        made.rim = rim_of(joined.mesh.triangles);
-        made.creases = edges_on_creases(curves, joined.mesh);
-        for (SurfacePoint& point : joined.mesh.points) point = tile.parts.to_whole(point);
-        made.mesh = std::move(joined.mesh);
     }
 
     const CurvedSurface& curved_;
@@ -167,14 +123,14 @@ std::vector<std::uint8_t> mark_creases(const CurvedSurface& curved) {
 }
 
 // Joins the meshes of the tiles: sites of borders become one vertex.
-JoinedMesh join(const CurvedSurface& curved, std::vector<MeshedTile>& tiles, Index num_sites,
+JoinedMesh join(const CurvedSurface& curved, std::vector<TileMesh>& tiles, Index num_sites,
                 TileBorders& borders) {
     PlacedMesh all;
     std::vector<Index> group;
     std::vector<DirectedEdge> hard, rim;
     std::vector<Index> num_tiles_at(num_sites, 0);
     Index next = num_sites;
-    for (MeshedTile& tile : tiles) {
+    for (TileMesh& tile : tiles) {
         const auto first = static_cast<Index>(all.points.size());
         for (const Index site : tile.border_site) group.push_back(site != no_index ? site : next++);
         std::vector<Index> sites = distinct(tile.border_site);
@@ -283,7 +239,7 @@ std::optional<TiledMesh> mesh_tiles(const CurvedSurface& curved, const StageCont
             return std::nullopt;
         }
     }
-    std::vector<MeshedTile> tiles(tiling.num_tiles);
+    std::vector<TileMesh> tiles(tiling.num_tiles);
     std::atomic<Index> num_done = 0;
     const Progress progress = [&](double) {
         return !options.progress ||
@@ -302,9 +258,9 @@ std::optional<TiledMesh> mesh_tiles(const CurvedSurface& curved, const StageCont
             poller);
     }
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
-    if (!std::ranges::all_of(tiles, &MeshedTile::has_mesh)) return std::nullopt;
+    if (!std::ranges::all_of(tiles, &TileMesh::has_mesh)) return std::nullopt;
     double seconds = 0;
-    for (const MeshedTile& tile : tiles) {
+    for (const TileMesh& tile : tiles) {
         for (const auto& [stage, of_stage] : tile.told.seconds) seconds += of_stage;
     }
     TiledMesh made;
@@ -312,13 +268,13 @@ std::optional<TiledMesh> mesh_tiles(const CurvedSurface& curved, const StageCont
     result.refined_faces = 0;
     result.certified_error = 0;
     result.relaxation.clear();
-    for (const MeshedTile& tile : tiles) {
+    for (const TileMesh& tile : tiles) {
         add_told(tile.told, spent.count() / seconds, result);
         made.narrow_points.insert(made.narrow_points.end(), tile.narrow_points.begin(),
                                   tile.narrow_points.end());
     }
     const StageClock clock(Stage::Place, result);
-    const Index num_sites = tiling.num_sites;
+    const Index num_sites = tiling.borders.num_sites;
     tiling = {};
     TileBorders borders;
     JoinedMesh joined = join(curved, tiles, num_sites, borders);

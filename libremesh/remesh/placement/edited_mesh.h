@@ -205,6 +205,15 @@ public:
         measure_around(v);
         return true;
     }
+    //! Puts a vertex off its point of the surface. Its triangles may get worse.
+    bool put_offset(Index v, const Vec3& offset) {
+        if (mobility(v) >= Mobility::Node) return false;
+        Vertex vertex = vertices_[v];
+        vertex.offset = offset;
+        return replace(v, vertex);
+    }
+    //! The way from a vertex's point of the surface to its position.
+    [[nodiscard]] const Vec3& offset(Index v) const { return vertices_[v].offset; }
     //! Edges of the surface that all calls of `move` together crossed: their cost.
     [[nodiscard]] std::size_t num_crossings() const { return num_crossings_; }
 
@@ -228,6 +237,18 @@ public:
             mesh.offsets.push_back(vertices_[v].offset);
         }
         return mesh;
+    }
+    //! The edges along curves, once for each side.
+    //! \param numbers  of result().
+    [[nodiscard]] std::vector<DirectedEdge> hard_edges(std::span<const Index> numbers) const {
+        std::vector<DirectedEdge> hard;
+        for (Index f = 0; f < num_faces(); ++f) {
+            for (Index h = 3 * f; face(f).is_there && h < 3 * f + 3; ++h) {
+                if (!is_hard(h)) continue;
+                hard.emplace_back(rank_of(numbers, tail(h)), rank_of(numbers, head(h)));
+            }
+        }
+        return hard;
     }
 
 private:
@@ -290,6 +311,24 @@ private:
     }
     [[nodiscard]] Vec3 normal_of(const Triangle& t) const {
         return (at(t[1]) - at(t[0])).cross(at(t[2]) - at(t[0]));
+    }
+    // Unless a normal would turn too far. A sliver's may.
+    bool replace(Index v, Vertex vertex) {
+        locate(vertex);
+        const Vertex before = vertices_[v];
+        std::vector<Vec3> normals;
+        for (const Index f : faces_at(v)) normals.push_back(normal_of(face(f).corner));
+        vertices_[v] = vertex;
+        bool is_kept = true;
+        for (std::size_t i = 0; i < normals.size() && is_kept; ++i) {
+            const Index f = faces_at(v)[i];
+            is_kept = is_gentle(f, normals[i], normal_of(face(f).corner));
+        }
+        vertices_[v] = before;
+        if (!is_kept) return false;
+        put_vertex(v, vertex);
+        measure_around(v);
+        return true;
     }
     void put_vertex(Index v, const Vertex& vertex) {
         old_vertices_.emplace_back(v, vertices_[v]);

@@ -82,14 +82,15 @@ class MeshCurves;
 //! surface only for better shapes.
 //! \param curves    where the points of the mesh lie, and the curves along which vertices slide.
 //! \param mobility  #V: Fixed ones stay; those on hard edges are not Free.
-//! \param hard      edges that are not flipped; must include all edges of a single face.
+//! \param hard      edges that are not flipped, in one direction or both; must include all edges of
+//!                  a single face. They become those of the new mesh.
 //! \param faces     of the surface near the mesh, if it is a part of one; empty: all.
 //! \throw Cancelled  the progress callback returned false; `mesh` is unchanged.
 //! \return for each vertex its old number, #V or more for new ones; empty if nothing changed.
 //! Cost: O(#triangles log #triangles), and about a millisecond for each bad one.
 std::vector<Index> repair_shape(const detail::MeshCurves& curves,
                                 std::span<const detail::Mobility> mobility,
-                                std::span<const DirectedEdge> hard, PlacedMesh& mesh,
+                                std::vector<DirectedEdge>& hard, PlacedMesh& mesh,
                                 const Progress& progress = {}, std::span<const Index> faces = {});
 
 //! Whether a triangle has no area, as its corners lie on one line up to rounding: it is less than

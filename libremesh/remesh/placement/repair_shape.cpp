@@ -363,9 +363,9 @@ private:
 }  // namespace
 
 std::vector<Index> repair_shape(const detail::MeshCurves& curves,
-                                std::span<const Mobility> mobility,
-                                std::span<const DirectedEdge> hard, PlacedMesh& mesh,
-                                const Progress& progress, std::span<const Index> faces) {
+                                std::span<const Mobility> mobility, std::vector<DirectedEdge>& hard,
+                                PlacedMesh& mesh, const Progress& progress,
+                                std::span<const Index> faces) {
     Poller poller(progress);
     Ticker ticker(poller);
     std::vector<Index> numbers;
@@ -392,7 +392,10 @@ std::vector<Index> repair_shape(const detail::MeshCurves& curves,
             break;  // The guards know the state that was taken back.
         }
     }
-    if (edited.mark().faces > start.faces) mesh = edited.result(numbers);
+    if (edited.mark().faces > start.faces) {
+        mesh = edited.result(numbers);
+        hard = edited.hard_edges(numbers);
+    }
     return numbers;
 }
 

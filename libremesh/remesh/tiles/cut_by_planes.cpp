@@ -1,6 +1,6 @@
 // Each face goes down the tree as a convex polygon. Its sides are divided first, by all planes that
-// they cross; so are the chords along which planes divide it. What divides a side depends on its
-// ends and the tree alone, so both faces at an edge have the same points there.
+// they cross; so are the chords along which planes divide it. What divides a side depends on the
+// positions of its ends and the tree alone, so both faces at an edge have the same points there.
 #include "remesh/tiles/cut_by_planes.h"
 
 #include <algorithm>
@@ -78,14 +78,17 @@ private:
     // Where a side crosses the plane of a node.
     PartPoint point_between(Index node, const PartPoint& from, const PartPoint& to, double at_from,
                             double at_to) {
-        if (from.vertex > to.vertex) return point_between(node, to, from, at_to, at_from);
-        const double share = at_from / (at_from - at_to);
         std::vector<Vec3>& positions = made_.mesh.positions;
+        const Vec3 &start = positions[from.vertex], &end = positions[to.vertex];
+        if (std::lexicographical_compare(end.begin(), end.end(), start.begin(), start.end())) {
+            return point_between(node, to, from, at_to, at_from);
+        }
+        const double share = at_from / (at_from - at_to);
         const auto [found, is_new] = vertex_at_.try_emplace({from.vertex, to.vertex, node},
                                                             static_cast<Index>(positions.size()));
         if (is_new) {
-            positions.emplace_back((1 - share) * positions[from.vertex] +
-                                   share * positions[to.vertex]);
+            const Vec3 point = (1 - share) * start + share * end;
+            positions.push_back(point);
             made_at_.push_back(node);
         }
         return {found->second, between(from.weights, to.weights, share)};

@@ -33,14 +33,14 @@ struct PlaneTree {
     [[nodiscard]] Side root() const { return {0, nodes.empty()}; }
 };
 
-//! Divides the points by planes through their weighted medians until no cell has more than
-//! most_weight, or one point is left. The planes run in three directions that are not those of the
-//! axes, as the faces of many meshes lie across these.
-//! \param weights      one for each point, >= 0.
-//! \param most_weight  > 0.
-//! Cost: O(n log n log #cells).
+//! Divides the points by planes into cells of about equal weights: fewer where points lie at one
+//! place. The planes run in three directions that are not those of the axes, as the faces of many
+//! meshes lie across these.
+//! \param weights    one for each point, >= 0.
+//! \param num_cells  >= 1.
+//! Cost: O(n log n log num_cells).
 [[nodiscard]] PlaneTree divide_by_planes(std::span<const Vec3> points,
-                                         std::span<const double> weights, double most_weight,
+                                         std::span<const double> weights, Index num_cells,
                                          Ticker ticker);
 
 }  // namespace remesh

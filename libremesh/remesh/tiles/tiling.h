@@ -5,22 +5,28 @@
 
 #include <cstdint>
 
+#include "remesh/tiles/border_sites.h"
 #include "remesh/tiles/cut_by_planes.h"
 
 namespace remesh {
+
+//! In spacings: vertices this near to a plane lie on it.
+inline constexpr double snap_to_plane = 0.02;
+//! Of the area of a tile: parts with less join their neighbour.
+inline constexpr double least_share = 0.125;
+//! Of smaller tiles too much is border.
+inline constexpr Index least_samples_per_tile = 500;
+
+//! How many tiles of at most so many vertices are needed.
+[[nodiscard]] constexpr Index num_tiles_for(Index num_vertices, Index per_tile) {
+    return num_vertices / per_tile + (num_vertices % per_tile != 0 ? 1 : 0);
+}
 
 struct TilingOptions {
     Index num_vertices = 0;  //!< Of the mesh that is to be made.
     Index per_tile = 0;      //!< > 0: vertices of a tile, at most.
     double spacing = 0;      //!< > 0, mesh units: of neighbouring vertices.
     Progress progress = {};
-};
-
-//! A point of a border that becomes a vertex of the tiles on both sides.
-struct BorderSite {
-    Index edge;    //!< Of Tiling::surface.
-    double share;  //!< In [0, 1]: from the tail of its `edge_half`. 0 and 1: at the vertex there.
-    Index number;  //!< Of the site: sites at vertices are listed for each edge of the border there.
 };
 
 //! Parts of a surface and the sites on their borders.
@@ -30,8 +36,7 @@ struct Tiling {
     std::vector<Index> tile;  //!< #F.
     Index num_tiles = 0;
     std::vector<std::uint8_t> is_border;  //!< #E: 1 between two tiles.
-    std::vector<BorderSite> sites;        //!< By edge, then along it.
-    Index num_sites = 0;                  //!< On all borders.
+    BorderSites borders;                  //!< On edges of `surface`.
     std::vector<Index> num_inner;         //!< #tiles: vertices that are none of these sites.
 };
 

@@ -27,6 +27,10 @@ protected:
         std::ofstream(path_, std::ios::binary) << text;
         return read_sites(path_, mesh_.view()).sites;
     }
+    agvd::SitePoints read_roles(const std::string& text) {
+        std::ofstream(path_, std::ios::binary) << text;
+        return read_sites(path_, mesh_.view()).points;
+    }
     template <typename Error>
     void expect_error(const std::string& text, const std::string& part) {
         try {
@@ -64,6 +68,21 @@ TEST_F(ReadSites, ScalesBarycentricCoordinatesThatAlmostSumToOne) {
     EXPECT_NEAR(sites[0].barycentric[0] + sites[0].barycentric[1] + sites[0].barycentric[2], 1,
                 1e-15);
     EXPECT_EQ(sites[1].barycentric[0], 1);
+}
+
+TEST_F(ReadSites, PointsMayBelongToSitesAndStartAtDistances) {
+    EXPECT_TRUE(read_roles("v 0\nv 1 start 0\n") == agvd::SitePoints{});
+    const agvd::SitePoints both =
+        read_roles("v 0 site 1\np 1 1 0 start .25 site 0 # far\nv 1 site 1");
+    EXPECT_EQ(both.site, (std::vector<agvd::Index>{1, 0, 1}));
+    EXPECT_EQ(both.start, (std::vector<double>{0, 0.25, 0}));
+    expect_error<agvd::IoError>("v 0 site 0\nv 1\n", "line 2: only some lines say");
+    expect_error<agvd::IoError>("v 0\nv 1 site 0\n", "line 2: only some lines say");
+    expect_error<agvd::IoError>("v 0 site -1\n", "there is no site -1");
+    expect_error<agvd::IoError>("v 0 start x\n", "expected a distance");
+    expect_error<agvd::InvalidInput>("v 0 start -1\n", "line 1: the point starts");
+    expect_error<agvd::InvalidInput>("v 0 start inf\n", "line 1: the point starts");
+    expect_error<agvd::InvalidInput>("v 0 site 0\nv 1 site 2\n", "no point belongs to site 1");
 }
 
 TEST_F(ReadSites, NamesFileAndLineOfASyntaxError) {

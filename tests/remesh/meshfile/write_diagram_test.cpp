@@ -143,6 +143,19 @@ TEST_F(WriteDiagram, AgvdGivesEverythingBack) {
     EXPECT_EQ(bytes("again.agvd"), text);
 }
 
+TEST_F(WriteDiagram, AgvdKeepsThePointsOfSitesAndTheirStarts) {
+    sites_.push_back({FaceId(0), {0.5, 0.25, 0.25}});
+    const SitePoints points{.site = {2, 0, 1, 0}, .start = {0, 0.5, 0, 0}};
+    remesh::write_diagram(at("d.agvd"), surface_, sites_, diagram_, {}, points);
+    const remesh::DiagramFile back = remesh::read_diagram(at("d.agvd"));
+    EXPECT_EQ(back.diagram.num_sites, 3u);
+    EXPECT_EQ(back.diagram.cell_area, diagram_.cell_area);
+    EXPECT_EQ(back.sites, sites_);
+    EXPECT_TRUE(back.points == points);
+    remesh::write_diagram(at("d.vtp"), surface_, sites_, diagram_, {}, points);
+    EXPECT_NE(bytes("d.vtp").find("NumberOfVerts=\"4\""), std::string::npos);
+}
+
 TEST_F(WriteDiagram, DamagedDiagramsAreRefused) {
     const std::string text = written("d.agvd");
     for (const std::size_t size : {text.size() - 1, text.size() - 100, text.size() / 2}) {

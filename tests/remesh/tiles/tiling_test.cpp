@@ -67,11 +67,12 @@ TEST(Tiling, SharesSurfaceAndVerticesOut) {
         SCOPED_TRACE(mesh.triangles.size());
         const Surface surface = agvd::build_surface(mesh.view());
         const Tiling tiling = tiling_of(surface, sharp_edges(surface));
-        EXPECT_GE(tiling.num_tiles, num_vertices / per_tile);
-        EXPECT_LE(tiling.num_tiles, 20u);
+        // Small parts of a cell may leave it, and join others.
+        EXPECT_LE(tiling.num_tiles, 7u);
+        EXPECT_GE(tiling.num_tiles, 6u);
         Index num_inner = 0;
         for (const Index count : tiling.num_inner) num_inner += count;
-        EXPECT_EQ(num_inner + tiling.num_sites, num_vertices);
+        EXPECT_EQ(num_inner + tiling.borders.num_sites, num_vertices);
         std::vector<double> area(tiling.num_tiles, 0);
         for (Index f = 0; f < tiling.tile.size(); ++f) {
             area[tiling.tile[f]] += face_area(tiling.surface, f);
@@ -80,7 +81,7 @@ TEST(Tiling, SharesSurfaceAndVerticesOut) {
         for (Index t = 0; t < tiling.num_tiles; ++t) {
             sum += area[t];
             const double share = area[t] / surface_area(surface) * num_vertices;
-            EXPECT_LT(share, 1.3 * per_tile);
+            EXPECT_LT(share, 1.25 * per_tile);
             EXPECT_NEAR(tiling.num_inner[t], share, 0.15 * per_tile);
         }
         EXPECT_NEAR(sum, surface_area(surface), 1e-12 * sum);
@@ -113,7 +114,7 @@ TEST(Tiling, BothSidesOfABorderHaveItsSites) {
             }
         }
         EXPECT_NEAR(area, surface_area(surface), 1e-12 * area);
-        EXPECT_EQ(places.size(), tiling.num_sites);
+        EXPECT_EQ(places.size(), tiling.borders.num_sites);
         for (const auto& [site, at] : places) {
             EXPECT_GE(at.size(), 2u);
             for (const Vec3& p : at) EXPECT_LT((p - at[0]).norm(), 1e-14);
@@ -137,9 +138,9 @@ TEST(Tiling, SitesSuitTheBorder) {
         for (Index e = 0; e < tiling.surface.num_edges(); ++e) {
             if (tiling.is_border[e] != 0) length += tiling.surface.length[e];
         }
-        EXPECT_NEAR(length / spacing / tiling.num_sites, 1, 0.15);
+        EXPECT_NEAR(length / spacing / tiling.borders.num_sites, 1, 0.15);
         std::vector<std::uint8_t> has_site(tiling.surface.num_vertices(), 0);
-        for (const remesh::BorderSite& site : tiling.sites) {
+        for (const remesh::BorderSite& site : tiling.borders.sites) {
             const Index h = tiling.surface.edge_half[site.edge];
             if (site.share == 0) has_site[tiling.surface.tail(h)] = 1;
             if (site.share == 1) has_site[tiling.surface.head(h)] = 1;
@@ -160,7 +161,7 @@ TEST(Tiling, SitesSuitTheBorder) {
             ++num_crossings;
         }
     }
-    EXPECT_GT(num_crossings, 60u);
+    EXPECT_GT(num_crossings, 50u);
 }
 
 }  // namespace

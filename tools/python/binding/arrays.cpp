@@ -34,6 +34,16 @@ std::vector<agvd::SurfacePoint> points_of(const Indices& faces, const Doubles& b
     return points;
 }
 
+std::vector<std::array<agvd::Index, 2>> edges_of(const Indices& edges) {
+    require(edges.size() == 0 || (edges.ndim() == 2 && edges.shape(1) == 2),
+            "edges must have two columns");
+    std::vector<std::array<agvd::Index, 2>> result(static_cast<std::size_t>(edges.size()) / 2);
+    for (std::size_t i = 0; i < result.size(); ++i) {
+        result[i] = {edges.data()[2 * i], edges.data()[2 * i + 1]};
+    }
+    return result;
+}
+
 py::tuple to_arrays(const std::vector<agvd::SurfacePoint>& points) {
     std::vector<std::int64_t> faces;
     std::vector<std::array<double, 3>> barycentric;

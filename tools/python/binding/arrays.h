@@ -45,6 +45,10 @@ template <typename Scalar>
 //! \param values  #F x 3 x 2, or none
 [[nodiscard]] std::span<const remesh::CornerCoordinates> corners_of(const Doubles& values);
 
+//! \param edges  k x 2, or none
+//! \throw py::value_error  another shape.
+[[nodiscard]] std::vector<std::array<agvd::Index, 2>> edges_of(const Indices& edges);
+
 //! Of points_of the reverse: a pair of arrays, k of int64 and k x 3 of double.
 [[nodiscard]] py::tuple to_arrays(const std::vector<agvd::SurfacePoint>& points);
 

@@ -14,9 +14,13 @@ namespace {
 
 using agvd::Index;
 
-agvd::PropagationOptions propagation_options(const std::string& engine,
+agvd::PropagationOptions propagation_options(const Indices& groups, const Doubles& weights,
+                                             const std::string& engine,
                                              std::optional<double> max_error, int num_threads) {
-    return {.engine = cli::engine_of(engine), .max_error = max_error, .num_threads = num_threads};
+    return {.points = {.site = vector_of(groups), .start = vector_of(weights)},
+            .engine = cli::engine_of(engine),
+            .max_error = max_error,
+            .num_threads = num_threads};
 }
 
 py::array_t<std::int64_t> sides_of(const std::vector<agvd::VoronoiEdge>& edges) {
@@ -32,16 +36,19 @@ py::array_t<std::int64_t> sides_of(const std::vector<agvd::VoronoiEdge>& edges) 
 }
 
 py::dict run_voronoi(const Doubles& positions, const Indices& triangles, const Indices& faces,
-                     const Doubles& barycentric, const std::string& engine,
-                     std::optional<double> max_error, bool keep_slits, int num_threads,
-                     const py::object& function) {
+                     const Doubles& barycentric, const Indices& groups, const Doubles& weights,
+                     const Indices& barriers, const Doubles& side_lengths,
+                     const std::string& engine, std::optional<double> max_error, bool keep_slits,
+                     int num_threads, const py::object& function) {
     const agvd::MeshView mesh = view_of(positions, triangles);
-    const agvd::PropagationOptions options = propagation_options(engine, max_error, num_threads);
+    const agvd::PropagationOptions options =
+        propagation_options(groups, weights, engine, max_error, num_threads);
     const std::vector<agvd::SurfacePoint> sites = points_of(faces, barycentric);
+    const cli::SurfaceOptions as_surface{keep_slits, edges_of(barriers), vector_of(side_lengths)};
     PythonProgress progress(function,
                             {{"clean", 1}, {"propagate", 1}, {"diagram", 1}, {"dual", 1}});
     cli::DrawnDiagram drawn = progress.run([&] {
-        return cli::draw_diagram(mesh, sites, options, keep_slits,
+        return cli::draw_diagram(mesh, sites, options, as_surface,
                                  [&](const char* stage) { return progress.of(stage); });
     });
     py::dict result;
@@ -63,16 +70,40 @@ py::dict run_voronoi(const Doubles& positions, const Indices& triangles, const I
 
 py::array_t<double> run_distances(const Doubles& positions, const Indices& triangles,
                                   const Indices& faces, const Doubles& barycentric,
-                                  const std::string& engine, std::optional<double> max_error,
-                                  bool keep_slits, int num_threads, const py::object& function) {
+                                  const Doubles& weights, const Indices& barriers,
+                                  const Doubles& side_lengths, const std::string& engine,
+                                  std::optional<double> max_error, bool keep_slits, int num_threads,
+                                  const py::object& function) {
     const agvd::MeshView mesh = view_of(positions, triangles);
-    const agvd::PropagationOptions options = propagation_options(engine, max_error, num_threads);
+    const agvd::PropagationOptions options =
+        propagation_options({}, weights, engine, max_error, num_threads);
     const std::vector<agvd::SurfacePoint> sites = points_of(faces, barycentric);
+    const cli::SurfaceOptions as_surface{keep_slits, edges_of(barriers), vector_of(side_lengths)};
     PythonProgress progress(function, {{"clean", 1}, {"propagate", 1}});
     return to_array<double>(progress.run([&] {
-        return cli::vertex_distances(mesh, sites, options, keep_slits,
+        return cli::vertex_distances(mesh, sites, options, as_surface,
                                      [&](const char* stage) { return progress.of(stage); });
     }));
+}
+
+py::tuple run_cut_cells(const Doubles& positions, const Indices& triangles, const Indices& faces,
+                        const Doubles& barycentric, const Indices& groups, const Doubles& weights,
+                        const Indices& barriers, const Doubles& side_lengths,
+                        const std::string& engine, std::optional<double> max_error, bool keep_slits,
+                        int num_threads, const py::object& function) {
+    const agvd::MeshView mesh = view_of(positions, triangles);
+    const agvd::PropagationOptions options =
+        propagation_options(groups, weights, engine, max_error, num_threads);
+    const std::vector<agvd::SurfacePoint> sites = points_of(faces, barycentric);
+    const cli::SurfaceOptions as_surface{keep_slits, edges_of(barriers), vector_of(side_lengths)};
+    PythonProgress progress(function, {{"clean", 1}, {"propagate", 1}, {"diagram", 2}});
+    agvd::CutCells cells = progress.run([&] {
+        return cli::cut_cells(mesh, sites, options, as_surface,
+                              [&](const char* stage) { return progress.of(stage); });
+    });
+    return py::make_tuple(to_array<double>(std::move(cells.mesh.positions), 3),
+                          to_array<Index>(std::move(cells.mesh.triangles), 3),
+                          to_numbers(cells.face_site), to_numbers(cells.face_origin));
 }
 
 }  // namespace
@@ -80,12 +111,22 @@ py::array_t<double> run_distances(const Doubles& positions, const Indices& trian
 void bind_diagram(py::module_& module) {
     module.def("voronoi", &run_voronoi, py::arg("positions").noconvert(),
                py::arg("triangles").noconvert(), py::arg("faces").noconvert(),
-               py::arg("barycentric").noconvert(), py::arg("engine"), py::arg("max_error"),
+               py::arg("barycentric").noconvert(), py::arg("groups").noconvert(),
+               py::arg("weights").noconvert(), py::arg("barriers").noconvert(),
+               py::arg("side_lengths").noconvert(), py::arg("engine"), py::arg("max_error"),
+               py::arg("keep_slits"), py::arg("num_threads"), py::arg("progress"));
+    module.def("cut_cells", &run_cut_cells, py::arg("positions").noconvert(),
+               py::arg("triangles").noconvert(), py::arg("faces").noconvert(),
+               py::arg("barycentric").noconvert(), py::arg("groups").noconvert(),
+               py::arg("weights").noconvert(), py::arg("barriers").noconvert(),
+               py::arg("side_lengths").noconvert(), py::arg("engine"), py::arg("max_error"),
                py::arg("keep_slits"), py::arg("num_threads"), py::arg("progress"));
     module.def("geodesic_distance", &run_distances, py::arg("positions").noconvert(),
                py::arg("triangles").noconvert(), py::arg("faces").noconvert(),
-               py::arg("barycentric").noconvert(), py::arg("engine"), py::arg("max_error"),
-               py::arg("keep_slits"), py::arg("num_threads"), py::arg("progress"));
+               py::arg("barycentric").noconvert(), py::arg("weights").noconvert(),
+               py::arg("barriers").noconvert(), py::arg("side_lengths").noconvert(),
+               py::arg("engine"), py::arg("max_error"), py::arg("keep_slits"),
+               py::arg("num_threads"), py::arg("progress"));
 }
 
 }  // namespace python

@@ -27,6 +27,7 @@ void bind_paths(pybind11::module_& module);      //!< Shortest paths.
 void bind_stages(pybind11::module_& module);     //!< Cleaning, sampling, relaxation.
 void bind_transfer(pybind11::module_& module);   //!< Values of the input for the result.
 void bind_files(pybind11::module_& module);      //!< Files, and polygons.
+void bind_tiles(pybind11::module_& module);      //!< Meshes larger than memory.
 void bind_evaluate(pybind11::module_& module);   //!< Measures.
 
 }  // namespace python

@@ -16,4 +16,5 @@ PYBIND11_MODULE(_remesh, module) {
     python::bind_transfer(module);
     python::bind_evaluate(module);
     python::bind_files(module);
+    python::bind_tiles(module);
 }

@@ -15,8 +15,8 @@ once, and gives the same bytes for any number of threads. Ctrl-C ends a call in 
 
 import sys as _sys
 
-from . import examples
-from ._diagrams import Voronoi, geodesic_distance, nearest_sites, voronoi
+from . import examples, tiles
+from ._diagrams import Voronoi, cut_cells, geodesic_distance, nearest_sites, voronoi
 from ._evaluation import evaluate
 from ._files import read, write
 from ._isolines import Isolines, isolines
@@ -58,6 +58,7 @@ __all__ = [
     "Voronoi",
     "__version__",
     "clean",
+    "cut_cells",
     "evaluate",
     "examples",
     "geodesic_distance",
@@ -68,6 +69,7 @@ __all__ = [
     "relax_sites",
     "remesh",
     "sample_sites",
+    "tiles",
     "voronoi",
     "write",
 ]

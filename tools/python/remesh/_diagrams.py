@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _arrays, _kinds, _remesh
-from ._remesh import InvalidOption
+from ._remesh import InvalidInput, InvalidOption, InvalidSites
 from ._stages import Progress, take_sites
 
 
@@ -27,9 +27,10 @@ class Voronoi:
     labels: NDArray[np.int64]
     #: #V: its distance along the surface; infinity: no site reaches it.
     distances: NDArray[np.float64]
-    #: k x 3
+    #: k x 3; with groups the points given.
     site_positions: NDArray[np.float64]
-    #: k: area of each cell; 0 for a site that owns nothing, such as one of two at one place.
+    #: k: area of each cell; 0 for a site that owns nothing, such as one of two at one place, or one
+    #: whose weight exceeds the distance from another.
     cell_area: NDArray[np.float64]
     #: k: Euler characteristic of each cell; 1: a disc.
     cell_euler: NDArray[np.int32]
@@ -73,14 +74,74 @@ def _common(engine: str, max_error: float | None, keep_slits: bool,
             _arrays.whole(threads, "threads", 0, 2**31 - 1))
 
 
+def _weights(weights: Any, count: int) -> NDArray[np.float64]:
+    if weights is None:
+        return np.empty(0)
+    given = np.asarray(weights)
+    if given.dtype.kind not in "fiu" or given.shape != (count,):
+        raise InvalidOption(f"weights has the shape {given.shape} and holds {given.dtype}; give a "
+                            f"number for each of the {count} points")
+    return np.require(given, np.float64, ["C", "A"])
+
+
+def _groups(groups: Any, count: int) -> _arrays.Indices:
+    given = _arrays.integers([] if groups is None else groups, "groups")
+    if groups is not None and given.shape != (count,):
+        raise InvalidOption(f"groups has the shape {given.shape}; give the site of each of the "
+                            f"{count} points")
+    wrong = _arrays.first_outside(given, count)
+    if wrong is not None:
+        raise InvalidSites(f"point {wrong} belongs to site {given[wrong]}, but {count} points "
+                           "make no more sites, counted from 0")
+    return _arrays.to_indices(given)
+
+
+def _barriers(barriers: Any, mesh: _kinds.Given) -> _arrays.Indices:
+    given = _arrays.integers([] if barriers is None else barriers, "barriers")
+    if given.size == 0:
+        given = given.reshape(0, 2)
+    if given.ndim != 2 or given.shape[1] != 2:
+        raise InvalidInput(f"barriers has the shape {given.shape}; give a row of two vertices for "
+                           "each edge")
+    wrong = _arrays.first_outside(given, len(mesh.V))
+    if wrong is not None:
+        raise InvalidInput(f"barrier {wrong // 2} names vertex {given.ravel()[wrong]}, but the "
+                           f"mesh has only {len(mesh.V)} vertices, counted from 0; correct it")
+    return _arrays.to_indices(given)
+
+
+def _lengths(edge_lengths: Any, barriers: Any, mesh: _kinds.Given) -> _arrays.Floats:
+    if edge_lengths is None:
+        return np.empty(0)
+    given = np.asarray(edge_lengths)
+    if given.dtype.kind not in "fiu" or given.shape != mesh.F.shape:
+        raise InvalidInput(f"edge_lengths has the shape {given.shape} and holds {given.dtype}; "
+                           "give the lengths of the three sides of each face, "
+                           f"{mesh.F.shape}")
+    if barriers is not None:
+        raise InvalidOption("edge_lengths and barriers do not go together; leave one out")
+    return np.require(given, np.float64, ["C", "A"])
+
+
 def voronoi(V: Any, F: Any = None, sites: Any = None, max_error: float | None = None, *,
-            engine: str = "window", keep_slits: bool = False, threads: int = 0,
+            groups: Any = None, weights: Any = None, barriers: Any = None, edge_lengths: Any = None, engine: str = "window",
+            keep_slits: bool = False, threads: int = 0,
             progress: Progress | None = None) -> Voronoi:
     """The geodesic Voronoi diagram of sites on a surface.
 
     sites: vertices (k integers), points (k x 3 numbers: the nearest point of the surface counts),
     or a pair of faces (k integers) and barycentric coordinates (k x 3), such as Sites.
     max_error: distances are at most this share above exact; 0: exact; None: 0.0001.
+    groups: of each of these points the site that it belongs to: 0, 1, ... without gaps; without it
+    each point is a site. A site's distance is the least from its points.
+    weights: numbers of 0 or more that are added to the distances from each point. A site that is
+    farther from its own place than another one owns nothing: its ``cell_area`` is 0.
+    barriers: edges that no path crosses (m x 2 vertices). The mesh is cut along them; of a vertex
+    on them the nearest side counts, and a site there is on the side of its face.
+    edge_lengths: in place of those between the positions, which then are for drawing only (#F x 3
+    numbers: of the side from corner k of a face to corner k + 1). The mesh is not cleaned: what
+    cleaning repairs is an error. Not together with barriers; sites are vertices, or faces and
+    barycentric coordinates.
     engine: ``"window"`` or ``"steiner"``: see the README.
     keep_slits: open edges at one place, such as the two sides of a slit, are not welded.
 
@@ -90,21 +151,51 @@ def voronoi(V: Any, F: Any = None, sites: Any = None, max_error: float | None = 
     True
     >>> len(diagram.bisectors), diagram.neighbours_of(0)
     (1, array([1]))
+    >>> pairs = remesh.voronoi(V, F, [0, 1, 2, 3], groups=[0, 0, 1, 1])
+    >>> pairs.cell_area.shape, sorted(set(pairs.labels.tolist()))
+    ((2,), [0, 1])
     """
     mesh = _kinds.take(V, F)
     faces, barycentric = take_sites(mesh, sites)
     return Voronoi(**_remesh.voronoi(mesh.V, mesh.F, faces, barycentric,
+                                     _groups(groups, len(faces)), _weights(weights, len(faces)), _barriers(barriers, mesh), _lengths(edge_lengths, barriers, mesh),
                                      *_common(engine, max_error, keep_slits, threads), progress))
 
 
+def cut_cells(V: Any, F: Any = None, sites: Any = None, max_error: float | None = None, *,
+              groups: Any = None, weights: Any = None, barriers: Any = None,
+              edge_lengths: Any = None, engine: str = "window", keep_slits: bool = False,
+              threads: int = 0, progress: Progress | None = None
+              ) -> tuple[NDArray[np.float64], NDArray[np.uint32], NDArray[np.int64],
+                         NDArray[np.int64]]:
+    """The mesh cut along the bisectors of voronoi(): vertices, faces, the site of each face (-1:
+    none reaches it), and the face of the input that it is a part of. It is a manifold, and the faces
+    of a site have the area of its cell.
+
+    All parameters are those of voronoi().
+
+    >>> V, F = remesh.examples.sphere(3)
+    >>> W, G, site, source = remesh.cut_cells(V, F, [0, 1])
+    >>> len(G) > len(F), np.unique(site).tolist(), len(source) == len(G)
+    (True, [0, 1], True)
+    """
+    mesh = _kinds.take(V, F)
+    faces, barycentric = take_sites(mesh, sites)
+    return _remesh.cut_cells(mesh.V, mesh.F, faces, barycentric, _groups(groups, len(faces)),
+                             _weights(weights, len(faces)), _barriers(barriers, mesh),
+                             _lengths(edge_lengths, barriers, mesh),
+                             *_common(engine, max_error, keep_slits, threads), progress)
+
+
 def geodesic_distance(V: Any, F: Any = None, sources: Any = None, max_error: float | None = None, *,
-                      targets: Any = None, radius: float | None = None, engine: str = "window",
-                      keep_slits: bool = False, threads: int = 0,
+                      targets: Any = None, radius: float | None = None, weights: Any = None,
+                      barriers: Any = None, edge_lengths: Any = None, engine: str = "window", keep_slits: bool = False, threads: int = 0,
                       progress: Progress | None = None) -> NDArray[np.float64]:
     """#V: the distance along the surface of each vertex from the nearest of the sources; infinity
     where there is none on the same component.
 
-    sources: as ``sites`` of voronoi(). max_error, engine, keep_slits: likewise.
+    sources: as ``sites`` of voronoi(). max_error, weights, barriers, edge_lengths, engine,
+    keep_slits: likewise.
     targets: points given in the same ways; the result is their distances, one for each.
     radius: what is farther away gets infinity; only faces so near to a source are looked at.
     targets and radius need the engine ``"window"``.
@@ -122,10 +213,12 @@ def geodesic_distance(V: Any, F: Any = None, sources: Any = None, max_error: flo
         _, error, slits, num_threads = _common(engine, max_error, keep_slits, threads)
         to = (faces, barycentric) if targets is None else take_sites(mesh, targets)
         return _remesh.distances_at(
-            mesh.V, mesh.F, faces, barycentric, *to, targets is not None,
+            mesh.V, mesh.F, faces, barycentric, _weights(weights, len(faces)),
+            _barriers(barriers, mesh), _lengths(edge_lengths, barriers, mesh), *to, targets is not None,
             float("inf") if radius is None else _arrays.number(radius, "radius"),
             1e-4 if error is None else error, slits, num_threads, progress)
     return _remesh.geodesic_distance(mesh.V, mesh.F, faces, barycentric,
+                                     _weights(weights, len(faces)), _barriers(barriers, mesh), _lengths(edge_lengths, barriers, mesh),
                                      *_common(engine, max_error, keep_slits, threads), progress)
 
 

@@ -119,7 +119,7 @@ def remesh(
     keep_sites: bool = False,
     init: str = "blue-noise",
     relax: int = 60,
-    tile: int = 12288,
+    tile: int = 10000,
     fit: bool | None = None,
     engine: str = "window",
     max_error: float | None = None,

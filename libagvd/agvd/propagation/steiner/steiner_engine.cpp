@@ -103,7 +103,8 @@ private:
         double longest = 0;
         for (Index h = 3 * face; h < 3 * face + 3; ++h) {
             const Index corner = surface_.tail(h);
-            const double in_space = (positions[corner] - positions[vertex]).norm();
+            const double in_space =
+                surface_.has_own_lengths ? 0 : (positions[corner] - positions[vertex]).norm();
             least = std::min(least, distance[corner] + in_space);
             longest = std::max(longest, surface_.length_of(h));
         }
@@ -182,7 +183,7 @@ Propagation propagate_steiner_within(const Surface& surface, std::span<const Sur
         surface.num_vertices() * (sizeof(exact.vertex_distance[0]) + sizeof(exact.vertex_site[0]));
     for (int round = 1;; ++round) {
         const SteinerCounts counts(insertion.points());
-        SteinerFront front(surface, sites, counts);
+        SteinerFront front(surface, sites, options.points.start, counts);
         const double next = done + (1 - done) / 3;
         front.run(infinity, within(options.progress, done, next));
         done = next;
@@ -223,7 +224,7 @@ Propagation propagate_steiner(const Surface& surface, std::span<const SurfacePoi
     if (options.max_error) return propagate_steiner_within(surface, sites, options);
     const auto m = static_cast<std::uint16_t>(options.steiner_points);
     const SteinerCounts counts(std::vector<std::uint16_t>(surface.num_edges(), m));
-    SteinerFront front(surface, sites, counts);
+    SteinerFront front(surface, sites, options.points.start, counts);
     front.run(std::max(1.0, options.lambda * surface.num_faces()), options.progress);
     return front.finish();
 }

@@ -13,6 +13,7 @@
 #include <algorithm>
 
 #include "agvd/mesh/surface_points.h"
+#include "agvd/propagation/engines.h"
 
 namespace agvd {
 namespace {
@@ -20,14 +21,18 @@ namespace {
 constexpr std::size_t poll_interval = 1 << 16;
 
 // The width is a share of the mean spacing of the nodes, so that most improvements stay within a
-// bucket. No path is longer than all edges together, which bounds the number of buckets.
-double bucket_width(const Surface& surface, const SteinerCounts& counts) {
+// bucket. No path is longer than all edges together and a start, which bounds the number of
+// buckets.
+double bucket_width(const Surface& surface, std::span<const double> starts,
+                    const SteinerCounts& counts) {
     constexpr double share = 0.15;
     double sum = 0;
     for (const double length : surface.length) sum += length;
     const Index num_edges = surface.num_edges();
     const double intervals = counts.total() + num_edges;
-    return std::max({share * sum / intervals, sum * 0x1p-30, std::numeric_limits<double>::min()});
+    const double last = starts.empty() ? 0 : *std::max_element(starts.begin(), starts.end());
+    return std::max(
+        {share * sum / intervals, (sum + last) * 0x1p-30, std::numeric_limits<double>::min()});
 }
 
 bool settle(SteinerNode& node, const FrontEntry& entry) {
@@ -41,15 +46,16 @@ bool settle(SteinerNode& node, const FrontEntry& entry) {
 }  // namespace
 
 SteinerFront::SteinerFront(const Surface& surface, std::span<const SurfacePoint> sites,
-                           const SteinerCounts& counts)
+                           std::span<const double> starts, const SteinerCounts& counts)
     : surface_(surface),
       sites_(sites),
+      starts_(starts),
       counts_(counts),
       placement_(surface, sites),
       numbers_(surface, counts.most()),
       vertices_(surface.num_vertices()),
       pool_(surface.num_edges(), counts),
-      queue_(bucket_width(surface, counts)),
+      queue_(bucket_width(surface, starts, counts)),
       face_state_(surface.num_faces(), FaceState::Untouched) {}
 
 void SteinerFront::run(double retirement_interval, const Progress& progress) {
@@ -188,16 +194,17 @@ void SteinerFront::relax_side(Index from, const Vec2& source, double base, Index
 
 void SteinerFront::start(Index s) {
     const SurfacePoint& site = sites_[s];
+    const double base = start_of(starts_, s);
     if (const auto vertex = vertex_of(surface_, site)) {
-        relax(vertices_[*vertex], *vertex, 0, s, no_index, FaceRing::site_slot);
+        relax(vertices_[*vertex], *vertex, base, s, no_index, FaceRing::site_slot);
         return;
     }
     for_each_side(surface_, site, [&](const SurfacePoint& point, Index) {
         const Index face = point.face.value();
         for (Index h = 3 * face; h < 3 * face + 3; ++h) {
             const Vec2 source = position_in_frame(surface_, point, h);
-            relax_vertex(h, source.norm(), s, FaceRing::site_slot);
-            relax_side(h, source, 0, s, FaceRing::site_slot);
+            relax_vertex(h, base + source.norm(), s, FaceRing::site_slot);
+            relax_side(h, source, base, s, FaceRing::site_slot);
         }
         open(face);
     });
@@ -342,7 +349,8 @@ void SteinerFront::add_relay(Index half_edge, const Vec2& image, double weight, 
 
 void SteinerFront::collect(Index face) {
     for (const PlacedSite& placed : placement_.in_face(face)) {
-        add_relay(3 * face, position_in_frame(surface_, placed.point, 3 * face), 0, placed.site);
+        add_relay(3 * face, position_in_frame(surface_, placed.point, 3 * face),
+                  start_of(starts_, placed.site), placed.site);
     }
     for (Index h = 3 * face; h < 3 * face + 3; ++h) {
         const SteinerNode& corner = vertices_[surface_.tail(h)];
@@ -362,7 +370,7 @@ void SteinerFront::collect_across(Index h, Index twin) {
     for (const PlacedSite& placed : placement_.in_face(neighbour)) {
         const Vec2 image = mirrored(position_in_frame(surface_, placed.point, twin));
         // Sites on the edge are in in_face(face), too.
-        if (image.y() < 0) add_relay(h, image, 0, placed.site);
+        if (image.y() < 0) add_relay(h, image, start_of(starts_, placed.site), placed.site);
     }
     const Index edge = surface_.edge[h];
     const Index m = counts_[edge];

@@ -135,9 +135,10 @@ private:
 //! faces that have not retired can be read.
 class SteinerFront {
 public:
+    //! \param starts  distances of the sites from themselves; empty: 0.
     //! \param counts  outlives the front, as the others do; NodeNumbers must suffice for it.
     SteinerFront(const Surface& surface, std::span<const SurfacePoint> sites,
-                 const SteinerCounts& counts);
+                 std::span<const double> starts, const SteinerCounts& counts);
 
     //! Settles all nodes.
     //! \param retirement_interval  pops from one retirement to the next, > 0; infinity keeps all
@@ -186,6 +187,7 @@ private:
 
     const Surface& surface_;
     std::span<const SurfacePoint> sites_;
+    std::span<const double> starts_;
     const SteinerCounts& counts_;
     SitePlacement placement_;
     NodeNumbers numbers_;

@@ -10,6 +10,7 @@
 
 #include "agvd/core/parallel.h"
 #include "agvd/mesh/surface_points.h"
+#include "agvd/propagation/engines.h"
 #include "agvd/propagation/propagate.h"
 #include "agvd/propagation/site_placement.h"
 #include "agvd/propagation/window/window.h"
@@ -83,27 +84,37 @@ struct FaceRelays {
     }
 };
 
+// Where sites lie, and the distances that they start with (empty: 0).
+struct StartingSites {
+    const SitePlacement& placement;
+    std::span<const double> starts;
+};
+
 // Whether the tail is the image of a relay: a site or pseudo-source, or no window reached it.
-inline bool is_source(const Surface& surface, const Propagation& result, Index half_edge) {
+inline bool is_source(const Surface& surface, std::span<const double> starts,
+                      const Propagation& result, Index half_edge) {
     const Index v = surface.tail(half_edge);
     const std::vector<Index>& unseen = result.vertices_off_windows;
     if (!unseen.empty() && std::binary_search(unseen.begin(), unseen.end(), v)) return true;
-    return result.vertex_site[v].is_valid() &
-           ((surface.can_be_pseudo_source[v] != 0) |
-            (result.vertex_distance[v] <= near_vertex * surface.length_of(half_edge)));
+    if (!result.vertex_site[v].is_valid()) return false;
+    const double from_site =
+        result.vertex_distance[v] - start_of(starts, result.vertex_site[v].value());
+    return surface.can_be_pseudo_source[v] != 0 ||
+           from_site <= near_vertex * surface.length_of(half_edge);
 }
 
 // Calls each(relay) for the relays that start in a face: those of its placed sites, and of its
 // corners that are sites or pseudo-sources, with the distances of `result`.
 template <typename Each>
-void for_each_inner_relay(const Surface& surface, std::span<const PlacedSite> placed,
+void for_each_inner_relay(const Surface& surface, const StartingSites& sites,
                           const Propagation& result, Index face, const Each& each) {
-    for (const PlacedSite& site : placed) {
+    for (const PlacedSite& site : sites.placement.in_face(face)) {
         const Vec2 p = position_in_frame(surface, site.point, 3 * face);
-        each(Relay{p.x(), p.y(), 0, 0, surface.length_of(3 * face), SiteId(site.site), 3 * face});
+        each(Relay{p.x(), p.y(), start_of(sites.starts, site.site), 0, surface.length_of(3 * face),
+                   SiteId(site.site), 3 * face});
     }
     for (Index h = 3 * face; h < 3 * face + 3; ++h) {
-        if (!is_source(surface, result, h)) continue;
+        if (!is_source(surface, sites.starts, result, h)) continue;
         const Index v = surface.tail(h);
         each(Relay{0, 0, result.vertex_distance[v], 0, surface.length_of(h), result.vertex_site[v],
                    h});
@@ -124,9 +135,9 @@ void for_each_relay(const std::vector<Relay>& block, const Load& load, const Eac
 // range, the second writes them behind those of the ranges before.
 class MixedFaceWriter {
 public:
-    MixedFaceWriter(const Surface& surface, const SitePlacement& placement, RelayLogs logs,
+    MixedFaceWriter(const Surface& surface, const StartingSites& sites, RelayLogs logs,
                     std::span<const Index> relay_faces, Propagation& result)
-        : surface_(surface), placement_(placement), logs_(std::move(logs)), result_(result) {
+        : surface_(surface), sites_(sites), logs_(std::move(logs)), result_(result) {
         for (const Index f : relay_faces) faces_[f].site = FaceRelays::several;
     }
 
@@ -184,10 +195,9 @@ private:
             for (const Index v : surface_.mesh.triangles[f]) {
                 face.add_site(result_.vertex_site[v].value());
             }
-            const auto placed = placement_.in_face(f);
-            for (const PlacedSite& p : placed) face.add_site(p.site);
+            for (const PlacedSite& p : sites_.placement.in_face(f)) face.add_site(p.site);
             if (face.site != FaceRelays::several) continue;
-            for_each_inner_relay(surface_, placed, result_, f, [&](const Relay&) { ++face.count; });
+            for_each_inner_relay(surface_, sites_, result_, f, [&](const Relay&) { ++face.count; });
             ++own.face;
             own.relay += face.count;
         }
@@ -223,14 +233,14 @@ private:
         for (Index i = first; i < end; ++i) {
             ticker.tick();
             const Index f = result_.mixed_faces[i];
-            for_each_inner_relay(
-                surface_, placement_.in_face(f), result_, f,
-                [&](const Relay& relay) { result_.relays[faces_[f].count++] = relay; });
+            for_each_inner_relay(surface_, sites_, result_, f, [&](const Relay& relay) {
+                result_.relays[faces_[f].count++] = relay;
+            });
         }
     }
 
     const Surface& surface_;
-    const SitePlacement& placement_;
+    StartingSites sites_;
     RelayLogs logs_;
     Propagation& result_;
     std::vector<FaceRelays> faces_ = std::vector<FaceRelays>(surface_.num_faces());
@@ -243,11 +253,10 @@ private:
 //! \param relay_faces  faces that count as mixed.
 //! \param logs  the windows of every face that may be mixed; consumed. Their order stays.
 //! Cost: O(#F + relays).
-inline void write_mixed_faces(const Surface& surface, const SitePlacement& placement,
-                              RelayLogs logs, std::span<const Index> relay_faces, int num_threads,
-                              Poller& poller, Propagation& result) {
-    MixedFaceWriter(surface, placement, std::move(logs), relay_faces, result)
-        .run(num_threads, poller);
+inline void write_mixed_faces(const Surface& surface, const StartingSites& sites, RelayLogs logs,
+                              std::span<const Index> relay_faces, int num_threads, Poller& poller,
+                              Propagation& result) {
+    MixedFaceWriter(surface, sites, std::move(logs), relay_faces, result).run(num_threads, poller);
 }
 
 }  // namespace agvd

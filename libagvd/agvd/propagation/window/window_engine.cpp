@@ -139,8 +139,8 @@ public:
         bounds_ = {};
         Marks().swap(borders_);
         const std::size_t log_bytes = common_bytes();
-        write_mixed_faces(surface_, placement_, std::move(logs_), options_.relay_faces,
-                          options_.num_threads, poller_, result_);
+        write_mixed_faces(surface_, {placement_, options_.points.start}, std::move(logs_),
+                          options_.relay_faces, options_.num_threads, poller_, result_);
         result_.peak_bytes =
             std::max(result_.peak_bytes, log_bytes + result_.relays.capacity() * sizeof(Relay) +
                                              result_.mixed_faces.capacity() * 3 * sizeof(Index));
@@ -196,7 +196,8 @@ private:
             result.relays = RelayLogs(surface_.num_faces());
             for (Index i = begin; i < end; ++i) {
                 const auto keeps_face = [&](Index face) { return keeps(order[i], face); };
-                run_front(*front, sites_[order[i]], bounds_.distance, work_cap_, keeps_face);
+                run_front(*front, sites_[order[i]], bounds_.distance, work_cap_, keeps_face,
+                          start_of(options_.points.start, order[i]));
                 collect(order[i], *front, keeps_face, result);
             }
             result.vertices.shrink_to_fit();
@@ -349,7 +350,7 @@ Propagation propagate_windows(const Surface& surface, SurfaceLayout layout,
                               std::span<const float> caps) {
     poll(options.progress, 0);
     DistanceBounds bounds = distance_bounds(surface, layout, sites, options.num_threads,
-                                            within(options.progress, 0, 0));
+                                            within(options.progress, 0, 0), options.points.start);
     if (!caps.empty() || options.max_distance < infinity) {
         // Larger than any rounding of a distance.
         cap(bounds, caps, rounded_up(options.max_distance * (1 + 1e-6)));

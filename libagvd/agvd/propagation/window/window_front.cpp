@@ -119,18 +119,24 @@ bool emit_fan(WindowFront& front, const Fan& fan) {
 }
 
 // From a site in a face, or on its half-edge `skipped`, through the other edges of the face.
-void emit_from_face(WindowFront& front, const SurfacePoint& point, Index skipped) {
+void emit_from_face(WindowFront& front, const SurfacePoint& point, Index skipped, double start) {
     const Surface& surface = front.surface;
     for (Index h = 3 * point.face.value(); h < 3 * point.face.value() + 3; ++h) {
         const Vec2 p = position_in_frame(surface, point, h);
-        reach_vertex(front, vertex_record(front, surface.tail(h)), {p.norm(), 0, h, p});
+        reach_vertex(front, vertex_record(front, surface.tail(h)), {start + p.norm(), 0, h, p});
         if (h == skipped || surface.twin[h] == no_index) continue;
         const double length = surface.length_of(h);
         const Vec2 image(length - p.x(), -p.y());
         if (!(image.y() < 0)) continue;
-        const Window window{
-            image.x(), image.y(), 0, 0, length, image.norm(), (image - Vec2(length, 0)).norm(),
-            0,         false};
+        const Window window{image.x(),
+                            image.y(),
+                            start,
+                            0,
+                            length,
+                            start + image.norm(),
+                            start + (image - Vec2(length, 0)).norm(),
+                            0,
+                            false};
         const Index tail = vertex_record(front, surface.head(h));
         send(front, {surface.twin[h], tail, vertex_record(front, surface.tail(h))}, window);
     }
@@ -230,17 +236,18 @@ void close_or_watch(WindowFront& front, Index record) {
 }
 
 // Sends windows from the site into all directions.
-void emit_from_site(WindowFront& front, const SurfacePoint& site) {
+void emit_from_site(WindowFront& front, const SurfacePoint& site, double start) {
     const Surface& surface = front.surface;
     if (const auto vertex = vertex_of(surface, site)) {
         const Index record = vertex_record(front, *vertex);
         VertexRecord& v = front.vertices.records[record];
-        v.low = v.upper = v.bound = 0;
+        if (start > v.outer_bound) return;  // Others are nearer.
+        v.low = v.upper = v.bound = start;
         if (surface.outgoing[*vertex] != no_index) (void)emit_fan(front, fan_around(front, record));
         return;
     }
     for_each_side(surface, site, [&](const SurfacePoint& point, Index half_edge) {
-        emit_from_face(front, point, half_edge);
+        emit_from_face(front, point, half_edge, start);
     });
     emit_from_near_vertices(front, site);
 }
@@ -276,9 +283,9 @@ void emit_from_pseudo_source(WindowFront& front, const PseudoSource& source) {
 
 // False if the cap was passed; what the front then holds means nothing.
 bool run_in_order(WindowFront& front, WindowQueue::Order order, const SurfacePoint& site,
-                  Index work_cap) {
-    front.reset(order);
-    emit_from_site(front, site);
+                  double start, Index work_cap) {
+    front.reset(order, start);
+    emit_from_site(front, site, start);
     while (!front.queue.empty()) {
         const FrontItem item = front.queue.pop([&](FrontItem next) { prefetch(front, next); });
         close_edges(front);
@@ -329,12 +336,12 @@ void close_edges(WindowFront& front) {
 }
 
 void run_front(WindowFront& front, const SurfacePoint& site, std::span<const float> bounds,
-               Index work_cap, const KeptFaces& keeps) {
+               Index work_cap, const KeptFaces& keeps, double start) {
     using enum WindowQueue::Order;
     front.bounds = bounds;
     front.keeps = keeps ? &keeps : nullptr;
-    if (!run_in_order(front, Buckets, site, work_cap)) {
-        (void)run_in_order(front, Nearest, site, no_index);
+    if (!run_in_order(front, Buckets, site, start, work_cap)) {
+        (void)run_in_order(front, Nearest, site, start, no_index);
     }
     front.keeps = nullptr;
 }

@@ -192,8 +192,8 @@ struct WindowFront {
         edges.record_of.assign(surface.twin.size(), 0);
         reset(WindowQueue::Order::Buckets);
     }
-    //! Prepares the next run. Keeps the memory.
-    void reset(WindowQueue::Order order) {
+    //! Prepares the next run. Keeps the memory. \param start  the least distance of the run.
+    void reset(WindowQueue::Order order, double start = 0) {
         vertices.records.clear();
         edges.records.clear();
         edges.num_arrivals = 0;
@@ -201,7 +201,7 @@ struct WindowFront {
         pseudo_sources.records.clear();
         pseudo_sources.first_free = no_index;
         store.clear();
-        queue.start(order);
+        queue.start(order, start);
         watched.first.fill(no_index);
         watched.num_closed = 0;
         num_served = 0;
@@ -334,8 +334,9 @@ void close_edges(WindowFront& front);
 //!                  half-edge drops what comes after 2^11 windows, and relative_error is infinite.
 //! \param keeps     windows of other faces may be given back once nothing can come there any more.
 //!                  That changes nothing else.
+//! \param start    distance of the site from itself, >= 0.
 //! \throw Cancelled  the next run begins anew.
 void run_front(WindowFront& front, const SurfacePoint& site, std::span<const float> bounds,
-               Index work_cap, const KeptFaces& keeps = {});
+               Index work_cap, const KeptFaces& keeps = {}, double start = 0);
 
 }  // namespace agvd

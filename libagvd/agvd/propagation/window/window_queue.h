@@ -43,8 +43,10 @@ public:
     explicit WindowQueue(double per_length) : per_length_(per_length) {}
 
     //! Removes all items. Keeps the memory.
-    void start(Order order) {
+    //! \param least  no item is nearer; buckets are counted from there.
+    void start(Order order, double least = 0) {
         order_ = order;
+        least_ = least;
         buckets_.clear();
         heap_.clear();
     }
@@ -93,7 +95,8 @@ public:
     //! The bucket of the last item.
     [[nodiscard]] Index current() const { return buckets_.current(); }
     [[nodiscard]] Index bucket_of(double distance) const {
-        return static_cast<Index>(std::min(distance * per_length_, double{last_bucket}));
+        const double buckets = (distance - least_) * per_length_;
+        return static_cast<Index>(std::clamp(buckets, 0.0, double{last_bucket}));
     }
     [[nodiscard]] std::size_t bytes() const {
         return heap_.capacity() * sizeof(heap_[0]) + buckets_.bytes();
@@ -102,6 +105,7 @@ public:
 private:
     Order order_ = Order::Buckets;
     double per_length_;
+    double least_ = 0;
     BucketRing<FrontItem> buckets_;
     std::vector<std::pair<double, FrontItem>> heap_;  // Order::Nearest.
 };

@@ -1,0 +1,35 @@
+//! \file
+//! Meshes one tile.
+#pragma once
+
+#include "remesh/pipeline/cleaned_input.h"
+#include "remesh/pipeline/improvable_mesh.h"
+
+namespace remesh::detail {
+
+//! A tile as a surface of its own.
+struct TileInput {
+    //! Its locked edges are the borders to other tiles, its locked vertices their sites.
+    CleanedInput cleaned = {};
+    std::vector<std::uint8_t> is_crease = {};  //!< #E: 1 inside the tile; empty: none.
+    std::vector<Index> border_site = {};       //!< #V: the number of its site; no_index: none.
+    double spacing = 0;                        //!< Mesh units: of the vertices.
+};
+
+//! Its mesh.
+struct MeshedTile {
+    JoinedMesh joined;                        //!< On the surface of the tile.
+    std::vector<Index> border_site;           //!< #V: the number of its site; no_index: none.
+    std::vector<DirectedEdge> creases;        //!< Edges along creases, in both directions.
+    std::vector<SurfacePoint> narrow_points;  //!< See PlacedSites.
+};
+
+//! Runs the stages from sampling to placement, and improves bad triangles.
+//! \param context  its num_samples are the vertices of the tile, those of borders included.
+//! \return nothing: the samples are too few, or there is no mesh that keeps the borders.
+//! \throw InvalidInput  a face is too narrow.
+//! Cost: that of a run.
+[[nodiscard]] std::optional<MeshedTile> mesh_tile(const TileInput& tile,
+                                                  const StageContext& context);
+
+}  // namespace remesh::detail
