@@ -18,10 +18,24 @@ constexpr const char* footer =
     "  remesh-tiles split scan.ply tiles -n 1000000\n"
     "  remesh-tiles mesh tiles\n"
     "  remesh-tiles join tiles out.ply\n\n"
-    "Tiles can be meshed by many processes that share the folder, in any order, each with\n"
-    "`remesh-tiles mesh tiles --tile NUMBER` or `--share I/K`. What is there is not made\n"
-    "again, so a command that was stopped goes on where it was. The result has the same\n"
-    "bytes in each case.\n\n";
+    "Tiles can be meshed by many processes that share the folder, in any order. What is\n"
+    "there is not made again, so a command that was stopped goes on where it was. The\n"
+    "result has the same bytes in each case.\n\n";
+
+constexpr const char* split_footer =
+    "Examples:\n"
+    "  remesh-tiles split scan.ply tiles -n 1000000\n"
+    "  remesh-tiles split scan.stl tiles -n 200000 --tile 5000\n\n";
+
+constexpr const char* mesh_footer =
+    "Examples:\n"
+    "  remesh-tiles mesh tiles\n"
+    "  remesh-tiles mesh tiles --share 0/4 -t 1\n"
+    "  remesh-tiles mesh tiles --tile $SLURM_ARRAY_TASK_ID -t 1\n\n";
+
+constexpr const char* join_footer =
+    "Examples:\n"
+    "  remesh-tiles join tiles out.ply\n\n";
 
 struct Arguments {
     cli::CommonOptions common;
@@ -49,8 +63,8 @@ void add_folder(CLI::App& command, Arguments& arguments, const char* text) {
 }
 
 CLI::App* add_split(CLI::App& app, SplitArguments& arguments) {
-    CLI::App* const command = app.add_subcommand(
-        "split", "Cut a file into tiles. It need not fit into memory: it is read twice");
+    CLI::App* const command =
+        app.add_subcommand("split", "Cut a file that need not fit into memory into tiles");
     cli::start_group(*command, cli::heading::files);
     command->add_option("IN", arguments.input, "Binary PLY with triangles, or binary STL")
         ->required();
@@ -59,12 +73,12 @@ CLI::App* add_split(CLI::App& app, SplitArguments& arguments) {
     cli::start_group(*command, cli::heading::count);
     cli::add_count(*command, "-n,--samples", "Number of vertices of the whole result",
                    arguments.options.num_samples)
-        ->capture_default_str();
+        ->default_str(std::to_string(arguments.options.num_samples));
     cli::add_count(*command, "--tile",
                    "Largest number of vertices of a tile, 500 or more; a tile takes some 5 kB of "
                    "memory for each, and some 100 bytes for each of its faces",
                    arguments.options.samples_per_tile)
-        ->capture_default_str();
+        ->default_str(std::to_string(arguments.options.samples_per_tile));
     command->add_option("--seed", arguments.options.seed, "Of the random numbers")
         ->type_name("N")
         ->capture_default_str();
@@ -74,7 +88,7 @@ CLI::App* add_split(CLI::App& app, SplitArguments& arguments) {
         ->type_name("STEPS")
         ->capture_default_str();
     cli::add_common_options(*command, arguments.common);
-    command->footer(cli::exit_code_help);
+    command->footer(std::string(split_footer) + cli::exit_code_help);
     return command;
 }
 
@@ -120,7 +134,7 @@ CLI::App* add_mesh(CLI::App& app, MeshArguments& arguments) {
         ->type_name("I/K")
         ->excludes(tiles);
     cli::add_common_options(*command, arguments.common);
-    command->footer(cli::exit_code_help);
+    command->footer(std::string(mesh_footer) + cli::exit_code_help);
     return command;
 }
 
@@ -133,7 +147,7 @@ CLI::App* add_join(CLI::App& app, JoinArguments& arguments) {
         ->required();
     command->add_flag("--no-clobber", arguments.no_clobber, "Do not replace a file that exists");
     cli::add_common_options(*command, arguments.common);
-    command->footer(cli::exit_code_help);
+    command->footer(std::string(join_footer) + cli::exit_code_help);
     return command;
 }
 

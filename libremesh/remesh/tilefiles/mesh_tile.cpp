@@ -191,7 +191,12 @@ void mesh_tile(const fs::path& folder, const TilePlan& plan, Index number,
     TileFile file = read_tile(folder, number, identity_of(plan));
     const detail::TileInput input = tile_input(file, name, plan.spacing, options);
     file.mesh = {};
-    RemeshOptions run{.num_samples = file.num_vertices,
+    // Where fans of the tile meet in a site, each has a vertex there.
+    std::vector<Index> sites;
+    for (const TileSite& site : file.sites) sites.push_back(site.number);
+    const auto num_copies = static_cast<Index>(input.cleaned.locked.vertices.size() -
+                                               distinct(std::move(sites)).size());
+    RemeshOptions run{.num_samples = file.num_vertices + num_copies,
                       .features = Features::Off,
                       .seed = plan.seed,
                       .relax_steps = plan.relax_steps,
