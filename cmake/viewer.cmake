@@ -1,6 +1,7 @@
 # The viewer of report pages: TypeScript, bundled by node when the programs are built. Where node or
 # npm is missing, or the parts from npm cannot be fetched, the programs are built without it.
 #
+# agvd_add_viewer(target): adds the viewer of pages to a target, or what stands for it.
 # agvd_find_viewer(variable): true if tools/viewer can be built. Fetches its parts once: npm ci.
 function(agvd_find_viewer variable)
     set(${variable} OFF PARENT_SCOPE)
@@ -27,4 +28,19 @@ function(agvd_find_viewer variable)
     endif()
     file(TOUCH ${fetched})
     set(${variable} ON PARENT_SCOPE)
+endfunction()
+
+function(agvd_add_viewer target)
+    set(folder ${PROJECT_SOURCE_DIR}/tools)
+    if(NOT has_viewer)
+        target_sources(${target} PRIVATE ${folder}/page/without_viewer.cpp)
+        return()
+    endif()
+    set(viewer ${folder}/viewer)
+    set(source ${CMAKE_CURRENT_BINARY_DIR}/viewer_parts.cpp)
+    file(GLOB files CONFIGURE_DEPENDS ${viewer}/src/*)
+    add_custom_command(OUTPUT ${source}
+        COMMAND ${AGVD_NODE} ${viewer}/build.mjs ${source}
+        DEPENDS ${viewer}/build.mjs ${viewer}/package-lock.json ${files})
+    target_sources(${target} PRIVATE ${source})
 endfunction()

@@ -8,9 +8,12 @@
 #include "agvd/diagram/cut_cells.h"
 #include "arguments.h"
 #include "based_diagram.h"
+#include "diagram_for_page.h"
 #include "expected_stages.h"
 #include "help.h"
 #include "mesh_paths.h"
+#include "page/viewer.h"
+#include "page_outputs.h"
 #include "paper/compare_diagrams.h"
 #include "query.h"
 #include "remesh/meshfile/atomic_file.h"
@@ -34,6 +37,7 @@ constexpr const char* diagram_footer =
     "Examples:\n"
     "  agvd diagram bunny.ply -n 100 -o cells.vtp -o labels.ply\n"
     "  agvd diagram bunny.ply --sites sites.txt -o edges.obj\n"
+    "  agvd diagram bunny.ply -n 100 --html cells.html\n"
     "  agvd diagram bunny.ply -n 100 -o cells.vtp --cells cut.ply\n\n"
     "Behind a point of --sites may stand `site N`, the number of the site that it\n"
     "belongs to (several points may; on all lines or on none), and `start D`, a\n"
@@ -75,8 +79,31 @@ void check_has_positions(const cli::QueryArguments& arguments) {
 }
 
 struct DiagramRun : cli::QueryArguments {
-    fs::path cells;  // The cut mesh; empty: none.
+    fs::path cells;       // The cut mesh; empty: none.
+    fs::path html;        // Empty: none.
+    std::string command;  // The command line: see page::to_shell.
 };
+
+void check_page(const DiagramRun& arguments) {
+    if (arguments.html.empty()) {
+        if (!arguments.outputs.empty() || !arguments.cells.empty()) return;
+        throw agvd::InvalidOption(
+            "no output is asked for; add -o FILE, --cells FILE or --html FILE");
+    }
+    cli::check_page_option("--html", arguments.html);
+    page::require_viewer("--html");
+    cli::check_output(
+        arguments.html,
+        {arguments.input, arguments.sites, arguments.barriers, arguments.edge_lengths},
+        arguments.force);
+    std::vector<fs::path> others = arguments.outputs;
+    if (!arguments.cells.empty()) others.push_back(arguments.cells);
+    for (const fs::path& other : others) {
+        if (!cli::is_same_file(other, arguments.html)) continue;
+        throw agvd::InvalidOption(other.string() +
+                                  " is named for two outputs; choose another file");
+    }
+}
 
 void check_cells(const DiagramRun& arguments) {
     if (arguments.cells.empty()) return;
@@ -110,8 +137,23 @@ std::string format_cells(const fs::path& path, const agvd::Surface& surface,
                                progress);
 }
 
+std::string page_of(const DiagramRun& arguments, const agvd::Surface& surface,
+                    const std::vector<agvd::SurfacePoint>& sites,
+                    const agvd::PropagationOptions& propagating, const cli::BasedDiagram& based,
+                    cli::Console& console) {
+    page::DiagramPage page =
+        cli::diagram_for_page(surface, sites, based.diagram, propagating, based.certified_error,
+                              [&](const char* stage) { return console.progress_of(stage); });
+    page.version = REMESH_VERSION;
+    page.command = arguments.command;
+    page.name = arguments.input.filename().string();
+    page.warnings = console.warnings();
+    return page::format_page(page, based.diagram, console.progress_of("page"));
+}
+
 void run_diagram(const DiagramRun& arguments, cli::Console& console) {
     check_cells(arguments);
+    check_page(arguments);
     check_has_positions(arguments);
     cli::check_outputs(arguments, {arguments.sites, arguments.barriers, arguments.edge_lengths},
                        remesh::check_diagram_extension);
@@ -121,6 +163,9 @@ void run_diagram(const DiagramRun& arguments, cli::Console& console) {
     });
     const agvd::Surface& surface = input.surface;
     const auto [sites, roles] = cli::sites_on(input, arguments, console);
+    if (!arguments.html.empty()) {
+        cli::require_plain_points(arguments.sites, roles, "--html draws cells of");
+    }
     agvd::PropagationOptions propagating = arguments.propagation;
     propagating.points = roles;
     propagating.num_threads = arguments.common.threads;
@@ -140,7 +185,6 @@ void run_diagram(const DiagramRun& arguments, cli::Console& console) {
         files.push_back(
             {arguments.cells, format_cells(arguments.cells, surface, diagram, writing)});
     }
-    remesh::write_files_atomically(files, writing);
     const auto unreached = std::count_if(diagram.nearest_site.begin(), diagram.nearest_site.end(),
                                          [](agvd::SiteId site) { return !site.is_valid(); });
     if (unreached > 0) {
@@ -148,6 +192,11 @@ void run_diagram(const DiagramRun& arguments, cli::Console& console) {
                      " vertices; place a site on every component");
     }
     warn_of_empty_cells(diagram, console);
+    if (!arguments.html.empty()) {
+        files.push_back(
+            {arguments.html, page_of(arguments, surface, sites, propagating, based, console)});
+    }
+    remesh::write_files_atomically(files, writing);
     console.info(remesh::to_text(propagating.engine, based.certified_error));
     console.info(std::to_string(diagram.num_sites) + " sites, " +
                  std::to_string(diagram.vertices.size()) + " Voronoi vertices, " +
@@ -266,6 +315,11 @@ CLI::App* add_diagram(CLI::App& app, DiagramRun& arguments) {
                      "Also write the mesh cut along the bisectors: triangles with the property "
                      "site (.ply, .vtp or .vtk)")
         ->type_name("FILE");
+    command
+        ->add_option("--html", arguments.html,
+                     "Write a page that shows cells, bisectors, sites and lines of equal distance: "
+                     "one file for any browser, which needs no network")
+        ->type_name("FILE");
     command->footer(std::string(diagram_footer) + cli::exit_code_help);
     return command;
 }
@@ -312,6 +366,7 @@ int main(int argc, char** argv) {
     app.require_subcommand(1);
     app.footer(cli::exit_code_help);
     DiagramRun for_diagram;
+    for_diagram.command = page::to_shell(argc, argv, "agvd");
     CompareArguments for_compare;
     const CLI::App* diagram = add_diagram(app, for_diagram);
     const std::array queries{cli::add_distance(app), cli::add_path(app), cli::add_isolines(app)};

@@ -193,7 +193,7 @@ Query add_distance(CLI::App& app) {
         ->check(CLI::Validator([](const std::string& text) { return check_length("radius", text); },
                                ""))
         ->type_name("R");
-    add_outputs(*command, arguments->outputs);
+    add_outputs(*command, arguments->outputs)->required();
     command->footer(std::string(distance_footer) + exit_code_help);
     return make_query(command, arguments, run_distance);
 }

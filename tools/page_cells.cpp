@@ -32,8 +32,9 @@ void append_needed(std::span<const agvd::Vec3> line, double tolerance,
     append_needed(line.subspan(farthest), tolerance, to);
 }
 
-// Arcs of the boundary are left out.
-page::Polylines lines_of(const agvd::MeshView& mesh, const agvd::Diagram& diagram) {
+}  // namespace
+
+page::Polylines lines_for_page(const agvd::MeshView& mesh, const agvd::Diagram& diagram) {
     const agvd::MeshBox box = agvd::box_of(mesh);
     const double tolerance = line_tolerance * (box.high - box.low).norm();
     page::Polylines lines;
@@ -56,8 +57,6 @@ page::Polylines lines_of(const agvd::MeshView& mesh, const agvd::Diagram& diagra
     return lines;
 }
 
-}  // namespace
-
 page::Polylines cells_for_page(const agvd::MeshView& input,
                                const std::vector<agvd::SurfacePoint>& sites,
                                const remesh::RemeshOptions& options,
@@ -72,8 +71,8 @@ page::Polylines cells_for_page(const agvd::MeshView& input,
     propagating.num_threads = options.num_threads;
     try {
         const std::vector<agvd::SurfacePoint> on_surface = remesh::to_cleaned(sites, input, clean);
-        return lines_of(clean.mesh.view(),
-                        based_diagram(surface, on_surface, propagating, progress_of).diagram);
+        return lines_for_page(clean.mesh.view(),
+                              based_diagram(surface, on_surface, propagating, progress_of).diagram);
     } catch (const agvd::InvalidInput&) {
         return {};
     }

@@ -22,14 +22,15 @@ bool wants_pages(const PageArguments& arguments) {
     return !arguments.html.empty() || !arguments.picture.empty();
 }
 
+void check_page_option(const char* option, const std::filesystem::path& path) {
+    if (path != "-") return;
+    throw agvd::InvalidOption(std::string(option) +
+                              " does not write to the standard output; name a file");
+}
+
 void check_page_options(const PageArguments& arguments) {
-    for (const auto& [option, path] :
-         {std::pair("--html", arguments.html), std::pair("--picture", arguments.picture)}) {
-        if (path == "-") {
-            throw agvd::InvalidOption(std::string(option) +
-                                      " does not write to the standard output; name a file");
-        }
-    }
+    check_page_option("--html", arguments.html);
+    check_page_option("--picture", arguments.picture);
     if (!arguments.html.empty()) page::require_viewer("--html");
     if (!arguments.picture.empty()) require_pictures();
 }

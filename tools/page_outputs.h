@@ -24,6 +24,10 @@ void add_page_options(CLI::App& app, PageArguments& arguments);
 //! Whether the original is needed after the result is made.
 [[nodiscard]] bool wants_pages(const PageArguments& arguments);
 
+//! \param option  such as "--html".
+//! \throw agvd::InvalidOption  the file would be the standard output.
+void check_page_option(const char* option, const std::filesystem::path& path);
+
 //! Call before the long work.
 //! \throw agvd::InvalidOption  this build cannot make what is asked for, or it would go to the
 //!        standard output.

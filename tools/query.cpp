@@ -85,10 +85,10 @@ void add_edge_lengths(CLI::App& app, DiagramArguments& arguments) {
         ->type_name("FILE");
 }
 
-void add_outputs(CLI::App& app, std::vector<fs::path>& outputs) {
+CLI::Option* add_outputs(CLI::App& app, std::vector<fs::path>& outputs) {
     start_group(app, heading::files);
-    app.add_option("-o,--output", outputs, "File to write; repeat the option to write more files")
-        ->required()
+    return app
+        .add_option("-o,--output", outputs, "File to write; repeat the option to write more files")
         ->type_name("FILE")
         ->allow_extra_args(false);
 }

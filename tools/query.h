@@ -49,8 +49,8 @@ template <typename Arguments>
 //! \return what is wrong; an empty text: nothing.
 [[nodiscard]] std::string check_length(const char* name, const std::string& text);
 
-//! Adds -o, which is required and may be repeated.
-void add_outputs(CLI::App& app, std::vector<std::filesystem::path>& outputs);
+//! Adds -o, which may be repeated. \return it, for those that require it.
+CLI::Option* add_outputs(CLI::App& app, std::vector<std::filesystem::path>& outputs);
 
 //! Checks -o before the long work.
 //! \param inputs  files besides IN that must not be overwritten; may be empty paths.

@@ -17,6 +17,7 @@
 #include "levels.h"
 #include "mesh_paths.h"
 #include "mesh_run.h"
+#include "page/thin_mesh.h"
 #include "page_cells.h"
 #include "page_outputs.h"
 #include "region.h"

@@ -1,13 +1,13 @@
 // Report pages in a real browser: every control does what it says, read back from the state of the
 // page and from its pixels; figures are those of remesh-eval; names of files inject nothing.
-//   node check_pages.mjs REMESH REMESH_EVAL DATA WORK
+//   node check_pages.mjs REMESH REMESH_EVAL AGVD DATA WORK
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
 import { mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { compare, openPage, startBrowser, state, take } from "./browser.mjs";
 
-const [remesh, remeshEval, data, work] = process.argv.slice(2);
+const [remesh, remeshEval, agvd, data, work] = process.argv.slice(2);
 const at = (name) => join(work, name);
 
 function run(program, words) {
@@ -28,10 +28,11 @@ const test = (name, body) => tests.push({ name, body });
 const changes = ({ inside }) => assert.ok(inside > 0.05, `only ${inside} of the mesh changed`);
 const same = ({ inside, outside }) => assert.deepEqual([inside, outside], [0, 0]);
 
+const offered = (page) => page.locator("#color option").evaluateAll((all) => all.map((one) => one.value));
+
 async function checkColors(page, modes) {
   await take(page, "plain", "result");
-  const offered = await page.locator("#color option").evaluateAll((all) => all.map((one) => one.value));
-  assert.deepEqual(offered, ["plain", ...modes]);
+  assert.deepEqual(await offered(page), ["plain", ...modes]);
   for (const mode of modes) {
     await page.selectOption("#color", mode);
     assert.equal((await state(page)).mode, mode);
@@ -235,6 +236,53 @@ test("a part with creases, on a phone in the dark", async (browser) => {
   await close();
 });
 
+// Each switch of a layer changes what it should: a share of the pixels of the mesh.
+async function checkLayers(page, wanted) {
+  for (const [layer, key, isShown, least, most] of wanted) {
+    assert.equal((await state(page)).layers.includes(layer), isShown, layer);
+    await take(page, "before", "original");
+    await page.locator(`#layer-${layer} + span`).click();
+    assert.equal((await state(page)).layers.includes(layer), !isShown, layer);
+    await take(page, "after", "original");
+    const { inside, outside } = await compare(page, "before", "after");
+    assert.ok(inside > least && inside < most && outside < 0.02, `${layer}: ${inside} ${outside}`);
+    await page.keyboard.press(key);
+    assert.equal(await page.locator(`#layer-${layer}`).isChecked(), isShown, layer);
+    await take(page, "again", "original");
+    same(await compare(page, "before", "again"));
+  }
+}
+
+test("a diagram", async (browser) => {
+  const html = at("diagram.html");
+  run(agvd, ["diagram", "-q", join(data, "organic.ply"), "-n", "60", "--html", html]);
+  const { page, problems, close } = await openPage(browser, html);
+  assert.deepEqual(await offered(page), ["label", "nearest", "plain", "quality", "angle"]);
+  assert.equal((await state(page)).mode, "label");
+  await checkLayers(page, [["cell", "b", true, 0.01, 0.3], ["site", "s", true, 0.001, 0.1], ["isoline", "i", false, 0.02, 0.6]]);
+  await take(page, "label", "original");
+  for (const mode of ["nearest", "plain"]) {
+    await page.selectOption("#color", mode);
+    await take(page, mode, "original");
+    changes(await compare(page, "label", mode));
+  }
+  const { diagram } = JSON.parse(await page.locator("#page-data").textContent());
+  const text = await page.locator("#figures").innerText();
+  assert.equal(diagram.figures.sites, 60);
+  for (const key of ["voronoi_vertices", "voronoi_edges"]) assert.ok(text.includes(diagram.figures[key].toLocaleString("en")), key);
+  assert.ok((await page.locator("#command").textContent()).startsWith("agvd diagram "));
+  assert.equal(await page.locator(".histogram").count(), 2);
+  // A click tells the distance of a face, and the last pane stays.
+  const box = await page.locator("#canvas").boundingBox();
+  await page.mouse.click(box.x + box.width / 2, box.y + 0.35 * box.height);
+  const { picked } = await state(page);
+  if (picked) assert.ok(picked.figures.nearest >= 0 && picked.figures.nearest <= diagram.figures.largest_distance_mesh_units);
+  await page.keyboard.press("1");
+  assert.deepEqual((await state(page)).panes, ["original"]);
+  assert.deepEqual(problems, []);
+  await close();
+});
+
 // A PLY whose faces have labels in a property of this name.
 function labelledPly(property) {
   const points = ["0 0 0", "1 0 0", "1 1 0", "0 1 0", "0 0 1", "1 0 1", "1 1 1", "0 1 1"];
@@ -271,6 +319,13 @@ for (const [folder, name, property] of hostile) test(`a file ${folder}/${name}, 
   assert.equal(await second.page.evaluate(() => typeof hacked), "undefined");
   assert.deepEqual(second.problems, []);
   await second.close();
+  const drawn = at("diagram of it.html");
+  run(agvd, ["diagram", "-q", input, "-n", "6", "--html", drawn]);
+  const third = await openPage(browser, drawn);
+  assert.equal(await third.page.locator("#original-name").textContent(), `${name}.ply`);
+  assert.equal(await third.page.evaluate(() => typeof hacked), "undefined");
+  assert.deepEqual(third.problems, []);
+  await third.close();
 });
 
 const browser = await startBrowser();

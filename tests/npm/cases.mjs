@@ -4,6 +4,7 @@
 /** Runs of the program and of the package that must write the same bytes. */
 export const sameBytes = [
   { mesh: "organic.ply", words: ["-n", "2000"], options: { n: 2000 }, format: "ply" },
+  { mesh: "organic.ply", words: ["-n", "4000", "--tile", "1000"], options: { n: 4000, tile: 1000 }, format: "ply" },
   { mesh: "organic.ply", words: ["-n", "700", "--adaptive"], options: { n: 700, adaptive: true }, format: "obj" },
   { mesh: "organic.ply", words: ["--edge-length", "4%", "--init", "farthest"],
     options: { edgeLength: "4%", init: "farthest" }, format: "off" },
@@ -15,7 +16,7 @@ export const sameBytes = [
   { mesh: "parts.ply", words: ["-n", "1500"], options: { n: 1500 }, format: "ply" },
   { mesh: "plate.stl", words: ["-n", "400"], options: { n: 400 }, format: "mesh" },
   { mesh: "ring.obj", words: ["-n", "500"], options: { n: 500 }, format: "obj" },
-  { mesh: "ring.obj", words: ["-n", "500", "--engine", "steiner"], options: { n: 500, engine: "steiner" }, format: "ply" },
+  { mesh: "ring.obj", words: ["-n", "500", "--max-error", "0"], options: { n: 500, maxError: 0 }, format: "ply" },
   { mesh: "shell.obj", words: ["-n", "800", "--relax", "0"], options: { n: 800, relax: 0 }, format: "vtk" },
   { mesh: "slivers.off", words: ["-n", "600", "--seed", "7"], options: { n: 600, seed: 7 }, format: "gltf" },
   { mesh: "labelled.ply", words: ["-n", "300", "--keep-labels=part"], options: { n: 300, faceLabels: "part" }, format: "ply" },
@@ -117,6 +118,10 @@ const refusals = [
   [(r, m) => r.remesh(m, { lock: [500] }), "InvalidInput", "vertex 500 is to stay, but the mesh has only 121 vertices"],
   [(r, m) => r.remesh(m, { keepSites: true }), "InvalidOption", "keepSites needs sites"],
   [(r, m) => r.remesh(m, { maxError: 2 }), "InvalidOption", "use a number from 0 (exact) to below 1"],
+  [(r, m) => r.remesh(m, { fillHoles: 20 }), "InvalidOption", "fillHoles needs CGAL, which this package is without"],
+  [(r, m) => r.creases(m, { features: "sharp" }), "InvalidOption", "features is 'sharp'; use 'auto', 'off' or an angle in degrees"],
+  [(r, m) => r.creases(m, { angle: 3 }), "InvalidOption", "there is no option 'angle'"],
+  [(r, m) => r.remesh(m, { engine: "steiner" }), "InvalidOption", "there is no option 'engine'"],
   [(r, m) => r.remesh(m, {}, { onProgress: 3 }), "InvalidOption", "onProgress is number 3; give a function"],
   [(r, m) => r.remesh(m, {}, { signal: {} }), "InvalidOption", "signal is an object (Object); give an AbortSignal"],
   [(r, m) => r.voronoi(m, []), "InvalidOption", "there is no site; give one or more"],
@@ -184,6 +189,21 @@ export const cases = {
     equal(places.sitePositions[2], 0, "its height");
     const onFace = await r.geodesicDistance(mesh, { faces: [0], barycentric: [0, 0, 1] }, { maxError: 0 });
     near(onFace[0], Math.SQRT2 / k, 1e-12, "from a corner of face 0");
+  },
+
+  async "creases are the edges that the rule tells, and none of the boundary"(r, read) {
+    const flat = square(4);
+    equal((await r.creases(flat)).length, 0, "a flat square");
+    // Folded along the line x = 1/2.
+    const folded = { ...flat, positions: flat.positions.map((x, i) => i % 3 === 2 ? Math.abs(flat.positions[i - 2] - 0.5) : x) };
+    for (const features of [undefined, 30, "off"]) {
+      const pairs = await r.creases(folded, { n: 100, features });
+      equal(pairs.length, features === "off" ? 0 : 8, `numbers with features ${features}`);
+      for (const v of pairs) equal(folded.positions[3 * v], 0.5, "x of a crease");
+    }
+    equal((await r.creases(folded, { features: 100 })).length, 0, "above 100 degrees");
+    const part = await r.readMesh(await read("part.off"), { name: "part.off" });
+    require((await r.creases(part, { n: 2000 })).length > 200, "too few creases of the part");
   },
 
   async "inputs of any type give the same result and do not change"(r) {

@@ -6,7 +6,7 @@ import { spawnSync } from "node:child_process";
 import { readFileSync } from "node:fs";
 import { join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
-import { startBrowser } from "../browser/browser.mjs";
+import { compare, startBrowser, take } from "../browser/browser.mjs";
 import { startIn, Tally } from "./tally.mjs";
 
 const [demo, program, data, work] = process.argv.slice(2).map((path) => resolve(path));
@@ -117,6 +117,15 @@ const tests = {
     assert.ok(bytes.equals(nativeBytes(join(data, "part.off"), "ply", ...words)), "other bytes");
     assert.equal((await shownCounts(page)).length, 2);
     assert.ok(await page.evaluate(() => document.documentElement.scrollWidth) <= 390, "the page is too wide");
+    const frame = frameOf(page);
+    for (const pane of ["original", "result"]) await take(frame, pane, pane);
+    await frame.locator("#lines + span").click();
+    for (const pane of ["original", "result"]) {
+      await take(frame, "without creases", pane);
+      const { inside } = await compare(frame, pane, "without creases");
+      assert.ok(inside > 0.005, `creases of the ${pane}: ${inside}`);
+    }
+    await frame.locator("#lines + span").click();
     await page.screenshot({ path: join(work, "phone.png"), fullPage: true });
     assert.deepEqual(problems, []);
     await close();

@@ -1,5 +1,6 @@
 // Makes the demo: one page that holds the package, the viewer and the meshes of data/, and loads nothing.
 //   node build.mjs PACKAGE DATA FILE
+import { execFileSync } from "node:child_process";
 import { mkdir, readFile, writeFile } from "node:fs/promises";
 import { createRequire } from "node:module";
 import { basename, dirname, join } from "node:path";
@@ -12,6 +13,8 @@ const require = createRequire(join(viewer, "package.json"));
 const { build } = await import(pathToFileURL(require.resolve("esbuild")).href);
 
 const examples = ["organic.ply", "part.off", "shell.obj", "parts.ply", "ring.obj", "slivers.off"];
+
+execFileSync(process.execPath, [join(viewer, "node_modules/typescript/bin/tsc"), "-p", folder, "--noEmit"], { stdio: "inherit" });
 
 async function bundle(file) {
   const result = await build({

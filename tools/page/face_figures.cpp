@@ -26,6 +26,17 @@ Histogram bins(double low, double width, std::size_t number) {
 
 }  // namespace
 
+Json to_json(const Histogram& histogram) {
+    return {{"low", histogram.low}, {"width", histogram.width}, {"counts", histogram.counts}};
+}
+
+Histogram histogram_of(std::span<const double> values, double low, double width,
+                       std::size_t num_bins) {
+    Histogram histogram = bins(low, width, num_bins);
+    for (const double value : values) count(value, histogram);
+    return histogram;
+}
+
 Histograms histograms_of(const agvd::MeshView& mesh, std::span<const double> targets) {
     Histograms result{bins(0, 5, 36), bins(0, 0.025, 40), bins(0, 0.05, 50), bins(0, 1, 13)};
     for (Index f = 0; f < mesh.triangles.size(); ++f) {

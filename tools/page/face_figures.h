@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "page/embed.h"
 #include "remesh/quality/evaluate.h"
 
 namespace page {
@@ -17,6 +18,13 @@ struct Histogram {
     double width = 1;                   //!< Of each bin.
     std::vector<std::uint64_t> counts;  //!< Of each bin.
 };
+
+//! \pre num_bins > 0. Values below `low` are in the first bin.
+[[nodiscard]] Histogram histogram_of(std::span<const double> values, double low, double width,
+                                     std::size_t num_bins);
+
+//! As the viewer reads it.
+[[nodiscard]] Json to_json(const Histogram& histogram);
 
 struct Histograms {
     Histogram angle;    //!< Degrees, of all corners.

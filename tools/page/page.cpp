@@ -9,6 +9,7 @@
 #include "agvd/mesh/closest_point.h"
 #include "page/curve_edges.h"
 #include "page/face_figures.h"
+#include "page/thin_mesh.h"
 #include "page/viewer.h"
 
 namespace page {
@@ -20,10 +21,6 @@ using agvd::within;
 
 constexpr std::size_t num_worst_faces = 10;
 constexpr Index distance_grain = 512;  // Vertices in a chunk of queries.
-
-Json to_json(const Histogram& histogram) {
-    return {{"low", histogram.low}, {"width", histogram.width}, {"counts", histogram.counts}};
-}
 
 Json to_json(const Histograms& histograms) {
     return {{"angle", to_json(histograms.angle)},
@@ -73,17 +70,6 @@ VertexValues distances(const agvd::MeshView& from, const agvd::ClosestPointTree&
         [&](Index v) { distance.values[v] = std::sqrt(to.query(from.positions[v]).distance_sq); },
         poller);
     return distance;
-}
-
-// A mesh that is small enough to be drawn; unset: the given one is.
-std::optional<agvd::TriangleMesh> thinned(const agvd::MeshView& mesh, int num_threads,
-                                          const agvd::Progress& progress) {
-    if (mesh.triangles.size() <= most_faces) return std::nullopt;
-    remesh::RemeshOptions options{.num_samples = thinned_vertices,
-                                  .vertex_count = remesh::VertexCount::Add,
-                                  .num_threads = num_threads};
-    options.progress = [&](remesh::Stage, double) { return !progress || progress(0); };
-    return remesh::remesh(mesh, options).mesh;
 }
 
 // A mesh of the page, and what it refers to.
@@ -136,15 +122,8 @@ std::string format_page(const Page& page, const agvd::Progress& progress) {
                           {"result", to_json(histograms_of(page.result, page.targets))}};
     data["worst"] = worst_of(page.result);
     data["run"] = settings_of(page.report);
-    const auto script = [](const char* id, const std::string& content) {
-        return std::string("<script type=\"application/octet-stream\" id=\"") + id + "\">" +
-               content + "</script>\n";
-    };
-    std::string html(viewer().head);
-    html += script("page-data", to_script(data));
-    html += script("original-mesh", of_original.base64);
-    html += script("result-mesh", of_result.base64);
-    return html += viewer().tail;
+    return fill_viewer(data,
+                       {{"original-mesh", of_original.base64}, {"result-mesh", of_result.base64}});
 }
 
 }  // namespace page

@@ -30,12 +30,7 @@ struct Page {
 //! The whole file. The same bytes for the same page, whatever the number of threads.
 //! \pre require_viewer() does not throw.
 //! \throw agvd::Cancelled  the progress callback returned false.
-//! Cost: O(n log n); meshes of more than most_faces are remeshed.
+//! Cost: O(n log n); meshes of more than most_faces (page/thin_mesh.h) are remeshed.
 [[nodiscard]] std::string format_page(const Page& page, const agvd::Progress& progress = {});
-
-//! A mesh of more faces is drawn as a remesh of thinned_vertices.
-inline constexpr std::size_t most_faces = 1'000'000;
-//! See most_faces.
-inline constexpr agvd::Index thinned_vertices = 200'000;
 
 }  // namespace page

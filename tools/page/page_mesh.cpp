@@ -68,7 +68,8 @@ void add_labels(const FaceLabels& labels, const std::vector<Index>& order, Json&
         append_number(static_cast<std::uint32_t>(at - all.begin()), bytes);
     }
     streams.add("labels", bytes);
-    description["labels"] = {{"name", labels.name}, {"count", all.size()}};
+    description["labels"] = {
+        {"name", labels.name}, {"count", all.size()}, {"has_none", labels.has_none}};
 }
 
 // Pairs of vertices of the page, ascending: steps of the first, then the second less the first.
@@ -89,28 +90,36 @@ void add_creases(const PageMesh& mesh, const std::vector<Index>& order, Streams&
     streams.add("creases", bytes);
 }
 
-// Lengths, then steps from point to point on a wider grid than that of the mesh.
-void add_cells(const Polylines& lines, Json& description, Streams& streams) {
-    if (lines.lengths.empty()) return;
-    const Vec3 low = [&] {
-        const auto& of = description["low"];
-        return Vec3(of[0].get<double>(), of[1].get<double>(), of[2].get<double>());
-    }();
-    const double step = 16 * description["step"].get<double>();
-    std::string lengths, steps;
-    for (const Index length : lines.lengths) append_number(length, lengths);
+// A wider grid than that of the vertices, for what lies on the surface.
+struct Grid {
+    Vec3 low;
+    double step;  // 0: all points are one.
+};
+
+// Steps from point to point.
+void add_points(const char* name, const std::vector<Vec3>& points, const Grid& grid,
+                Streams& streams) {
+    std::string steps;
     std::array<std::int64_t, 3> last{};
-    for (const Vec3& point : lines.points) {
+    for (const Vec3& point : points) {
         for (std::size_t k = 0; k < 3; ++k) {
             const auto at = static_cast<Eigen::Index>(k);
-            const std::int64_t now =
-                step > 0 ? std::llround((point[at] - low[at]) / step) : std::int64_t{0};
+            const std::int64_t now = grid.step > 0
+                                         ? std::llround((point[at] - grid.low[at]) / grid.step)
+                                         : std::int64_t{0};
             append_number(zigzag(now - std::exchange(last[k], now)), steps);
         }
     }
-    description["cell_step"] = step;
-    streams.add("cell_lengths", lengths);
-    streams.add("cell_steps", steps);
+    streams.add(name, steps);
+}
+
+void add_lines(const std::string& name, const Polylines& lines, const Grid& grid,
+               Streams& streams) {
+    if (lines.lengths.empty()) return;
+    std::string lengths;
+    for (const Index length : lines.lengths) append_number(length, lengths);
+    streams.add((name + "_lengths").c_str(), lengths);
+    add_points((name + "_steps").c_str(), lines.points, grid, streams);
 }
 
 }  // namespace
@@ -135,7 +144,11 @@ MeshBlock to_block(const PageMesh& mesh) {
         description["values"].push_back(add_values(values, packed.vertices, streams));
     }
     add_labels(mesh.labels, packed.faces, description, streams);
-    add_cells(mesh.cells, description, streams);
+    const Grid grid{packed.low, 16 * packed.step};
+    description["line_step"] = grid.step;
+    add_lines("cell", mesh.cells, grid, streams);
+    add_lines("isoline", mesh.isolines, grid, streams);
+    add_points("site_steps", mesh.sites, grid, streams);
     description["streams"] = streams.lengths();
     description["gzip"] = remesh::knows_gzip();
     block.base64 =

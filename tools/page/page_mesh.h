@@ -23,6 +23,7 @@ struct VertexValues {
 struct FaceLabels {
     std::string name;            //!< As in the file.
     std::vector<double> labels;  //!< #F, or none.
+    bool has_none = false;       //!< The lowest label stands for faces without one.
 };
 
 //! Lines on the surface, each through a part of the points.
@@ -40,6 +41,8 @@ struct PageMesh {
     FaceLabels labels = {};                 //!< For each face of `mesh`.
     std::vector<std::array<agvd::Index, 2>> creases = {};  //!< Pairs of vertices of `mesh`.
     Polylines cells = {};                                  //!< Edges of Voronoi cells.
+    Polylines isolines = {};                               //!< Lines of equal distance.
+    std::vector<agvd::Vec3> sites = {};                    //!< Points on the surface.
 };
 
 struct MeshBlock {

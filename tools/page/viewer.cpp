@@ -1,7 +1,5 @@
 #include "page/viewer.h"
 
-#include <string>
-
 #include "agvd/core/error.h"
 
 namespace page {
@@ -14,6 +12,18 @@ void require_viewer(const char* option) {
         "not found or could not fetch its parts; install them (Debian: apt-get install nodejs "
         "npm), configure with cmake -DAGVD_WITH_VIEWER=ON and build again. --report and --picture "
         "work without");
+}
+
+std::string fill_viewer(const Json& data,
+                        const std::vector<std::pair<std::string, std::string>>& blocks) {
+    std::string html(viewer().head);
+    const auto add = [&](const std::string& id, const std::string& content) {
+        html += R"(<script type="application/octet-stream" id=")" + id + "\">" + content +
+                "</script>\n";
+    };
+    add("page-data", to_script(data));
+    for (const auto& [id, base64] : blocks) add(id, base64);
+    return html += viewer().tail;
 }
 
 }  // namespace page

@@ -88,6 +88,7 @@ def _write_metadata(folder):
         "Requires-Python: >=3.9\nRequires-Dist: numpy\n")
     (info / "WHEEL").write_text(
         f"Wheel-Version: 1.0\nGenerator: {NAME}\nRoot-Is-Purelib: false\nTag: {_tag()}\n")
+    (info / "entry_points.txt").write_text("[pyvista.accessors]\nremesh = remesh._pyvista\n")
     shutil.copy(ROOT / "LICENSE", info)
     return info
 

@@ -2,27 +2,24 @@
 // they are set. Every key with a unit names it (mesh_units, percent, deg, s); what was not measured
 // is null.
 #include <algorithm>
+#include <array>
 #include <limits>
-#include <nlohmann/json.hpp>
 
 #include "remesh/pipeline/stage_context.h"
+#include "report/ordered_json.h"
 #include "report/report.h"
 #include "report/report_common.h"
 
 namespace remesh {
 namespace {
 
-// Keeps the keys in the order in which they were set.
-using Json = nlohmann::ordered_json;
+using Json = OrderedJson;
 
 using detail::degrees;
 
 Json text_or_null(const std::string& text) { return text.empty() ? Json() : Json(text); }
 
-// Over several lines; bytes that are not UTF-8 (in paths) are replaced, NaN and infinity are null.
-std::string dump(const Json& object) {
-    return object.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
-}
+std::string dump(const Json& object) { return object.text() + '\n'; }
 
 Json to_json(const CleanCounts& counts) {
     Json object;
@@ -216,7 +213,8 @@ Json to_json(const Verdict& verdict) {
         {"samples_for_walls", verdict.samples_for_walls},
         {"largest_distance_mesh_units", verdict.largest_distance},
         {"largest_distance_percent_of_diagonal", 100 * verdict.largest_distance / verdict.diagonal},
-        {"farthest_point", {verdict.farthest.x(), verdict.farthest.y(), verdict.farthest.z()}},
+        {"farthest_point",
+         std::array{verdict.farthest.x(), verdict.farthest.y(), verdict.farthest.z()}},
         {"min_angle_deg", verdict.min_angle * degrees},
         {"small_angle_percent", 100 * verdict.small_angle_share},
         {"narrow_faces", verdict.narrow.count},

@@ -112,7 +112,7 @@ std::string unique_name(const std::string& name, std::set<std::string>& taken) {
 }
 
 std::string as_utf8(const std::string& name) {
-    return json::parse(text_of(json(name))).get<std::string>();
+    return parsed(text_of(json(name))).get<std::string>();
 }
 
 Materials materials_of_colors(const std::map<std::string, std::string>& colors) {
@@ -132,7 +132,7 @@ Materials materials_of_colors(const std::map<std::string, std::string>& colors) 
 
 std::map<std::string, std::string> colors_of(const Materials& materials) {
     std::map<std::string, std::string> colors;
-    const json root = json::parse(materials.json, nullptr, false);
+    const json root = parsed(materials.json);
     if (!root.is_object()) return colors;
     for (const json& material : root.value("materials", json::array())) {
         if (!material.is_object() || !material.contains("name") || !material["name"].is_string() ||

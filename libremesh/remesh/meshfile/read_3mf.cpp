@@ -514,9 +514,9 @@ private:
 }  // namespace
 
 MeshFile read_3mf(SourceFile file) {
-    if (!knows_gzip() || !knows_xml()) {
-        file.fail_malformed(0, "this program was built without ", (knows_xml() ? "zlib" : "expat"),
-                            ", which 3MF needs; convert the file to .ply");
+    if (!knows_gzip()) {
+        file.fail_malformed(
+            0, "this program was built without zlib, which 3MF needs; convert the file to .ply");
     }
     return Reader3mf(file).read();
 }

@@ -14,7 +14,7 @@
 namespace remesh {
 namespace {
 
-using GltfJson = nlohmann::ordered_json;
+using GltfJson = nlohmann::json;
 
 constexpr std::size_t largest_file = UINT32_MAX;
 
@@ -167,7 +167,7 @@ void remove_textures(GltfJson& properties, bool has_coordinates) {
 // \return the number of the material for each label.
 std::vector<std::size_t> add_materials(const Attribute& labels, const MeshAttributes& attributes,
                                        GltfBuffer& buffer, GltfJson& root) {
-    const GltfJson given = GltfJson::parse(attributes.materials.json, nullptr, false);
+    const GltfJson given = parsed(attributes.materials.json);
     if (given.is_object()) root.update(given);
     GltfJson& materials = root["materials"];
     if (!materials.is_array()) materials = GltfJson::array();

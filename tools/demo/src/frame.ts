@@ -4,7 +4,7 @@ import { bindControls, show } from "../../viewer/src/controls";
 import { byId, card, inDigits, table } from "../../viewer/src/dom";
 import type { PageMesh } from "../../viewer/src/page_data";
 import { faceShapes } from "../../viewer/src/shapes";
-import { dataOf, Shown } from "./shown";
+import { contentOf, Shown } from "./shown";
 
 declare global {
   interface Window {
@@ -26,11 +26,11 @@ function figuresOf(mesh: PageMesh): string[] {
 }
 
 window.showMeshes = (original, result, theme) => {
-  const { data, meshes } = dataOf(original, result ?? original);
+  const content = contentOf(original, result ?? original);
   byId("original-name").textContent = original.name;
   byId("result-name").textContent = result?.name ?? "";
   document.querySelector<HTMLElement>(".arrow")!.hidden = result === null;
-  const app = new App(data, meshes, byId<HTMLCanvasElement>("canvas"));
+  const app = new App(content, byId<HTMLCanvasElement>("canvas"));
   bindControls(app);
   if (result === null) {
     app.setPane("result", false);
@@ -41,7 +41,8 @@ window.showMeshes = (original, result, theme) => {
   app.stage.render();
   byId("message").hidden = true;
   const rows = ["Vertices", "Faces", "Q, mean", "Q, least", "Smallest angle, mean (°)", "Smallest angle (°)"];
-  const columns = result ? [meshes.original, meshes.result] : [meshes.original];
+  const { original: before, result: after } = content.meshes;
+  const columns = result ? [before, after!] : [before];
   const figures = columns.map(figuresOf);
   byId("figures").append(card("Mesh", table(["", "Original", "Result"].slice(0, 1 + columns.length),
     rows.map((name, i) => [name, ...figures.map((column) => column[i])]))));

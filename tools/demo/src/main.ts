@@ -1,6 +1,6 @@
 // The page around the package: a mesh in, options, before and after, files out. It is one file and loads nothing.
 import { byId, element, inDigits } from "../../viewer/src/dom";
-import { configure, readMesh, remesh, RemeshError, prepare, writeMesh } from "../../npm/src/index";
+import { configure, creases, readMesh, remesh, RemeshError, prepare, writeMesh } from "../../npm/src/index";
 import type { Mesh, RemeshOptions } from "../../npm/src/index";
 import type { Shown } from "./shown";
 
@@ -16,7 +16,7 @@ async function bytesOf(id: string): Promise<Uint8Array> {
 
 const textOf = async (id: string) => new TextDecoder().decode(await bytesOf(id));
 
-interface Named { name: string; mesh: Mesh }
+interface Named { name: string; mesh: Mesh; creases: Uint32Array }
 
 class Demo {
   private input: Named | null = null;
@@ -84,7 +84,7 @@ class Demo {
     try {
       const mesh = await readMesh(await bytes, { name });
       if (load !== this.loads) return;
-      this.input = { name, mesh };
+      this.input = { name, mesh, creases: new Uint32Array(0) };
       this.result = null;
       byId("save").hidden = true;
       byId<HTMLButtonElement>("start").disabled = false;
@@ -109,21 +109,28 @@ class Demo {
   }
 
   private async run(): Promise<void> {
-    if (!this.input || this.controller) return;
-    const { name, mesh } = this.input;
+    const { input } = this;
+    if (!input || this.controller) return;
+    const { name, mesh } = input;
     const controller = this.controller = new AbortController();
     this.setRunning(true);
     const begin = performance.now();
     try {
-      const made = await remesh(mesh, this.options(), {
-        signal: controller.signal,
+      const { signal } = controller, options = this.options();
+      const made = await remesh(mesh, options, {
+        signal,
         onProgress: (fraction, stage) => {
           byId<HTMLProgressElement>("progress").value = fraction;
           this.say(`${Math.round(100 * fraction)} %: ${stage}`);
         },
       });
       const seconds = (performance.now() - begin) / 1000;
-      this.result = { name: `${name.replace(/(\.gz)?$/i, "").replace(/\.[^.]*$/, "")}-remesh`, mesh: made };
+      const rule = { n: made.positions.length / 3, features: options.features };
+      input.creases = await creases(mesh, rule, { signal });
+      this.result = {
+        name: `${name.replace(/(\.gz)?$/i, "").replace(/\.[^.]*$/, "")}-remesh`, mesh: made,
+        creases: await creases(made, rule, { signal }),
+      };
       this.say([`${inDigits(made.positions.length / 3)} vertices, ${inDigits(made.triangles.length / 3)} faces in ` +
         `${seconds.toFixed(1)} s.`, ...made.warnings].join(" "));
       byId("save").hidden = false;
@@ -160,7 +167,8 @@ class Demo {
 
   /** In a frame of its own, so that what it takes is freed with it. */
   private show(): void {
-    const shown = ({ name, mesh }: Named): Shown => ({ name, positions: mesh.positions, triangles: mesh.triangles });
+    const shown = ({ name, mesh, creases }: Named): Shown =>
+      ({ name, positions: mesh.positions, triangles: mesh.triangles, creases });
     const { input, result } = this;
     const frame = element("iframe", { title: "Original and result", srcdoc: this.frameText });
     frame.addEventListener("load", () => {

@@ -23,8 +23,6 @@ struct Query {
 Query query_of(const Request& request) {
     Options options(request.json()["options"]);
     Query query;
-    options.choose("engine", query.propagation.engine,
-                   {agvd::Engine::Window, agvd::Engine::Steiner}, agvd::engine_name);
     query.propagation.max_error = options.number("maxError");
     query.propagation.num_threads = 1;
     query.keep_slits = options.flag("keepSlits");

@@ -1,6 +1,7 @@
 // Meshes from the bytes of files, and the bytes of files from meshes.
 #include "calls.h"
 #include "declined.h"
+#include "javascript_terms.h"
 #include "mesh_message.h"
 #include "options.h"
 #include "run.h"
@@ -25,7 +26,7 @@ Answer call_read(const Request& request) {
         file.warnings.push_back(std::move(text));
     }
     Answer answer;
-    answer.json["warnings"] = file.warnings;
+    answer.json["warnings"] = in_terms_of_javascript(file.warnings);
     add_mesh(std::move(file), answer);
     return answer;
 }
@@ -52,7 +53,7 @@ Answer call_write(const Request& request) {
         "bytes", remesh::format_mesh(target, file.mesh.view(), file.attributes, run.of("write")));
     const remesh::RoundingLoss loss = remesh::rounding_loss(target, file.mesh.view());
     if (loss.matters()) warnings.push_back(remesh::describe(loss, target));
-    answer.json["warnings"] = warnings;
+    answer.json["warnings"] = in_terms_of_javascript(std::move(warnings));
     return answer;
 }
 

@@ -5,6 +5,8 @@
 #include "calls.h"
 #include "choices.h"
 #include "expected_stages.h"
+#include "feature_rule.h"
+#include "javascript_terms.h"
 #include "mesh_message.h"
 #include "options.h"
 #include "remesh/pipeline/remesh.h"
@@ -127,18 +129,7 @@ void append_edges(std::span<const Index> ends, std::vector<std::array<Index, 2>>
 
 void set_features(const Request& request, Options& given, const MeshFile& input,
                   RemeshOptions& options) {
-    const auto& json = request.json()["options"];
-    const bool is_angle = json.contains("features") && json["features"].is_number();
-    if (is_angle) {
-        options.features = remesh::Features::Angle;
-        options.feature_angle = *given.number("features");
-    } else if (const auto name = given.text("features"); name && *name != "auto") {
-        if (*name != "off") {
-            throw InvalidOption("features is '" + *name +
-                                "'; use 'auto', 'off' or an angle in degrees");
-        }
-        options.features = remesh::Features::Off;
-    }
+    set_feature_rule(given, options);
     given.know("featureEdges");
     append_edges(request.array<Index>("given.featureEdges"), options.feature_edges);
     if (options.features != remesh::Features::Off) {
@@ -204,12 +195,7 @@ void set_method(Options& given, RemeshOptions& options) {
                  remesh::junctions_name);
     given.choose("delaunay", options.delaunay,
                  {Delaunay::Intrinsic, Delaunay::Extrinsic, Delaunay::Off}, remesh::delaunay_name);
-    given.choose("engine", options.propagation.engine,
-                 {agvd::Engine::Window, agvd::Engine::Steiner}, agvd::engine_name);
     options.propagation.max_error = given.number("maxError");
-    if (const auto points = given.whole("steinerPoints", 0, 1000)) {
-        options.propagation.steiner_points = static_cast<int>(*points);
-    }
     constexpr double most_exact = 0x1p53;
     if (const auto seed = given.whole("seed", 0, most_exact)) {
         options.seed = static_cast<std::uint64_t>(*seed);
@@ -227,8 +213,10 @@ void set_cleaning(Options& given, const MeshFile& input, RemeshOptions& options)
     options.cleaning.keep_slits = given.flag("keepSlits");
     options.drop_components = given.number("dropComponents").value_or(0);
     options.cleaning.weld = given.length("weld", input.mesh.view()).value_or(0);
-    if (const auto edges = given.whole("fillHoles", 0, 1'000'000)) {
-        options.cleaning.fill_holes = static_cast<Index>(*edges);
+    if (given.whole("fillHoles", 0, 1'000'000).value_or(0) > 0) {
+        throw InvalidOption(
+            "fillHoles needs CGAL, which this package is without; leave it out, or fill the holes "
+            "with the program or its Python module");
     }
 }
 
@@ -294,7 +282,8 @@ Answer call_remesh(const Request& request) {
         return run.goes_on(remesh::stage_name(stage), fraction);
     };
     remesh::RemeshResult result = remesh::remesh(mesh, options);
-    const std::vector<std::string> warnings = cli::shortfalls_of(result, options, is_strict);
+    const std::vector<std::string> warnings =
+        in_terms_of_javascript(cli::shortfalls_of(result, options, is_strict));
     const remesh::InputMap map =
         remesh::map_to_input(mesh, result.mesh.view(), result.sites,
                              {.with_faces = !input.attributes.of_faces.empty(),
@@ -307,11 +296,10 @@ Answer call_remesh(const Request& request) {
                             output.attributes);
     Answer answer;
     answer.json["warnings"] = warnings;
-    answer.json["report"] =
-        Json::parse(remesh::to_json(result, {.version = REMESH_VERSION,
+    answer.report = remesh::to_json(result, {.version = REMESH_VERSION,
                                              .options = options,
                                              .output = remesh::measure_figures(result.mesh.view()),
-                                             .warnings = warnings}));
+                                             .warnings = warnings});
     add_places(map.vertices, answer);
     answer.add<Index>("keptVertices", std::move(result.kept.vertices));
     answer.add<Index>("keptFaces", std::move(result.kept.faces));

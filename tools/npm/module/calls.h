@@ -11,6 +11,7 @@ namespace npm {
 [[nodiscard]] Answer call_remesh(const Request& request);
 [[nodiscard]] Answer call_voronoi(const Request& request);
 [[nodiscard]] Answer call_distances(const Request& request);
+[[nodiscard]] Answer call_creases(const Request& request);
 [[nodiscard]] Answer call_read(const Request& request);
 [[nodiscard]] Answer call_write(const Request& request);
 

@@ -16,6 +16,7 @@
 #include <span>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 static_assert(_LIBCPP_VERSION < 14000, "look which of these libc++ has now");
 
@@ -73,6 +74,16 @@ constexpr auto operator<=>(const array<Value, size>& a, const array<Value, size>
     return Order::equivalent;
 }
 
+template <typename Iterator, typename Less>
+void sort_by_insertion(Iterator first, Iterator last, Less& less) {
+    for (Iterator i = first; i < last; ++i) {
+        auto value = std::move(*i);
+        Iterator to = i;
+        for (; to != first && less(value, to[-1]); --to) *to = std::move(to[-1]);
+        *to = std::move(value);
+    }
+}
+
 //! A sixth of the code of libc++'s for each type that is sorted, which were a tenth of the module.
 //! Chosen instead, as it is constrained. Pivots from places without a pattern: O(n log n) expected.
 template <typename Iterator, typename Less>
@@ -103,16 +114,41 @@ void sort(Iterator first, Iterator last, Less less) {
             last = j + 1;
         }
     }
-    for (Iterator i = first; i < last; ++i) {
-        auto value = std::move(*i);
-        Iterator to = i;
-        for (; to != first && less(value, to[-1]); --to) *to = std::move(to[-1]);
-        *to = std::move(value);
-    }
+    sort_by_insertion(first, last, less);
 }
 template <typename Iterator>
 requires requires(Iterator at) { at[0]; }
 void sort(Iterator first, Iterator last) { std::sort(first, last, std::less<>{}); }
+
+//! Likewise. Moves the first part away and back.
+template <typename Iterator, typename Less>
+requires requires(Iterator at) { at[0]; }
+void inplace_merge(Iterator first, Iterator middle, Iterator last, Less less) {
+    vector<iter_value_t<Iterator>> moved(make_move_iterator(first), make_move_iterator(middle));
+    auto from = moved.begin();
+    for (; from != moved.end() && middle != last; ++first) {
+        *first = less(*middle, *from) ? std::move(*middle++) : std::move(*from++);
+    }
+    std::move(from, moved.end(), first);
+}
+
+//! Likewise: O(n log n).
+template <typename Iterator, typename Less>
+requires requires(Iterator at) { at[0]; }
+void stable_sort(Iterator first, Iterator last, Less less) {
+    constexpr ptrdiff_t few = 12;
+    const auto behind = [&](Iterator at, ptrdiff_t count) {
+        return last - at > count ? at + count : last;
+    };
+    for (Iterator at = first; at != last; at = behind(at, few)) {
+        sort_by_insertion(at, behind(at, few), less);
+    }
+    for (ptrdiff_t width = few; width < last - first; width *= 2) {
+        for (Iterator at = first; last - at > width; at = behind(at, 2 * width)) {
+            std::inplace_merge(at, at + width, behind(at, 2 * width), less);
+        }
+    }
+}
 
 namespace ranges {
 

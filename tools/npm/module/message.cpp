@@ -14,7 +14,9 @@ void Answer::add_bytes(const std::string& name, std::string bytes) {
 std::string Answer::text() const {
     Json all = json;
     all["arrays"] = arrays_;
-    return all.dump(-1, ' ', false, Json::error_handler_t::replace);
+    std::string text = all.dump(-1, ' ', false, Json::error_handler_t::replace);
+    if (!report.empty()) text.insert(1, "\"report\":" + report + ',');
+    return text;
 }
 
 void Answer::add(const std::string& name, const char* type, const void* at, std::size_t count) {

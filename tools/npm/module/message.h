@@ -15,7 +15,8 @@
 
 namespace npm {
 
-using Json = nlohmann::ordered_json;
+//! That of the readers of glTF: another one, with the keys in order, takes 15 kB.
+using Json = nlohmann::json;
 
 //! A call as JavaScript wrote it. Its arrays stand in the memory of the module until the call
 //! returns.
@@ -23,7 +24,8 @@ class Request {
 public:
     //! \param text  an object: `call` names the function, `arrays` has for each name an address
     //!              `at` and a number of elements `count`; all else belongs to the function.
-    explicit Request(std::string_view text) : json_(Json::parse(text)) {}
+    explicit Request(std::string_view text)
+        : json_(Json::parse(text.data(), text.data() + text.size())) {}
 
     [[nodiscard]] const Json& json() const { return json_; }
     [[nodiscard]] bool has_array(const char* name) const { return json_["arrays"].contains(name); }
@@ -47,6 +49,8 @@ class Answer {
 public:
     //! All that is no array.
     Json json = Json::object();
+    //! A JSON text, which becomes the value of the key `report`. Empty: there is none.
+    std::string report;
 
     //! Adds an array of numbers. \param values  numbers, or rows of numbers without gaps.
     template <typename Number, typename Row>
@@ -59,7 +63,8 @@ public:
     //! Adds bytes.
     void add_bytes(const std::string& name, std::string bytes);
 
-    //! The text for JavaScript: `json` and the key `arrays`, each with `type`, `at` and `count`.
+    //! The text for JavaScript: `json` and the keys `report` and `arrays`, each with `type`, `at`
+    //! and `count`.
     [[nodiscard]] std::string text() const;
 
 private:

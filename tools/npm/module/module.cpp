@@ -7,7 +7,7 @@
 
 #include "agvd/core/error.h"
 #include "calls.h"
-#include "terms.h"
+#include "javascript_terms.h"
 
 namespace npm {
 namespace {
@@ -17,61 +17,14 @@ struct Call {
     Answer (*run)(const Request&);
 };
 
-constexpr Call calls[] = {{"remesh", call_remesh},
-                          {"voronoi", call_voronoi},
-                          {"distances", call_distances},
-                          {"read", call_read},
-                          {"write", call_write}};
-
-// What differs by more than the style of names; longer ones first.
-constexpr cli::Term terms[] = {
-    {"(remesh and agvd diagram: --lenient)", "(lenient: true)"},
-    {"(remesh: --from for an input, --to for the output)", "(format)"},
-    {"more or fewer --samples", "another n"},
-    {"more --samples", "a larger n"},
-    {"fewer --samples", "a smaller n"},
-    {"--samples", "n"},
-    {"--boundary free", "boundary: 'free'"},
-    {"--relax 0", "relax: 0"},
-    {"--delaunay extrinsic", "delaunay: 'extrinsic'"},
-    {"--delaunay off", "delaunay: 'off'"},
-    {"--keep-labels", "faceLabels"},
-    {"num_samples", "n"},
-    {"num_faces", "faces"},
-    {"is_adaptive", "adaptive"},
-    {"target_lengths", "sizing"},
-    {"face_lengths", "faceSizing"},
-    {"densities", "density"},
-    {"relax_steps", "relax"},
-    {"feature_angle", "features"},
-    {"feature_edges", "featureEdges"},
-    {"face_labels", "faceLabels"},
-    {"texture_seams", "uv"},
-    {"max_error", "maxError"},
-    {"steiner_points", "steinerPoints"},
-    {"drop_components", "dropComponents"},
-    {"fill_holes", "fillHoles"},
-    {"lock_boundary", "lockBoundary"},
-    {"min_edge", "minEdge"},
-    {"max_edge", "maxEdge"},
-};
-
-std::string in_terms_of_javascript(const std::string& text) {
-    return cli::in_terms(text, terms, cli::NameStyle::Camel);
-}
-
-void translate_warnings(Json& warnings) {
-    for (Json& text : warnings) text = in_terms_of_javascript(text.get<std::string>());
-}
+constexpr Call calls[] = {{"remesh", call_remesh},       {"voronoi", call_voronoi},
+                          {"distances", call_distances}, {"creases", call_creases},
+                          {"read", call_read},           {"write", call_write}};
 
 Answer answer_to(const Request& request) {
     const std::string name = request.json()["call"];
     for (const Call& call : calls) {
-        if (name != call.name) continue;
-        Answer answer = call.run(request);
-        if (answer.json.contains("warnings")) translate_warnings(answer.json["warnings"]);
-        if (answer.json.contains("report")) translate_warnings(answer.json["report"]["warnings"]);
-        return answer;
+        if (name == call.name) return call.run(request);
     }
     throw std::logic_error("there is no function " + name);
 }

@@ -3,4 +3,5 @@
 include(/usr/share/emscripten/cmake/Modules/Platform/Emscripten.cmake)
 # As quick as -O3, and a quarter smaller.
 set(CMAKE_CXX_FLAGS_RELEASE "-O2 -fno-unroll-loops -DNDEBUG" CACHE STRING "Of release builds")
-set(CMAKE_CXX_FLAGS_INIT "-fwasm-exceptions -mnontrapping-fptoint -msign-ext -mbulk-memory -include ${CMAKE_CURRENT_LIST_DIR}/libcxx13.h")
+# The names of types, of each lambda as well, are left out: exceptions do not need them.
+set(CMAKE_CXX_FLAGS_INIT "-fwasm-exceptions -fno-rtti -mnontrapping-fptoint -msign-ext -mbulk-memory -include ${CMAKE_CURRENT_LIST_DIR}/libcxx13.h")

@@ -3,7 +3,7 @@ import { Answer, Request } from "./engine.js";
 import { refuse, RemeshError } from "./errors.js";
 import { addMesh, addShape, kindOf, Mesh, MeshInput, meshOf } from "./mesh.js";
 import {
-  addOptions, addSites, DistanceOptions, namesToTransfer, plain, RemeshOptions, requireObject, Sites,
+  addOptions, addSites, CreaseOptions, DistanceOptions, namesToTransfer, plain, RemeshOptions, requireObject, Sites,
 } from "./options.js";
 
 /** How a call runs. */
@@ -93,6 +93,11 @@ export interface Api {
   voronoi(mesh: MeshInput, sites: Sites, options?: DistanceOptions, run?: RunOptions): Promise<Voronoi>;
   /** For each vertex the distance along the surface from the nearest site; infinity where none reaches. @throws RemeshError */
   geodesicDistance(mesh: MeshInput, sites: Sites, options?: DistanceOptions, run?: RunOptions): Promise<Float64Array>;
+  /**
+   * Two vertices for each edge of the mesh that is a crease for a result of n vertices. Boundaries are none.
+   * @throws RemeshError
+   */
+  creases(mesh: MeshInput, options?: CreaseOptions, run?: RunOptions): Promise<Uint32Array>;
   /** The mesh in the bytes of a file, also of one compressed with gzip. @throws RemeshError */
   readMesh(bytes: Uint8Array | ArrayBuffer, options: ReadOptions, run?: RunOptions): Promise<Mesh & { warnings: string[] }>;
   /** The bytes of a file. `warnings` tell what the format cannot hold. @throws RemeshError */
@@ -170,6 +175,16 @@ export function makeApi(runner: Runner): Api {
       checkRun(run);
       const { arrays } = await runner.run(distanceRequest("distances", mesh, sites, options), run);
       return arrays.distances as Float64Array;
+    },
+
+    async creases(mesh, options = {}, run = {}) {
+      requireObject(options, "the options");
+      checkRun(run);
+      const request = emptyRequest("creases");
+      addShape(mesh, request);
+      request.options = plain(options);
+      const { arrays } = await runner.run(request, run);
+      return arrays.creases as Uint32Array;
     },
 
     async readMesh(bytes, options, run = {}) {

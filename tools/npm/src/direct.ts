@@ -4,7 +4,8 @@ import { compile, places, type Places } from "./browser.js";
 import { DirectRunner } from "./direct_runner.js";
 
 export * from "./exports.js";
-export const { remesh, voronoi, geodesicDistance, readMesh, writeMesh, prepare, stop } = makeApi(new DirectRunner(compile));
+export const { remesh, voronoi, geodesicDistance, creases, readMesh, writeMesh, prepare, stop } =
+  makeApi(new DirectRunner(compile));
 
 /** Says where the files of the package are, before the first call. */
 export function configure(given: Places): void { Object.assign(places, given); }

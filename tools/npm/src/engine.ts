@@ -7,7 +7,7 @@ export type NumberArray =
 
 /** A call: its name, what goes as JSON, and arrays. Can be sent to a worker. */
 export interface Request {
-  call: "remesh" | "voronoi" | "distances" | "read" | "write";
+  call: "remesh" | "voronoi" | "distances" | "creases" | "read" | "write";
   options: Record<string, unknown>;
   mesh?: Record<string, unknown>;
   arrays: Record<string, NumberArray>;

@@ -45,6 +45,8 @@ export interface RemeshOptions {
   /** Smaller components are dropped: a share of the area from 0 to 1. */
   dropComponents?: number;
   weld?: Length;
+  /** Needs CGAL, which the package is without: all but 0 is refused. */
+  fillHoles?: number;
   /** Faces to remesh: other than 0 for each, or the name of such values. All others stay bit for bit. */
   region?: Numbers | string;
   /** Vertices that stay where they are, bit for bit. */
@@ -62,9 +64,7 @@ export interface RemeshOptions {
   /** Vertices of a tile, at most: large results are made in tiles; 0: in one piece. */
   tile?: number;
   fit?: boolean;
-  engine?: "window" | "steiner";
   maxError?: number;
-  steinerPoints?: number;
   delaunay?: "intrinsic" | "extrinsic" | "off";
   seed?: number;
 }
@@ -73,8 +73,15 @@ export interface RemeshOptions {
 export interface DistanceOptions {
   /** Distances are at most this share above exact; 0: exact. */
   maxError?: number;
-  engine?: "window" | "steiner";
   keepSlits?: boolean;
+}
+
+/** Of creases(). */
+export interface CreaseOptions {
+  /** Vertices of the result for which creases are found, or a percentage of the mesh's: 2000. */
+  n?: RemeshOptions["n"];
+  /** As for remesh(). */
+  features?: RemeshOptions["features"];
 }
 
 /** As JSON holds them. It has no NaN and no functions: they go as texts, which the module refuses by name. */

@@ -90,13 +90,18 @@ export class WorkerRunner implements Runner {
 
   /** @param isWanted  false if it was dropped in between */
   private async begin(isWanted: () => boolean): Promise<WorkerHandle> {
-    const module = await this.load();
-    const worker = this.host.startWorker();
-    if (isWanted()) this.worker = worker;
+    // The worker starts while the module is compiled.
+    const loading = this.load(), worker = this.host.startWorker();
     worker.onMessage((message) => this.listen(worker, message));
     worker.onFailure((text) => this.fail(worker, new RemeshError("Error", text)));
     worker.hold(false);
-    worker.post({ module });
+    try {
+      worker.post({ module: await loading });
+    } catch (error) {
+      worker.end();
+      throw error;
+    }
+    if (isWanted()) this.worker = worker;
     return worker;
   }
 

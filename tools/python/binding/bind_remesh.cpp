@@ -108,7 +108,8 @@ std::vector<std::string> warnings_of(const remesh::RemeshResult& result,
 
 // \param limit  see memory_limit.
 // \return positions, triangles, faces and coordinates of the vertices on the input, the samples of
-// faces on the input (#F x 16, or none), the vertices and the faces that were kept, the report.
+// faces on the input (#F x 16, or none), the vertices and the faces that were kept, the report,
+// and what a page needs besides.
 py::tuple run_remesh(const Doubles& positions, const Indices& triangles, RemeshOptions options,
                      bool with_faces, bool strict, const std::string& limit,
                      const py::object& function) {
@@ -142,12 +143,17 @@ py::tuple run_remesh(const Doubles& positions, const Indices& triangles, RemeshO
     return py::make_tuple(to_array<double>(std::move(result.mesh.positions), 3),
                           to_array<agvd::Index>(std::move(result.mesh.triangles), 3), places[0],
                           places[1], to_array<agvd::Index>(std::move(map.faces), 16),
-                          to_numbers(result.kept.vertices), to_numbers(result.kept.faces), report);
+                          to_numbers(result.kept.vertices), to_numbers(result.kept.faces), report,
+                          Made{.options = std::move(options),
+                               .sites = std::move(result.sites),
+                               .targets = std::move(result.sizing.targets),
+                               .has_kept = !result.kept.faces.empty()});
 }
 
 }  // namespace
 
 void bind_remesh(py::module_& module) {
+    py::class_<Made>(module, "Made");
     OptionsClass options(module, "Options");
     options.def(py::init<>());
     options.def_readwrite("num_samples", &RemeshOptions::num_samples);

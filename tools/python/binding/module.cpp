@@ -7,6 +7,7 @@ PYBIND11_MODULE(_remesh, module) {
     module.attr("version") = REMESH_VERSION;
     python::bind_errors(module);
     python::bind_remesh(module);
+    python::bind_page(module);
     python::bind_diagram(module);
     python::bind_distances(module);
     python::bind_paths(module);

@@ -13,6 +13,8 @@ threads during a call. Every function releases the interpreter, may run in sever
 once, and gives the same bytes for any number of threads. Ctrl-C ends a call in the main thread.
 """
 
+import sys as _sys
+
 from . import examples, tiles
 from ._diagrams import Voronoi, cut_cells, geodesic_distance, nearest_sites, voronoi
 from ._evaluation import evaluate
@@ -33,6 +35,9 @@ from ._remesh import (
 from ._remesh import version as __version__
 from ._remeshing import Result, remesh
 from ._stages import Cleaned, Relaxed, Sites, clean, relax_sites, sample_sites
+
+if hasattr(_sys.modules.get("pyvista"), "register_dataset_accessor"):
+    from . import _pyvista
 
 __all__ = [
     "Cancelled",

@@ -22,6 +22,8 @@ _Numbers = NDArray[np.int64]
 _Progress = Callable[[float, str], Any] | None
 Row = tuple[str, str, _Floats, list[str], bool]
 
+class Made: ...
+
 class Options:
     num_samples: int
     keep_slits: bool
@@ -66,7 +68,12 @@ class Options:
 
 def remesh(positions: _Floats, triangles: _Indices, options: Options, with_faces: bool,
            strict: bool, memory_limit: str, progress: _Progress) -> tuple[_Floats, _Indices, _Numbers, _Floats, _Indices, _Numbers,
-                                         _Numbers, str]: ...
+                                         _Numbers, str, Made]: ...
+def page(positions: _Floats, triangles: _Indices, result_positions: _Floats,
+         result_triangles: _Indices, made: Made, report: str, command: str, original_name: str,
+         result_name: str, label_name: str, labels: _Floats, result_labels: _Floats,
+         progress: _Progress) -> str: ...
+def has_viewer() -> bool: ...
 def voronoi(positions: _Floats, triangles: _Indices, faces: _Indices, barycentric: _Floats,
             groups: _Indices, weights: _Floats, barriers: _Indices,
             side_lengths: _Floats, engine: str, max_error: float | None, keep_slits: bool, num_threads: int,

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import json
 import operator
+import os
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _arrays, _kinds, _options, _remesh, _transfer
+from . import _arrays, _kinds, _options, _page, _remesh, _transfer
 from ._remesh import InvalidOption
 from ._stages import Progress
 
@@ -52,6 +53,29 @@ class Result:
     uv: NDArray[np.float64] | None
     #: The result as what was given: an object of the same type with its data, or ``(V, F)``.
     mesh: Any
+    # Keeps the arrays of the input.
+    _source: _page.Source
+
+    def html(self, path: str | os.PathLike[str] | None = None, *, original_name: str = "original",
+             result_name: str = "result", progress: Progress | None = None) -> str:
+        """The report page: original, result and cells side by side, with all figures; one file for
+        any browser, which needs no network. It is written to ``path``, if one is given.
+
+        Raises InvalidOption in a build without node, which makes the parts of pages, FileError,
+        Cancelled. In Jupyter a result shows its page by itself.
+
+        >>> V, F = remesh.examples.sphere(3)
+        >>> page = remesh.remesh(V, F, 200).html("sphere.html", original_name="sphere.ply")
+        >>> page[:15], "sphere.ply" in page
+        ('<!doctype html>', True)
+        """
+        text = _page.page(self, self._source, original_name, result_name, progress)
+        if path is not None:
+            _page.write(text, path)
+        return text
+
+    def _repr_html_(self) -> str | None:
+        return _page.frame(self.html()) if _remesh.has_viewer() else None
 
     def __repr__(self) -> str:
         count = len(self.report["warnings"])
@@ -196,6 +220,7 @@ def remesh(
     """
     if _kinds.is_mesh(V) and n is None and _is_count(F):
         F, n = None, F
+    call = _page.call_text(remesh, locals())
     mesh = _kinds.take(V, F)
     _options.only_one(n=n, n_clusters=n_clusters, faces=faces, edge_length=edge_length,
                       max_distance=max_distance, sites=sites)
@@ -238,7 +263,7 @@ def remesh(
     texture = _transfer.texture(mesh, uv, transfer)
     if texture is not None:
         options.texture_seams = _remesh.texture_seams(texture, mesh.V, mesh.F)
-    return _run(mesh, options, wanted, texture, bool(strict),
+    return _run(mesh, options, wanted, texture, call, bool(strict),
                 _options.memory_limit(memory_limit), progress)
 
 
@@ -253,12 +278,12 @@ def _is_count(value: Any) -> bool:
 
 
 def _run(mesh: _kinds.Given, options: _remesh.Options, wanted: _transfer.Wanted,
-         texture: _arrays.Floats | None, strict: bool, memory_limit: str,
+         texture: _arrays.Floats | None, call: str, strict: bool, memory_limit: str,
          progress: Progress | None) -> Result:
     if progress is not None and not callable(progress):
         raise InvalidOption(f"progress is {progress!r}; give a function of a fraction and a stage")
     (new_V, new_F, source_face, barycentric, samples, kept_vertices, kept_faces,
-     text) = _remesh.remesh(mesh.V, mesh.F, options, bool(wanted.of_faces), strict, memory_limit,
+     text, made) = _remesh.remesh(mesh.V, mesh.F, options, bool(wanted.of_faces), strict, memory_limit,
                               progress)
     report = json.loads(text)
     report["warnings"] = mesh.warnings + report["warnings"]
@@ -271,4 +296,5 @@ def _run(mesh: _kinds.Given, options: _remesh.Options, wanted: _transfer.Wanted,
     like_V, like_F = mesh.like_given(new_V, new_F)
     return Result(like_V, like_F, source_face, barycentric, kept_vertices, kept_faces, report,
                   of_vertices, of_faces, uv,
-                  mesh.build(like_V, like_F, of_vertices, of_faces, uv))
+                  mesh.build(like_V, like_F, of_vertices, of_faces, uv),
+                  _page.Source(mesh.V, mesh.F, made, call, _page.labels_of(wanted)))

@@ -1,19 +1,35 @@
 // The state of the page, and what changes it. Controls, keys and lists call these functions.
 import { Vector3 } from "three";
-import { ColorMode, cornerColors, hasMode, Scale, scaleOf } from "./colors";
+import { ColorMode, cornerColors, hasMode, NamedMode, Scale, scaleOf } from "./colors";
 import { Marker } from "./marker";
 import { outlookOn } from "./outlook";
-import { Frame, frameOf, fromDrawn, PageData, PageMesh, Point, toDrawn } from "./page_data";
+import { Frame, fromDrawn, PageMesh, Point, toDrawn, WorstFace } from "./page_data";
 import { faceAlong, faceAt, FaceFigures, figuresOf } from "./pick";
 import { cornersOf } from "./shapes";
 import { Pane, Ray, sceneOf, sphereOf, Stage } from "./stage";
-import { surfaceMaterial, SurfaceView } from "./surface";
+import { Layer, surfaceMaterial, SurfaceView } from "./surface";
 
 export type Side = "original" | "result";
 
 export interface Picked { side: Side; title: string; figures: FaceFigures }
 
 export type Theme = "light" | "dark";
+
+/** Of the original, and of the result if there is one. */
+type OfSides<T> = { original: T; result?: T };
+
+/** What a page shows. */
+export interface Content {
+  meshes: OfSides<PageMesh>;
+  frame: Frame;
+  modes: NamedMode[];
+  /** Of the result. */
+  worst: WorstFace[];
+  /** Layers that can be switched: of a diagram. */
+  layers: LayerSwitch[];
+}
+
+export interface LayerSwitch { layer: Layer; title: string; key: string; isShown: boolean }
 
 export class App {
   readonly stage: Stage;
@@ -26,30 +42,30 @@ export class App {
   worstIndex = -1;
   /** Called when something has changed. */
   onChange: () => void = () => {};
-  private readonly frame: Frame;
+  readonly modes: NamedMode[];
   private readonly material = surfaceMaterial();
-  private readonly views: Record<Side, SurfaceView>;
+  private readonly views: OfSides<SurfaceView>;
   private readonly markers: Record<Side, Marker> = { original: new Marker(), result: new Marker() };
 
-  constructor(readonly data: PageData, readonly meshes: Record<Side, PageMesh>, canvas: HTMLCanvasElement) {
-    this.frame = frameOf(data);
-    this.views = {
-      original: new SurfaceView(meshes.original, this.material),
-      result: new SurfaceView(meshes.result, this.material),
-    };
+  constructor(readonly content: Content, canvas: HTMLCanvasElement) {
+    const { original, result } = content.meshes;
+    this.modes = content.modes.filter(({ mode }) => hasMode(mode, Object.values(content.meshes)));
+    this.views = { original: new SurfaceView(original, this.material) };
+    if (result) this.views.result = new SurfaceView(result, this.material);
     this.stage = new Stage(canvas, this.makePanes(), sphereOf(Object.values(this.views)));
     this.stage.onPick = (ray) => this.pickAlong(ray);
-    this.setMode("plain");
+    this.setMode(this.modes[0].mode);
     this.setLines(true);
+    for (const { layer, isShown } of content.layers) this.views.original.showLayer(layer, isShown);
   }
+
+  private get frame(): Frame { return this.content.frame; }
 
   get panes(): Pane[] { return this.stage.panes; }
 
-  hasMode(mode: ColorMode): boolean { return hasMode(mode, Object.values(this.meshes)); }
-
   setMode(mode: ColorMode): void {
     this.mode = mode;
-    const meshes = Object.values(this.meshes);
+    const meshes = Object.values(this.content.meshes);
     this.scale = scaleOf(mode, meshes, this.frame.diagonal);
     for (const view of Object.values(this.views)) {
       view.setColors(cornerColors(mode, view.mesh, () => view.edges, this.scale, this.frame.diagonal));
@@ -70,6 +86,12 @@ export class App {
     this.setTheme(this.theme);
   }
 
+  setLayer(layer: Layer, isShown: boolean): void {
+    this.content.layers.find((one) => one.layer === layer)!.isShown = isShown;
+    this.views.original.showLayer(layer, isShown);
+    this.changed();
+  }
+
   /** One pane at least stays. */
   setPane(id: string, isShown: boolean): void {
     const others = this.panes.filter((pane) => pane.id !== id && pane.isShown);
@@ -87,7 +109,8 @@ export class App {
     const color = (name: string) => style.getPropertyValue(`--${name}`).trim();
     this.stage.setBackground(color("stage"));
     for (const view of Object.values(this.views)) {
-      view.setLineColors({ crease: color("crease"), boundary: color("boundary"), cell: color("cell") });
+      view.setLineColors({ crease: color("crease"), boundary: color("boundary"), cell: color("cell"),
+                           isoline: color("isoline"), site: color("site") });
     }
     for (const marker of Object.values(this.markers)) marker.setColor(color("mark"));
     this.changed();
@@ -100,7 +123,7 @@ export class App {
 
   pickAlong({ pane, origin, direction }: Ray): void {
     const side: Side = pane.id === "result" ? "result" : "original";
-    const face = faceAlong(this.meshes[side], origin, direction);
+    const face = faceAlong(this.content.meshes[side]!, origin, direction);
     if (face < 0) return this.clearPick();
     this.pick(side, face);
   }
@@ -115,17 +138,17 @@ export class App {
 
   /** Goes to one of the worst triangles; numbers beyond the ends count from the other end. */
   flyToWorst(index: number): void {
-    const { worst } = this.data;
-    if (worst.length === 0) return;
+    const { worst, meshes: { result } } = this.content;
+    if (worst.length === 0 || !result) return;
     const at = (index + worst.length) % worst.length;
     const corners = worst[at].corners.map((corner) => toDrawn(corner, this.frame));
-    const face = faceAt(this.meshes.result, corners);
+    const face = faceAt(result, corners);
     this.showPane("result");
     this.pick("result", face);
     this.worstIndex = at;
     const points = corners.map((corner) => new Vector3(...corner));
     const middle = points[0].clone().add(points[1]).add(points[2]).divideScalar(3);
-    const { direction, distance } = outlookOn(this.meshes.result, face, points, this.stage.camera.up);
+    const { direction, distance } = outlookOn(result, face, points, this.stage.camera.up);
     this.stage.fly(middle, direction, distance);
     this.changed();
   }
@@ -141,11 +164,11 @@ export class App {
 
   private pick(side: Side, face: number): void {
     this.clearPick();
-    const mesh = this.meshes[side];
+    const mesh = this.content.meshes[side]!;
     this.markers[side].markTriangle(cornersOf(mesh, face));
-    const worst = side === "result" ? this.data.worst : [];
+    const worst = side === "result" ? this.content.worst : [];
     this.picked = {
-      side, title: side === "result" ? "Result" : "Original",
+      side, title: this.panes.find((pane) => pane.id === side)!.title,
       figures: figuresOf(mesh, face, this.frame, worst),
     };
     this.stage.request();
@@ -159,11 +182,15 @@ export class App {
   private makePanes(): Pane[] {
     const { original, result } = this.views;
     const ofOriginal = sceneOf(original.group, this.markers.original.group);
+    if (!result) {
+      return [{ id: "original", title: "Diagram", scene: ofOriginal, isShown: true,
+                prepare: (isInMotion) => original.setInMotion(isInMotion) }];
+    }
     const ofResult = sceneOf(result.group, this.markers.result.group);
     const panes: Pane[] = [
       { id: "original", title: "Original", scene: ofOriginal, isShown: true,
         prepare: (isInMotion) => {
-          original.showCells(false);
+          original.showLayer("cell", false);
           original.setInMotion(isInMotion);
         } },
       { id: "result", title: "Result", scene: ofResult, isShown: true,
@@ -172,7 +199,7 @@ export class App {
     if (original.mesh.cellLines.length > 0) {
       panes.push({ id: "cells", title: "Cells", scene: ofOriginal, isShown: window.innerWidth > 1300,
                    prepare: (isInMotion) => {
-                     original.showCells(true);
+                     original.showLayer("cell", true);
                      original.setInMotion(isInMotion);
                    } });
     }
@@ -189,6 +216,7 @@ export class App {
     const { camera, controls, frames, isFlying } = this.stage;
     return {
       mode: this.mode, scale: this.scale, wire: this.isWire, lines: this.hasLines, theme: this.theme,
+      layers: this.content.layers.filter((one) => one.isShown).map((one) => one.layer),
       panes: this.panes.filter((pane) => pane.isShown).map((pane) => pane.id),
       camera: fromDrawn(camera.position.toArray(), this.frame),
       target: fromDrawn(controls.target.toArray(), this.frame),

@@ -2,9 +2,11 @@
 import type { PageMesh } from "./page_data";
 import { Edges, faceShapes } from "./shapes";
 
-export type ColorMode = "plain" | "quality" | "angle" | "distance" | "target" | "label" | "patch";
+export type ColorMode = "plain" | "quality" | "angle" | "distance" | "nearest" | "target" | "label" | "patch";
 
-export const colorModes: { mode: ColorMode; name: string }[] = [
+export interface NamedMode { mode: ColorMode; name: string }
+
+export const reportModes: NamedMode[] = [
   { mode: "plain", name: "Plain" },
   { mode: "quality", name: "Quality Q" },
   { mode: "angle", name: "Smallest angle" },
@@ -12,6 +14,14 @@ export const colorModes: { mode: ColorMode; name: string }[] = [
   { mode: "target", name: "Target length" },
   { mode: "label", name: "Label" },
   { mode: "patch", name: "Patch" },
+];
+
+export const diagramModes: NamedMode[] = [
+  { mode: "label", name: "Cell" },
+  { mode: "nearest", name: "Distance to the site" },
+  { mode: "plain", name: "Plain" },
+  { mode: "quality", name: "Quality Q" },
+  { mode: "angle", name: "Smallest angle" },
 ];
 
 export interface Scale {
@@ -67,13 +77,14 @@ export function scaleOf(mode: ColorMode, meshes: PageMesh[], diagonal: number): 
   if (mode === "distance") {
     return { low: 0, high: high / diagonal * 100, unit: " %", title: "Distance, % of the diagonal", isRoot: true };
   }
+  if (mode === "nearest") return { low: 0, high, unit: "", title: "Distance to the nearest site" };
   return { low: Math.min(...found.map((v) => v.low)), high, unit: "", title: "Target edge length" };
 }
 
 /** Whether a mode shows something of one of the meshes. */
 export function hasMode(mode: ColorMode, meshes: PageMesh[]): boolean {
   if (mode === "label") return meshes.some((mesh) => mesh.labels !== null);
-  if (mode === "distance" || mode === "target") return meshes.some((mesh) => mesh.values.has(mode));
+  if (mode === "distance" || mode === "nearest" || mode === "target") return meshes.some((mesh) => mesh.values.has(mode));
   return true;
 }
 
@@ -88,9 +99,9 @@ export function cornerColors(mode: ColorMode, mesh: PageMesh, edges: () => Edges
     const unit = mode === "distance" ? 100 / diagonal : 1;
     fillByVertex(colors, mesh.corners, values.values, scale, unit);
   } else if (mode === "label" && mesh.labels) {
-    fillByName(colors, mesh.labels.ofFaces);
+    fillByName(colors, mesh.labels.ofFaces, mesh.labels.hasNone);
   } else if (mode === "patch") {
-    fillByName(colors, edges().patches);
+    fillByName(colors, edges().patches, false);
   } else {
     for (let i = 0; i < colors.length; i += 4) colors.set(plain, i);
   }
@@ -120,8 +131,9 @@ function fillByVertex(colors: Uint8Array, corners: Uint32Array, values: Float32A
   for (let h = 0; h < corners.length; ++h) put(colors, h, shareIn(scale, unit * values[corners[h]]));
 }
 
-function fillByName(colors: Uint8Array, names: Uint32Array): void {
-  const known = new Map<number, Rgb>();
+/** @param hasNone  name 0 stands for faces without one */
+function fillByName(colors: Uint8Array, names: Uint32Array, hasNone: boolean): void {
+  const known = new Map<number, Rgb>(hasNone ? [[0, plain]] : []);
   for (let f = 0; f < names.length; ++f) {
     let color = known.get(names[f]);
     if (!color) known.set(names[f], color = labelColor(names[f]));

@@ -1,6 +1,6 @@
 // Binds the controls and keys of the page to its state, and shows the state in them.
 import type { App, Theme } from "./app";
-import { ColorMode, colorModes, mapGradient } from "./colors";
+import { ColorMode, mapGradient } from "./colors";
 import { byId, element, inDigits, table } from "./dom";
 import { figureTable } from "./pick";
 
@@ -12,9 +12,7 @@ const keys: [string, string][] = [
 
 export function bindControls(app: App): void {
   const color = byId<HTMLSelectElement>("color");
-  for (const { mode, name } of colorModes) {
-    if (app.hasMode(mode)) color.append(element("option", { value: mode }, name));
-  }
+  for (const { mode, name } of app.modes) color.append(element("option", { value: mode }, name));
   color.addEventListener("change", () => app.setMode(color.value as ColorMode));
   const wire = byId<HTMLInputElement>("wire"), lines = byId<HTMLInputElement>("lines");
   wire.addEventListener("change", () => app.setWire(wire.checked));
@@ -22,9 +20,17 @@ export function bindControls(app: App): void {
   byId("reset").addEventListener("click", () => app.reset());
   byId("theme").addEventListener("click", () => app.setTheme(otherTheme(app)));
   byId("help").addEventListener("click", toggleKeys);
-  byId("keys").append(table([], keys.map(([key, text]) => [element("kbd", {}, key), text])));
+  const { layers } = app.content;
+  const allKeys = [...keys, ...layers.map(({ key, title }): [string, string] => [key.toUpperCase(), title.toLowerCase()])];
+  byId("keys").append(table([], allKeys.map(([key, text]) => [element("kbd", {}, key), text])));
   byId("legend-bar").style.background = mapGradient();
-  addPaneSwitches(app);
+  if (app.panes.length > 1) addPaneSwitches(app);
+  else byId("panes").hidden = true;
+  for (const { layer, title } of layers) {
+    const box = element("input", { type: "checkbox", id: `layer-${layer}` });
+    box.addEventListener("change", () => app.setLayer(layer, box.checked));
+    byId("layers").append(element("label", { class: "switch" }, box, element("span", {}, title)));
+  }
   document.addEventListener("keydown", (event) => pressKey(app, event));
   app.stage.onLayout = () => showTitles(app);
   app.onChange = () => show(app);
@@ -52,7 +58,10 @@ export function show(app: App): void {
   byId<HTMLInputElement>("wire").checked = app.isWire;
   byId<HTMLInputElement>("lines").checked = app.hasLines;
   byId("theme").textContent = otherTheme(app) === "dark" ? "Dark" : "Light";
-  for (const pane of app.panes) byId<HTMLInputElement>(`pane-${pane.id}`).checked = pane.isShown;
+  if (app.panes.length > 1) {
+    for (const pane of app.panes) byId<HTMLInputElement>(`pane-${pane.id}`).checked = pane.isShown;
+  }
+  for (const { layer, isShown } of app.content.layers) byId<HTMLInputElement>(`layer-${layer}`).checked = isShown;
   for (const button of document.querySelectorAll<HTMLElement>("[data-worst]")) {
     button.setAttribute("aria-pressed", String(Number(button.dataset.worst) === app.worstIndex));
   }
@@ -63,7 +72,8 @@ export function show(app: App): void {
 
 function showTitles(app: App): void {
   byId("titles").replaceChildren(...app.stage.places().map(({ pane, place }) => {
-    const mesh = pane.id === "result" ? app.meshes.result : app.meshes.original;
+    const { original, result } = app.content.meshes;
+    const mesh = pane.id === "result" ? result! : original;
     const faces = inDigits(mesh.corners.length / 3);
     const count = mesh.thinnedFrom > 0
       ? `${faces} faces drawn in place of ${inDigits(mesh.thinnedFrom)}: a remesh of this one`
@@ -101,7 +111,7 @@ function showPicked(app: App): void {
 }
 
 function nextMode(app: App): void {
-  const modes = colorModes.map(({ mode }) => mode).filter((mode) => app.hasMode(mode));
+  const modes = app.modes.map(({ mode }) => mode);
   app.setMode(modes[(modes.indexOf(app.mode) + 1) % modes.length]);
 }
 
@@ -127,6 +137,7 @@ function pressKey(app: App, event: KeyboardEvent): void {
     p: () => app.flyToWorst(app.worstIndex < 0 ? -1 : app.worstIndex - 1),
     r: () => app.reset(), t: () => app.setTheme(otherTheme(app)), Escape: () => app.clearPick(), "?": toggleKeys,
   };
+  for (const { key, layer, isShown } of app.content.layers) others[key] = () => app.setLayer(layer, !isShown);
   const action = (isOnStage ? turns[event.key] : undefined) ??
     (isInControl ? undefined : others[event.key.length === 1 ? event.key.toLowerCase() : event.key]);
   if (!action) return;

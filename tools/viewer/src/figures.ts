@@ -1,7 +1,7 @@
 // The side column: figures as the reports of remesh and remesh-eval have them.
 import { byId, card, element, inDigits, table } from "./dom";
 import { histogramChart } from "./histogram";
-import type { PageData, Point, Report } from "./page_data";
+import type { PageData, Point, Report, ReportData } from "./page_data";
 
 /** What clicks in the column do. */
 export interface FigureActions {
@@ -9,14 +9,14 @@ export interface FigureActions {
   flyToPoint(point: Point, side: "original" | "result"): void;
 }
 
-export function fillFigures(data: PageData, actions: FigureActions): void {
+export function fillFigures(data: ReportData, actions: FigureActions): void {
   byId("figures").append(
     meshCard(data), distanceCard(data, actions), worstCard(data, actions), histogramCard(data),
     topologyCard(data), ...settingsCards(data));
   fillBadges(data);
 }
 
-function fillBadges(data: PageData): void {
+function fillBadges(data: ReportData): void {
   const { result, topology_kept: isKept } = data.evaluation;
   const badge = (text: string, kind = "") => element("li", kind ? { class: kind } : {}, text);
   byId("badges").append(
@@ -30,13 +30,13 @@ function fillBadges(data: PageData): void {
 
 type Row = [string, string, number];  // Name, key of the report, digits.
 
-function rowsOf(data: PageData, rows: Row[]): string[][] {
+function rowsOf(data: ReportData, rows: Row[]): string[][] {
   const { original, result } = data.evaluation;
   return rows.map(([name, key, digits]) =>
     [name, inDigits(original[key], digits), inDigits(result[key], digits)]);
 }
 
-function meshCard(data: PageData): HTMLElement {
+function meshCard(data: ReportData): HTMLElement {
   return card("Mesh", table(["", "Original", "Result"], rowsOf(data, [
     ["Vertices", "vertices", 4], ["Faces", "faces", 4], ["Q, mean", "mean_quality", 4],
     ["Q, least", "min_quality", 4], ["Smallest angle, mean (°)", "mean_min_angle_deg", 4],
@@ -50,7 +50,7 @@ function meshCard(data: PageData): HTMLElement {
   ])));
 }
 
-function distanceCard(data: PageData, actions: FigureActions): HTMLElement {
+function distanceCard(data: ReportData, actions: FigureActions): HTMLElement {
   const distance = data.evaluation.distance;
   if (!data.farthest) {
     return card("Distance", element("p", {}, "Not measured: the program was built without CGAL. " +
@@ -74,7 +74,7 @@ function distanceCard(data: PageData, actions: FigureActions): HTMLElement {
       `${inDigits(distance.samples_per_surface)} points on each surface.`));
 }
 
-function worstCard(data: PageData, actions: FigureActions): HTMLElement {
+function worstCard(data: ReportData, actions: FigureActions): HTMLElement {
   const list = element("ol", { class: "worst", start: "1" });
   data.worst.forEach((worst, index) => {
     const button = element("button", { type: "button", "data-worst": String(index) },
@@ -89,22 +89,22 @@ function worstCard(data: PageData, actions: FigureActions): HTMLElement {
     element("p", { class: "note" }, "Click one to see it. Faces are counted from 0."));
 }
 
-function histogramCard(data: PageData): HTMLElement {
+function histogramCard(data: ReportData): HTMLElement {
   const { original, result } = data.histograms;
   return card("Histograms",
     element("p", { class: "note keys-of-chart" }, element("span", { class: "key-bar" }), "Result ",
             element("span", { class: "key-line" }), "Original"),
     histogramChart({ title: "Angles", unit: "°", ticks: [0, 30, 60, 90, 120, 150, 180] },
-                   original.angle, result.angle),
+                   result.angle, original.angle),
     histogramChart({ title: "Quality Q", unit: "", ticks: [0, 0.25, 0.5, 0.75, 1] },
-                   original.quality, result.quality),
+                   result.quality, original.quality),
     histogramChart({ title: "Edge length over target", unit: "", ticks: [0, 0.5, 1, 1.5, 2, 2.5], isOpenEnded: true },
-                   original.edge, result.edge),
+                   result.edge, original.edge),
     histogramChart({ title: "Valence", unit: "", ticks: [0, 2, 4, 6, 8, 10, 12], isOpenEnded: true },
-                   original.valence, result.valence));
+                   result.valence, original.valence));
 }
 
-function topologyCard(data: PageData): HTMLElement {
+function topologyCard(data: ReportData): HTMLElement {
   const { original, result } = data.evaluation;
   const yes = (value: boolean) => value ? "yes" : "no";
   return card("Topology", table(["", "Original", "Result"], [
@@ -116,15 +116,9 @@ function topologyCard(data: PageData): HTMLElement {
   ]), element("p", { class: "note" }, "The original after its repair."));
 }
 
-function settingsCards(data: PageData): HTMLElement[] {
-  const command = element("pre", { id: "command", tabindex: "0" }, data.command);
-  const cards = [card("How it was made", command,
-    element("p", { class: "note" }, `Version ${data.version}` +
-      (data.run ? `, seed ${data.run.options.seed}` : "")))];
-  const warnings: string[] = data.run?.warnings ?? [];
-  if (warnings.length > 0) {
-    cards.unshift(card("Warnings", element("ul", {}, ...warnings.map((w) => element("li", {}, w)))));
-  }
+function settingsCards(data: ReportData): HTMLElement[] {
+  const cards = [...warningCards(data.run?.warnings ?? []),
+                 commandCard(data, data.run ? [`seed ${data.run.options.seed}`] : [])];
   if (data.run) {
     cards.push(detailsOf("Settings", data.run.options));
     cards.push(detailsOf("Repairs of the input", data.run.input_repair));
@@ -132,6 +126,17 @@ function settingsCards(data: PageData): HTMLElement[] {
     cards.push(detailsOf("Repairs of the original", data.evaluation.original_repair));
   }
   return cards;
+}
+
+export function warningCards(warnings: string[]): HTMLElement[] {
+  if (warnings.length === 0) return [];
+  return [card("Warnings", element("ul", {}, ...warnings.map((w) => element("li", {}, w))))];
+}
+
+/** @param more  texts behind the version */
+export function commandCard({ command, version }: PageData, more: string[]): HTMLElement {
+  const note = element("p", { class: "note" }, [`Version ${version}`, ...more].join(", "));
+  return card("How it was made", ...(command ? [element("pre", { id: "command", tabindex: "0" }, command)] : []), note);
 }
 
 function detailsOf(title: string, values: Report): HTMLElement {

@@ -1,4 +1,4 @@
-// Histograms: bars of the result, and the original as a line.
+// Histograms: bars, and those of the original as a line.
 import { element, inDigits, svg } from "./dom";
 import type { Histogram } from "./page_data";
 
@@ -6,12 +6,12 @@ const width = 340, height = 108, floor = 88;
 
 export interface HistogramText { title: string; unit: string; ticks: number[]; isOpenEnded?: boolean }
 
-export function histogramChart(text: HistogramText, original: Histogram, result: Histogram): HTMLElement {
+export function histogramChart(text: HistogramText, result: Histogram, original: Histogram | null = null): HTMLElement {
   const shares = (histogram: Histogram) => {
     const sum = histogram.counts.reduce((a, b) => a + b, 0) || 1;
     return histogram.counts.map((count) => count / sum);
   };
-  const before = shares(original), after = shares(result);
+  const before = original ? shares(original) : [], after = shares(result);
   const most = Math.max(...before, ...after, 1e-9);
   const bin = width / after.length;
   const y = (share: number) => floor - share / most * (floor - 8);
@@ -20,8 +20,8 @@ export function histogramChart(text: HistogramText, original: Histogram, result:
   }, svg("title", {}, barText(text, result, i, share))));
   const path = before.map((share, i) => `${i === 0 ? "M" : "L"}${i * bin} ${y(share)}h${bin}`).join("");
   const chart = svg("svg", { viewBox: `0 0 ${width} ${height}`, role: "img", class: "histogram" },
-    svg("title", {}, `${text.title}: bars of the result, line of the original`), ...bars,
-    svg("path", { class: "before", d: path }),
+    svg("title", {}, original ? `${text.title}: bars of the result, line of the original` : text.title), ...bars,
+    ...(original ? [svg("path", { class: "before", d: path })] : []),
     svg("line", { class: "axis", x1: 0, x2: width, y1: floor, y2: floor }),
     ...text.ticks.map((tick) => tickAt(tick, (tick - result.low) / result.width * bin, text.unit)));
   return element("figure", {}, element("figcaption", {}, text.title), chart);

@@ -28,6 +28,9 @@ const fragmentShader = `
 /** In CSS pixels; of the pane that is drawn. */
 export const viewport = { value: new Vector2(1, 1) };
 
+/** Pixels of the canvas for each of CSS. */
+export const pixelRatio = { value: 1 };
+
 /** @param isInFront  lines are drawn over everything. */
 export function lineMaterial(width: number, isInFront = false): RawShaderMaterial {
   return new RawShaderMaterial({

@@ -19,22 +19,39 @@ interface MeshDescription {
   low: Point;
   step: number;
   values: { key: string; low: number; high: number; has_growing_steps: boolean }[];
-  labels?: { name: string; count: number };
-  cell_step?: number;
+  labels?: { name: string; count: number; has_none: boolean };
+  line_step: number;
   streams: [string, number][];
   gzip: boolean;
 }
 
+/** Of every page. */
 export interface PageData {
   version: string;
   command: string;
   original: MeshDescription;
+}
+
+/** Of a remesh. */
+export interface ReportData extends PageData {
   result: MeshDescription;
   evaluation: Report;
   farthest: { from_original: Point; from_result: Point } | null;
   histograms: { original: Histograms; result: Histograms };
   worst: WorstFace[];
   run: Report | null;
+}
+
+/** Of a diagram. */
+export interface DiagramData extends PageData {
+  diagram: {
+    figures: Report;
+    histograms: { area: Histogram; neighbours: Histogram };
+    engine: string;
+    certified_error: number | null;
+    isoline_step: number;
+    warnings: string[];
+  };
 }
 
 export interface VertexValues { values: Float32Array; low: number; high: number }
@@ -44,15 +61,20 @@ export interface PageMesh extends TriangleMesh {
   name: string;
   thinnedFrom: number;
   values: Map<string, VertexValues>;
-  labels: { name: string; ofFaces: Uint32Array } | null;
+  /** hasNone: label 0 stands for faces without one. */
+  labels: { name: string; ofFaces: Uint32Array; hasNone: boolean } | null;
   /** Pairs of vertices. */
   creases: Uint32Array;
   /** Six coordinates for each piece of a line between cells. */
   cellLines: Float32Array;
+  /** Likewise, of lines of equal distance. */
+  isolines: Float32Array;
+  /** Three coordinates each. */
+  sites: Float32Array;
 }
 
-export function readPageData(): PageData {
-  return JSON.parse(textOf("page-data")) as PageData;
+export function readPageData(): ReportData | DiagramData {
+  return JSON.parse(textOf("page-data")) as ReportData | DiagramData;
 }
 
 /**
@@ -61,8 +83,7 @@ export function readPageData(): PageData {
  */
 export interface Frame { origin: Point; diagonal: number }
 
-export function frameOf(data: PageData): Frame {
-  const { low, step } = data.original;
+export function frameOf({ low, step }: Pick<MeshDescription, "low" | "step">): Frame {
   const diagonal = step > 0 ? step * 2 ** 18 : 1;
   return { origin: low.map((x) => x + diagonal / 4) as Point, diagonal };
 }
@@ -75,8 +96,8 @@ export function fromDrawn(point: ArrayLike<number>, frame: Frame): Point {
   return [0, 1, 2].map((k) => point[k] * frame.diagonal + frame.origin[k]) as Point;
 }
 
-export async function readMesh(id: "original" | "result", data: PageData): Promise<PageMesh> {
-  const description = data[id];
+/** @param frame  of the original */
+export async function readMesh(id: "original" | "result", description: MeshDescription, frame: Frame): Promise<PageMesh> {
   const bytes = await bytesOf(`${id}-mesh`, description.gzip);
   const streams = new Map<string, Uint8Array>();
   let at = 0;
@@ -85,12 +106,13 @@ export async function readMesh(id: "original" | "result", data: PageData): Promi
     at += length;
   }
   const stream = (name: string) => streams.get(name) ?? new Uint8Array(0);
-  const frame = frameOf(data);
   const shift = toDrawn(description.low, frame);
   const mesh = unpackMesh({
     vertices: description.vertices, faces: description.faces, step: description.step / frame.diagonal,
     codes: stream("codes"), corners: stream("corners"), offsets: stream("offsets"),
   }, shift);
+  const lineStep = description.line_step / frame.diagonal;
+  const lines = (kind: string) => piecesOf(stream(`${kind}_lengths`), readPoints(stream(`${kind}_steps`), lineStep, shift));
   return {
     ...mesh,
     name: description.name,
@@ -99,10 +121,12 @@ export async function readMesh(id: "original" | "result", data: PageData): Promi
     labels: description.labels ? {
       name: description.labels.name,
       ofFaces: readNumbers(stream("labels"), description.faces),
+      hasNone: description.labels.has_none,
     } : null,
     creases: readCreases(stream("creases")),
-    cellLines: readLines(stream("cell_lengths"), stream("cell_steps"),
-                         (description.cell_step ?? 0) / frame.diagonal, shift),
+    cellLines: lines("cell"),
+    isolines: lines("isoline"),
+    sites: readPoints(stream("site_steps"), lineStep, shift),
   };
 }
 
@@ -144,19 +168,28 @@ function readCreases(bytes: Uint8Array): Uint32Array {
   return Uint32Array.from(pairs);
 }
 
-function readLines(lengths: Uint8Array, steps: Uint8Array, step: number,
-                   shift: readonly number[]): Float32Array {
-  const lengthReader = new NumberReader(lengths), stepReader = new NumberReader(steps);
-  const pieces: number[] = [];
-  const grid = [0, 0, 0];
-  while (!lengthReader.isAtEnd) {
-    let before: number[] | null = null;
-    for (let left = lengthReader.next(); left > 0; --left) {
-      for (let k = 0; k < 3; ++k) grid[k] += stepReader.nextSigned();
-      const point = grid.map((x, k) => x * step + shift[k]);
-      if (before) pieces.push(...before, ...point);
-      before = point;
+/** @param step  of the grid, which begins at `shift`. */
+function readPoints(steps: Uint8Array, step: number, shift: readonly number[]): Float32Array {
+  const reader = new NumberReader(steps);
+  const grid = [0, 0, 0], points: number[] = [];
+  while (!reader.isAtEnd) {
+    for (let k = 0; k < 3; ++k) {
+      grid[k] += reader.nextSigned();
+      points.push(grid[k] * step + shift[k]);
     }
+  }
+  return Float32Array.from(points);
+}
+
+/** Of lines of so many points: six coordinates for each piece. */
+function piecesOf(lengths: Uint8Array, points: Float32Array): Float32Array {
+  const reader = new NumberReader(lengths);
+  const pieces: number[] = [];
+  let at = 0;
+  while (!reader.isAtEnd) {
+    const end = at + 3 * reader.next();
+    for (; at + 3 < end; at += 3) pieces.push(...points.subarray(at, at + 6));
+    at = end;
   }
   return Float32Array.from(pieces);
 }

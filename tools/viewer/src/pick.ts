@@ -63,6 +63,8 @@ export interface FaceFigures {
   distance: number | null;
   /** Target length, likewise. */
   target: number | null;
+  /** To the nearest site, likewise. */
+  nearest: number | null;
 }
 
 /** Those of the worst faces come from the program, in full precision. */
@@ -74,6 +76,7 @@ export function figuresOf(mesh: PageMesh, face: number, frame: Frame, worst: Wor
   return {
     face: known?.face ?? null, angles, edges, area,
     distance: meanOf(mesh, face, "distance", 100 / frame.diagonal), target: meanOf(mesh, face, "target", 1),
+    nearest: meanOf(mesh, face, "nearest", 1),
     quality: known?.quality ?? quality, minAngle: known?.min_angle_deg ?? Math.min(...angles),
   };
 }
@@ -104,6 +107,7 @@ export function figureTable(title: string, figures: FaceFigures): HTMLElement {
       ["Edges", list(figures.edges, 3, "")],
       ["Area", inDigits(figures.area, 3)],
       ...(figures.distance === null ? [] : [["Distance", `${inDigits(figures.distance, 3)} %`]]),
+      ...(figures.nearest === null ? [] : [["Distance to the site", inDigits(figures.nearest, 3)]]),
       ...(figures.target === null ? [] : [["Target length", inDigits(figures.target, 3)]]),
     ]));
 }

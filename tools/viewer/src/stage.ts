@@ -3,7 +3,7 @@ import {
   Box3, Color, Object3D, PerspectiveCamera, Raycaster, Scene, Sphere, Vector2, Vector3, WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
-import { viewport } from "./lines";
+import { pixelRatio, viewport } from "./lines";
 
 export interface Pane {
   id: string;
@@ -153,7 +153,8 @@ export class Stage {
     const { clientWidth, clientHeight } = this.canvas;
     if (clientWidth === 0 || clientHeight === 0) return;
     // Two samples a side smooth the edges where drawing is quick.
-    this.renderer.setPixelRatio(this.isSoftware ? 1 : Math.max(2, Math.min(window.devicePixelRatio, 3)));
+    pixelRatio.value = this.isSoftware ? 1 : Math.max(2, Math.min(window.devicePixelRatio, 3));
+    this.renderer.setPixelRatio(pixelRatio.value);
     this.renderer.setSize(clientWidth, clientHeight, false);
     if (this.isAtHome) this.reset();
     this.onLayout(this.places());

@@ -5,6 +5,7 @@ import {
 import { CoarseMesh, coarseMesh, mostFacesInMotion } from "./coarse";
 import { lineMaterial, lineMesh, setLineColor } from "./lines";
 import type { PageMesh } from "./page_data";
+import { pointMaterial, pointMesh } from "./points";
 import { Edges, findEdges } from "./shapes";
 
 // Corners of a face follow each other, so their numbers give barycentric coordinates.
@@ -56,18 +57,23 @@ const fragmentShader = `
   }`;
 
 // CSS pixels.
-const widths = { crease: 2, boundary: 2, cell: 1.3 };
+const widths = { crease: 2, boundary: 2, cell: 1.3, isoline: 1 };
+const siteSize = 7;
 
-export interface LineColors { crease: string; boundary: string; cell: string }
+/** What is drawn on the faces of a diagram. */
+export type Layer = "cell" | "isoline" | "site";
+type Kind = "crease" | "boundary" | Layer;
+export type LineColors = Record<Kind, string>;
 
 export class SurfaceView {
   readonly group = new Group();
   readonly sphere: Sphere;
   private readonly lineMaterials = {
     crease: lineMaterial(widths.crease), boundary: lineMaterial(widths.boundary), cell: lineMaterial(widths.cell),
+    isoline: lineMaterial(widths.isoline), site: pointMaterial(siteSize),
   };
   private readonly lines = new Group();
-  private readonly cells = new Group();
+  private readonly layers: Record<Layer, Group> = { cell: new Group(), isoline: new Group(), site: new Group() };
   private readonly geometry = new BufferGeometry();
   private readonly faces: Mesh;
   private coarse: { mesh: CoarseMesh; drawn: Mesh } | null = null;
@@ -88,8 +94,11 @@ export class SurfaceView {
     this.sphere = sphereAround(positions);
     this.faces = new Mesh(this.geometry, this.material);
     this.faces.frustumCulled = false;
-    this.group.add(this.faces, this.lines, this.cells);
-    this.cells.visible = false;
+    this.group.add(this.faces, this.lines);
+    for (const layer of Object.values(this.layers)) {
+      layer.visible = false;
+      this.group.add(layer);
+    }
   }
 
   get edges(): Edges { return this.foundEdges ??= findEdges(this.mesh, this.mesh.creases); }
@@ -141,17 +150,18 @@ export class SurfaceView {
     this.addLines(this.lines, this.piecesOf(this.edges.boundary), "boundary");
   }
 
-  showCells(isShown: boolean): void {
-    this.cells.visible = isShown;
-    if (isShown && this.cells.children.length === 0) {
-      this.addLines(this.cells, this.mesh.cellLines, "cell");
-    }
+  /** Made when it is first shown. */
+  showLayer(kind: Layer, isShown: boolean): void {
+    const layer = this.layers[kind];
+    layer.visible = isShown;
+    if (!isShown || layer.children.length > 0) return;
+    if (kind === "cell") this.addLines(layer, this.mesh.cellLines, kind);
+    if (kind === "isoline") this.addLines(layer, this.mesh.isolines, kind);
+    if (kind === "site") layer.add(pointMesh(this.mesh.sites, this.lineMaterials.site));
   }
 
   setLineColors(colors: LineColors): void {
-    for (const kind of ["crease", "boundary", "cell"] as const) {
-      setLineColor(this.lineMaterials[kind], colors[kind]);
-    }
+    for (const kind of Object.keys(colors) as Kind[]) setLineColor(this.lineMaterials[kind], colors[kind]);
   }
 
   private piecesOf(pairs: Uint32Array): Float32Array {
@@ -162,7 +172,7 @@ export class SurfaceView {
     return pieces;
   }
 
-  private addLines(group: Group, pieces: Float32Array, kind: keyof LineColors): void {
+  private addLines(group: Group, pieces: Float32Array, kind: Kind): void {
     if (pieces.length > 0) group.add(lineMesh(pieces, this.lineMaterials[kind]));
   }
 }
