@@ -34,26 +34,27 @@ struct SplitOptions {
     std::uint64_t seed = RemeshOptions{}.seed;      //!< See RemeshOptions.
     int relax_steps = RemeshOptions{}.relax_steps;  //!< >= 1.
     int num_threads = 0;                            //!< >= 0; 0: all cores.
-    Progress progress = {};
+    Progress progress = {};                         //!< Polled during the call; see poll.
 };
 
 //! What plan.json holds.
 struct TilePlan {
-    std::string input;              //!< Path of the file, as it was given.
-    std::uint64_t input_bytes = 0;  //!< Its size.
-    std::uint64_t num_faces = 0;    //!< Of the file.
-    double area = 0;                //!< Square mesh units.
-    double spacing = 0;             //!< Mesh units: of the vertices of the result.
-    Index num_samples = 0;
-    Index samples_per_tile = 0;
-    std::uint64_t seed = 0;
-    int relax_steps = 0;
+    std::string input;                //!< Path of the file, as it was given.
+    std::uint64_t input_bytes = 0;    //!< Its size.
+    std::uint64_t num_faces = 0;      //!< Of the file.
+    double area = 0;                  //!< Square mesh units.
+    double spacing = 0;               //!< Mesh units: of the vertices of the result.
+    Index num_samples = 0;            //!< See SplitOptions, as the next three.
+    Index samples_per_tile = 0;       //!< See SplitOptions.
+    std::uint64_t seed = 0;           //!< See SplitOptions.
+    int relax_steps = 0;              //!< See SplitOptions.
     std::vector<Index> num_vertices;  //!< By tile: of its mesh, those on borders included.
     Index num_sites = 0;              //!< On all borders.
     //! What the sum of the Euler characteristics of the tiles has too much: further copies of the
     //! vertices on borders, minus those of the edges.
     std::int64_t border_euler = 0;
 
+    //! How many tiles there are.
     [[nodiscard]] Index num_tiles() const { return static_cast<Index>(num_vertices.size()); }
 };
 
@@ -82,10 +83,11 @@ TilePlan split_into_tiles(const std::filesystem::path& file, const std::filesyst
 
 //! How tiles are worked on; the bytes do not depend on it.
 struct TileJobOptions {
-    int num_threads = 0;  //!< >= 0; 0: all cores.
-    Progress progress = {};
+    int num_threads = 0;     //!< >= 0; 0: all cores.
+    Progress progress = {};  //!< Polled during the call; see poll.
 };
 
+//! How many tiles have a mesh.
 struct MeshedTiles {
     Index made = 0;   //!< Now.
     Index there = 0;  //!< Before.
@@ -105,7 +107,7 @@ MeshedTiles mesh_tiles(const std::filesystem::path& folder, std::span<const Inde
 
 //! All tiles as one mesh.
 struct JoinedTiles {
-    TriangleMesh mesh;
+    TriangleMesh mesh;  //!< Oriented and manifold.
     Topology topology;  //!< Of the mesh.
     //! Pairs of faces that intersect; unset: without CGAL.
     std::optional<Index> self_intersections = {};
