@@ -1,6 +1,7 @@
 #include "remesh/tiles/join_parts.h"
 
 #include <map>
+#include <numeric>
 #include <utility>
 
 #include "agvd/core/union_find.h"

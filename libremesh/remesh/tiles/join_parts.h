@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "agvd/core/types.h"
 #include "remesh/names.h"
 
 namespace remesh {
