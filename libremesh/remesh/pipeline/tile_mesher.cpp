@@ -31,6 +31,12 @@ std::vector<DirectedEdge> edges_on_creases(const MeshCurves& curves, const Place
 
 }  // namespace
 
+void lock_sites(TileInput& tile) {
+    for (Index v = 0; v < tile.border_site.size(); ++v) {
+        if (tile.border_site[v] != no_index) tile.cleaned.locked.vertices.push_back(v);
+    }
+}
+
 std::optional<MeshedTile> mesh_tile(const TileInput& tile, const StageContext& context) {
     const Surface& surface = tile.cleaned.surface;
     const KeptCurves curves{

@@ -16,6 +16,9 @@ struct TileInput {
     double spacing = 0;                        //!< Mesh units: of the vertices.
 };
 
+//! Locks the vertices that are sites of borders. Cost: O(#V).
+void lock_sites(TileInput& tile);
+
 //! Its mesh.
 struct MeshedTile {
     JoinedMesh joined;                        //!< On the surface of the tile.

@@ -64,6 +64,7 @@ private:
         input.cleaned.topology = analyze_topology(input.cleaned.surface.mesh.view(), progress);
         find_curves(tile, input);
         input.border_site = std::move(tile.border_site);
+        lock_sites(input);
         RemeshOptions options = context_.options;
         options.num_threads = 1;
         options.num_samples =
@@ -84,7 +85,7 @@ private:
         made.has_mesh = true;
     }
 
-    // Locks the borders of a tile, and marks its creases.
+    // Locks the edges of borders of a tile, and marks its creases.
     void find_curves(const Tile& tile, TileInput& input) const {
         const Surface &surface = input.cleaned.surface, &whole = *curved_.whole;
         LockedElements& locked = input.cleaned.locked;
@@ -99,9 +100,6 @@ private:
             } else if (of_whole != no_index && is_crease_[whole.edge[of_whole]] != 0) {
                 input.is_crease[e] = 1;
             }
-        }
-        for (Index v = 0; v < tile.border_site.size(); ++v) {
-            if (tile.border_site[v] != no_index) locked.vertices.push_back(v);
         }
     }
 

@@ -200,9 +200,9 @@ std::optional<Index> unfit_crossings(Glued& glued, const TileJobOptions& options
 // \return unset: the mesh is none, or has another Euler characteristic.
 std::optional<Topology> right_topology(const Glued& glued, const Progress& progress) {
     Topology topology = analyze_topology(glued.mesh.view(), progress);
-    std::int64_t euler = 0;
-    for (const ComponentTopology& component : topology.components) euler += component.euler;
-    if (!topology.is_manifold || !topology.is_oriented || euler != glued.euler) return std::nullopt;
+    if (!topology.is_manifold || !topology.is_oriented || euler_of(topology) != glued.euler) {
+        return std::nullopt;
+    }
     return topology;
 }
 

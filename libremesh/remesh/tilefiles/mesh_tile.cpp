@@ -6,6 +6,7 @@
 #include "agvd/core/error.h"
 #include "agvd/core/number_text.h"
 #include "agvd/core/random.h"
+#include "agvd/mesh/any_mesh.h"
 #include "agvd/mesh/surface_points.h"
 #include "remesh/clean/coarsen.h"
 #include "remesh/pipeline/coarse_input.h"
@@ -139,9 +140,7 @@ detail::TileInput tile_input(const TileFile& file, const std::string& name, doub
             std::ranges::binary_search(borders, DirectedEdge(surface.tail(h), surface.head(h))) ? 1
                                                                                                 : 0;
     }
-    for (Index v = 0; v < input.border_site.size(); ++v) {
-        if (input.border_site[v] != no_index) locked.vertices.push_back(v);
-    }
+    lock_sites(input);
     return input;
 }
 
@@ -164,24 +163,9 @@ void take_strip(const Surface& surface, const detail::JoinedMesh& joined, double
     for (SurfacePoint& point : made.points) {
         point.face = FaceId(rank_of(faces, point.face.value()));
     }
-    std::vector<Index> used;
-    for (const Index f : faces) {
-        const Triangle& t = surface.mesh.triangles[f];
-        used.insert(used.end(), t.begin(), t.end());
-    }
-    used = distinct(std::move(used));
-    made.strip.positions = take(surface.mesh.positions, used);
-    for (const Index f : faces) {
-        Triangle t = surface.mesh.triangles[f];
-        for (Index& v : t) v = rank_of(used, v);
-        made.strip.triangles.push_back(t);
-    }
-}
-
-std::int64_t euler_of(const Topology& topology) {
-    std::int64_t sum = 0;
-    for (const ComponentTopology& component : topology.components) sum += component.euler;
-    return sum;
+    made.strip.triangles = take(surface.mesh.triangles, faces);
+    made.strip.positions =
+        take(surface.mesh.positions, drop_unused(surface.num_vertices(), made.strip.triangles));
 }
 
 // Makes the mesh of a tile.

@@ -77,6 +77,12 @@ fs::path plan_path(const fs::path& folder) { return folder / "plan.json"; }
 fs::path tile_path(const fs::path& folder, Index tile) { return numbered(folder, tile, ".tile"); }
 fs::path mesh_path(const fs::path& folder, Index tile) { return numbered(folder, tile, ".mesh"); }
 
+std::int64_t euler_of(const Topology& topology) {
+    std::int64_t sum = 0;
+    for (const ComponentTopology& component : topology.components) sum += component.euler;
+    return sum;
+}
+
 std::uint64_t identity_of(const TilePlan& plan) {
     std::uint64_t sum = plan_version;
     const auto add = [&](std::uint64_t value) { sum = mix_bits(sum ^ value); };

@@ -39,6 +39,9 @@ struct TileMeshFile {
 [[nodiscard]] std::filesystem::path tile_path(const std::filesystem::path& folder, Index tile);
 [[nodiscard]] std::filesystem::path mesh_path(const std::filesystem::path& folder, Index tile);
 
+//! V - E + F of a mesh.
+[[nodiscard]] std::int64_t euler_of(const Topology& topology);
+
 //! A number that differs for different plans, to tell which files belong together.
 [[nodiscard]] std::uint64_t identity_of(const TilePlan& plan);
 
