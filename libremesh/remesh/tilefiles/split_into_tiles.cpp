@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "agvd/core/error.h"
+#include "agvd/core/groups.h"
 #include "agvd/core/number_text.h"
 #include "agvd/core/random.h"
 #include "agvd/core/union_find.h"
@@ -106,37 +107,53 @@ bool is_before(const RimEdge& a, const RimEdge& b) {
     return a.part < b.part;
 }
 
-// The faces of a cell of the tree that are connected by vertices.
+// The faces of a cell of the tree that are connected by edges.
 struct CellParts {
     std::vector<Index> part_of_face;
     std::vector<double> area, rim_length;  // By part.
     std::vector<RimEdge> rim;              // Parts of the cell.
 };
 
+// Whether a face has an edge, in this direction.
+bool has_edge(const Triangle& t, Index from, Index to) {
+    return (t[0] == from && t[1] == to) || (t[1] == from && t[2] == to) ||
+           (t[2] == from && t[0] == to);
+}
+
 CellParts find_parts(const TriangleMesh& mesh) {
-    UnionFind parts(mesh.positions.size());
-    for (const auto& [a, b, c] : mesh.triangles) {
-        parts.unite(a, b);
-        parts.unite(a, c);
+    const auto num_faces = static_cast<Index>(mesh.triangles.size());
+    const Groups faces_at = triangles_by_vertex(mesh.triangles, mesh.positions.size());
+    const auto is_fewer = [&](Index a, Index b) {
+        return faces_at.of(a).size() < faces_at.of(b).size();
+    };
+    UnionFind parts(num_faces);
+    std::vector<Index> rim;  // Half-edges.
+    for (Index h = 0; h < 3 * num_faces; ++h) {
+        const Triangle& t = mesh.triangles[h / 3];
+        const Index from = t[h % 3], to = t[(h % 3 + 1) % 3];
+        bool is_rim = true;
+        for (const Index other : faces_at.of(is_fewer(from, to) ? from : to)) {
+            const bool is_across = has_edge(mesh.triangles[other], to, from);
+            is_rim = is_rim && !is_across;
+            if (is_across || has_edge(mesh.triangles[other], from, to)) parts.unite(h / 3, other);
+        }
+        if (is_rim) rim.push_back(h);
     }
     CellParts found;
-    std::vector<Index> number(mesh.positions.size(), no_index);  // Of a root.
-    const auto part_at = [&](Index vertex) {
-        Index& part = number[parts.root(vertex)];
-        if (part == no_index) {
-            part = static_cast<Index>(found.area.size());
+    for (Index f = 0; f < num_faces; ++f) {
+        if (parts.is_root(f)) {
+            found.part_of_face.push_back(static_cast<Index>(found.area.size()));
             found.area.push_back(0);
             found.rim_length.push_back(0);
+        } else {
+            found.part_of_face.push_back(found.part_of_face[parts.root(f)]);
         }
-        return part;
-    };
-    for (Index f = 0; f < mesh.triangles.size(); ++f) {
-        const Index part = part_at(mesh.triangles[f][0]);
-        found.part_of_face.push_back(part);
-        found.area[part] += doubled_normal(mesh.positions, mesh.triangles[f]).norm() / 2;
+        found.area[found.part_of_face[f]] += area_of(corners_of(mesh.view(), f));
     }
-    for (const auto& [from, to] : rim_of(mesh.triangles)) {
-        const RimEdge edge{mesh.positions[from], mesh.positions[to], part_at(from)};
+    for (const Index h : rim) {
+        const Triangle& t = mesh.triangles[h / 3];
+        const RimEdge edge{mesh.positions[t[h % 3]], mesh.positions[t[(h % 3 + 1) % 3]],
+                           found.part_of_face[h / 3]};
         found.rim_length[edge.part] += edge.length();
         found.rim.push_back(edge);
     }

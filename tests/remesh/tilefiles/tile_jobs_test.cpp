@@ -5,11 +5,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "agvd/core/error.h"
 #include "remesh/meshfile/mesh_file.h"
 #include "remesh/quality/evaluate.h"
+#include "remesh/tilefiles/tile_file.h"
 #include "support/files.h"
 #include "support/shapes.h"
 
@@ -128,6 +132,92 @@ TEST_F(TileJobs, OrderAndThreadsDoNotCount) {
     const TriangleMesh joined = remesh::join_tiles(folder_ / "b", {.num_threads = 1}).mesh;
     EXPECT_EQ(joined.positions, expected.positions);
     EXPECT_EQ(joined.triangles, expected.triangles);
+}
+
+// A torus with deep bumps: borders run through its saddles.
+TriangleMesh bumpy_torus(int around, int along, int twisted) {
+    TriangleMesh mesh = shapes::torus(140, 60, 0.4);
+    for (Vec3& p : mesh.positions) {
+        const double v = std::atan2(p.y(), p.x());
+        const Vec3 middle(std::cos(v), std::sin(v), 0);
+        const double u = std::atan2(p.z(), std::hypot(p.x(), p.y()) - 1);
+        const double bump =
+            std::sin(around * v + 1) * std::cos(along * u) + std::sin(twisted * v + along * u + 2);
+        p = middle + (1 + 0.3 * bump) * (p - middle);
+    }
+    return mesh;
+}
+
+// How many edges of borders begin at a vertex where another one of this tile begins.
+Index num_meetings(const fs::path& folder, const remesh::TilePlan& plan) {
+    Index count = 0;
+    for (Index t = 0; t < plan.num_tiles(); ++t) {
+        const remesh::TileFile tile = remesh::read_tile(folder, t, remesh::identity_of(plan));
+        std::vector<Index> begins;
+        for (const auto& edge : tile.border) begins.push_back(edge[0]);
+        count += static_cast<Index>(begins.size() - agvd::distinct(begins).size());
+    }
+    return count;
+}
+
+TEST_F(TileJobs, ABorderThatMeetsItselfCostsNoVertex) {
+    const std::array<TriangleMesh, 2> shapes{bumpy_torus(4, 5, 5), bumpy_torus(5, 2, 6)};
+    for (std::size_t i = 0; i < shapes.size(); ++i) {
+        const std::string name = std::to_string(i);
+        const fs::path file = put(name + ".ply", shapes[i]);
+        const auto plan = remesh::split_into_tiles(file, folder_ / name,
+                                                   {.num_samples = 4000, .samples_per_tile = 500});
+        ASSERT_GE(num_meetings(folder_ / name, plan), 1u) << i;
+        (void)remesh::mesh_tiles(folder_ / name, all_tiles(plan));
+        EXPECT_EQ(remesh::join_tiles(folder_ / name).mesh.positions.size(), 4000u) << i;
+    }
+}
+
+// What a plane cuts off that is much smaller than a tile goes to its neighbour.
+TEST_F(TileJobs, NoSmallPartHasABorder) {
+    Index num_parts = 0, num_tiles = 0;
+    for (int around = 2; around < 8; ++around) {
+        SCOPED_TRACE(around);
+        const std::string name = std::to_string(around);
+        const fs::path file = put(name + ".ply", bumpy_torus(around, 9 - around, around + 3));
+        const auto plan = remesh::split_into_tiles(file, folder_ / name,
+                                                   {.num_samples = 6000, .samples_per_tile = 500});
+        for (Index t = 0; t < plan.num_tiles(); ++t) {
+            const remesh::TileFile tile =
+                remesh::read_tile(folder_ / name, t, remesh::identity_of(plan));
+            const agvd::Topology topology = agvd::analyze_topology(tile.mesh.view());
+            // The torus is connected, so each part has a border.
+            for (const agvd::ComponentTopology& part : topology.components) {
+                EXPECT_GT(part.area, plan.area / 12 / 8);
+                ++num_parts;
+            }
+        }
+        num_tiles += plan.num_tiles();
+    }
+    EXPECT_GE(num_parts, num_tiles);
+    EXPECT_EQ(num_tiles, 6u * 12u);
+}
+
+// The faces at an edge are read 65 536 faces apart, and cut there at the same points.
+TEST_F(TileJobs, FacesThatComeFarApartFit) {
+    TriangleMesh mesh = shapes::moved(shapes::sphere(6), {0.1, 0.2, 0.3});
+    ASSERT_GT(mesh.triangles.size(), 65'536u);
+    std::vector<agvd::Triangle> mixed;
+    for (std::size_t f = 0; f < mesh.triangles.size(); f += 2) mixed.push_back(mesh.triangles[f]);
+    for (std::size_t f = 1; f < mesh.triangles.size(); f += 2) mixed.push_back(mesh.triangles[f]);
+    mesh.triangles = std::move(mixed);
+    const fs::path file = put("a.ply", mesh);
+    const auto plan = remesh::split_into_tiles(file, folder_ / "a", options);
+    EXPECT_EQ(plan.num_tiles(), 4u);
+    // Three planes across a ball: their circles are shorter than three of its own.
+    EXPECT_GT(plan.num_sites * plan.spacing, 2 * std::numbers::pi);
+    EXPECT_LT(plan.num_sites * plan.spacing, 6 * std::numbers::pi);
+    // The sphere has no boundary: all of the rim of a tile is border.
+    for (Index t = 0; t < plan.num_tiles(); ++t) {
+        const remesh::TileFile tile =
+            remesh::read_tile(folder_ / "a", t, remesh::identity_of(plan));
+        EXPECT_EQ(tile.border.size(), remesh::rim_of(tile.mesh.triangles).size()) << t;
+    }
 }
 
 // A file of faces without shared vertices gives the same as one with them.
