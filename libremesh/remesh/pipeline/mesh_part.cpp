@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "agvd/core/groups.h"
+#include "agvd/mesh/closest_point.h"
 
 namespace remesh::detail {
 
@@ -46,10 +47,12 @@ std::vector<Index> faces_around(const Surface& surface, std::span<const SurfaceP
         for (Index h = 3 * face; h < 3 * face + 3; ++h) {
             if (surface.twin[h] == no_index) continue;
             const Index next = Surface::face(surface.twin[h]);
-            const bool is_near = std::ranges::any_of(mesh.triangles[next], [&](Index v) {
-                return (mesh.positions[v] - start).norm() <= radius;
-            });
-            if (is_near && seen.insert(next).second) open.emplace_back(next, start);
+            if (seen.contains(next)) continue;
+            const ClosestPoint nearest =
+                closest_point_on_triangle(corners_of(mesh, next), FaceId(next), start);
+            if (nearest.distance_sq > radius * radius) continue;
+            seen.insert(next);
+            open.emplace_back(next, start);
         }
     }
     std::vector<Index> faces(seen.begin(), seen.end());

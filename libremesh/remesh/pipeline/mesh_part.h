@@ -20,7 +20,7 @@ namespace remesh::detail {
                                               std::span<const Index> vertices, Index most,
                                               std::span<const std::uint8_t> is_left_out = {});
 
-//! The faces in which some points lie, and those on the way to which no corner is farther than
+//! The faces in which some points lie, and those on the way to which no face is farther than
 //! `radius` in space from the point where the way began. Not all that are so near: the first way to
 //! a face counts.
 //! \return ascending. Cost: O(n log n), n = faces found.

@@ -61,7 +61,7 @@ std::optional<MeshedTile> mesh_tile(const TileInput& tile, const StageContext& c
         made.border_site[patches.glued.vertex[v]] =
             tile.border_site[network.nodes[patches.group[v]]];
     }
-    improve_in_places(domain, made.joined, context);
+    if (tile.is_improved) improve_in_places(domain, made.joined, context);
     made.creases =
         edges_on_creases(MeshCurves(*domain.whole, domain.cut(), network), made.joined.mesh);
     return made;

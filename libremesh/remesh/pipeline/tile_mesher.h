@@ -14,6 +14,8 @@ struct TileInput {
     std::vector<std::uint8_t> is_crease = {};  //!< #E: 1 inside the tile; empty: none.
     std::vector<Index> border_site = {};       //!< #V: the number of its site; no_index: none.
     double spacing = 0;                        //!< Mesh units: of the vertices.
+    //! Whether bad triangles are improved: not if the whole mesh will be.
+    bool is_improved = false;
 };
 
 //! Locks the vertices that are sites of borders. Cost: O(#V).
@@ -27,7 +29,7 @@ struct MeshedTile {
     std::vector<SurfacePoint> narrow_points;  //!< See PlacedSites.
 };
 
-//! Runs the stages from sampling to placement, and improves bad triangles.
+//! Runs the stages from sampling to placement.
 //! \param context  its num_samples are the vertices of the tile, those of borders included.
 //! \return nothing: the samples are too few, or there is no mesh that keeps the borders.
 //! \throw InvalidInput  a face is too narrow.

@@ -155,7 +155,9 @@ private:
         std::vector<double> around(surface.num_vertices(), 0);
         std::vector<Vec3> normal_at(surface.num_vertices(), Vec3::Zero());
         std::vector<Index> part_of(surface.num_vertices(), 0);
-        const double count = samples_for_each * mesh_.num_vertices();
+        double count = samples_for_each * mesh_.num_vertices();
+        // Faces near a part may go far beyond it: samples are as dense there as on the part.
+        if (!near.empty()) count *= area / measure_part();
         double due = 0;  // Samples that the faces so far should have.
         for_each_face([&](Index f) {
             const auto& [a, b, c] = surface.mesh.triangles[f];
@@ -178,8 +180,26 @@ private:
         const auto stride = static_cast<Index>(1 + num_near / count);
         for (Index v = 0, rank = 0; v < surface.num_vertices(); ++v) {
             if (!(around[v] > 0) || rank++ % stride != 0) continue;
-            samples_.push_back({p[v], stride * around[v], part_of[v], Side::of(normal_at[v])});
+            add({p[v], stride * around[v], part_of[v], Side::of(normal_at[v])});
         }
+    }
+    // Finds where samples tell anything.
+    // \return the area of the mesh.
+    double measure_part() {
+        const Vec3 room = Vec3::Constant(largest * mesh_.mean_length());
+        box_ = {};
+        double area = 0;
+        for (Index f = 0; f < mesh_.num_faces(); ++f) {
+            area += normal_of(mesh_.corners_of(f)).norm() / 2;
+            box_.add(mesh_.box_of(f));
+        }
+        box_ = {box_.low - room, box_.high + room};
+        return area;
+    }
+    void add(const Sample& sample) {
+        const bool is_near = (sample.at.array() >= box_.low.array()).all() &&
+                             (sample.at.array() <= box_.high.array()).all();
+        if (is_near) samples_.push_back(sample);
     }
     // The middles of rows^2 equal triangles.
     void add_in_face(const std::array<Vec3, 3>& corners, int rows, Sample sample) {
@@ -189,7 +209,7 @@ private:
                 for (int up = 0; up < (i + j + 1 < rows ? 2 : 1); ++up) {
                     const double u = (i + (1 + up) / 3.0) / rows, v = (j + (1 + up) / 3.0) / rows;
                     sample.at = a + u * (b - a) + v * (c - a);
-                    samples_.push_back(sample);
+                    add(sample);
                 }
             }
         }
@@ -216,11 +236,25 @@ private:
             Sample& sample = samples_[i];
             if (sample.part != part || sample.side != side) break;
             const ClosestPoint nearest = tree.query(sample.at);
+            if (is_at_fixed(faces[nearest.point.face.value()], nearest.point.barycentric)) continue;
             sample.face = faces[nearest.point.face.value()];
             sample.distance_sq = nearest.distance_sq;
             samples_at_[sample.face].push_back(i);
         }
         return i;
+    }
+    // Whether a point lies on an edge between vertices that stay, or at one. The mesh may end
+    // there: of surface beyond it the distance tells nothing.
+    [[nodiscard]] bool is_at_fixed(Index f, const std::array<double, 3>& weights) const {
+        bool is_inside = true;
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (weights[k] == 0) {
+                is_inside = false;
+            } else if (mesh_.mobility(mesh_.face(f).corner[k]) != Mobility::Fixed) {
+                return false;
+            }
+        }
+        return !is_inside;
     }
     // The nearest of the faces in boxed_.
     [[nodiscard]] Found find_nearest(Index sample) const {
@@ -242,6 +276,7 @@ private:
     }
 
     const EditedMesh& mesh_;
+    MeshBox box_{Vec3::Constant(-infinity), Vec3::Constant(infinity)};  // Of samples.
     double budget_ = 0;
     std::vector<Sample> samples_;
     std::vector<std::vector<Index>> samples_at_;  // By face: the samples nearest to it.

@@ -107,7 +107,7 @@ detail::TileInput tile_input(const TileFile& file, const std::string& name, doub
     std::iota(all.begin(), all.end(), Index{0});
     Poller poller(options.progress);
     Tile tile = take_tile(tiling, all, Ticker(poller));
-    detail::TileInput input{.spacing = spacing};
+    detail::TileInput input{.spacing = spacing, .is_improved = true};
     input.cleaned.surface = build_surface(tile.mesh.view(), options.num_threads, options.progress);
     std::vector<DirectedEdge> borders = border_edges(tiling, tile, input.cleaned.surface);
     input.border_site = std::move(tile.border_site);

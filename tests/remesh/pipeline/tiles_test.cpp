@@ -1,6 +1,9 @@
 // Large results are made in tiles; what holds for results in one piece holds for them.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "agvd/core/error.h"
 #include "agvd/mesh/closest_point.h"
 #include "agvd/mesh/topology.h"
@@ -84,6 +87,39 @@ TEST(Tiles, LeaveNoTrace) {
         EXPECT_NEAR(shapes::signed_volume(tiled.mesh), shapes::signed_volume(one.mesh), 1e-4);
         EXPECT_LT(tiled.verdict.largest_distance, 1.5 * one.verdict.largest_distance);
     }
+}
+
+// A drum: its top and bottom are fans of needles, its wall has triangles that are as high as it.
+TriangleMesh drum(Index num_sides) {
+    TriangleMesh mesh;
+    for (const double z : {0.0, 0.3}) {
+        for (Index i = 0; i < num_sides; ++i) {
+            const double turn = 2 * std::numbers::pi * i / num_sides;
+            mesh.positions.emplace_back(std::cos(turn), std::sin(turn), z);
+        }
+    }
+    for (Index i = 0; i < num_sides; ++i) {
+        const Index next = (i + 1) % num_sides;
+        mesh.triangles.push_back({i, next, num_sides + next});
+        mesh.triangles.push_back({i, num_sides + next, num_sides + i});
+        if (i == 0 || next == 0) continue;
+        mesh.triangles.push_back({0, next, i});
+        mesh.triangles.push_back({num_sides, num_sides + i, num_sides + next});
+    }
+    return mesh;
+}
+
+// Most of the needles near a border hold no vertex, and none of their corners is near.
+TEST(Tiles, LeaveNoTraceOnNeedles) {
+    const TriangleMesh mesh = drum(300);
+    RemeshOptions whole = with_samples(4000);
+    whole.samples_per_tile = 0;
+    const RemeshResult one = remesh::remesh(mesh.view(), whole),
+                       tiled = remesh::remesh(mesh.view(), with_samples(4000));
+    EXPECT_EQ(tiled.tiles, 7u);
+    EXPECT_GT(mean_quality(tiled.mesh), mean_quality(one.mesh) - 0.012);
+    EXPECT_GT(tiled.verdict.min_angle, one.verdict.min_angle - 4 * agvd::degree);
+    EXPECT_LT(tiled.verdict.largest_distance, 1.5 * one.verdict.largest_distance);
 }
 
 TEST(Tiles, SameBytesForAnyNumberOfThreads) {

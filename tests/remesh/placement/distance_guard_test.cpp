@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "remesh/placement/edited_mesh.h"
 #include "remesh/placement/shape_steps.h"
@@ -13,6 +15,7 @@
 using namespace agvd;
 using remesh::detail::DistanceGuard;
 using remesh::detail::EditedMesh;
+using remesh::detail::Mobility;
 using remesh::detail::Side;
 
 namespace {
@@ -109,6 +112,77 @@ TEST(DistanceGuard, LooksAtTheGivenFacesAlone) {
     };
     EXPECT_FALSE(accepts(near));
     EXPECT_TRUE(accepts(far));
+}
+
+// A part with a gap, whose rim stays, of a surface that goes on there.
+Guarded part_of_ridge() {
+    Guarded mesh(ridge(0.2));
+    std::erase_if(mesh.placed.triangles, [&](const Triangle& t) {
+        return std::ranges::all_of(t, [&](Index v) {
+            const Vec3& p = mesh.surface.mesh.positions[v];
+            return p.x() >= 0.75 && std::abs(p.y() - 0.5) < 0.4;
+        });
+    });
+    mesh.hard = remesh::rim_of(mesh.placed.triangles);
+    for (const auto& [from, to] : mesh.hard) mesh.mobility[from] = Mobility::Fixed;
+    return mesh;
+}
+
+// Else what is far from the part would pay for anything.
+TEST(DistanceGuard, SurfaceBeyondAPartDoesNotCount) {
+    const auto accepts = [](const Guarded& mesh) {
+        std::vector<Index> all(mesh.surface.num_faces());
+        std::iota(all.begin(), all.end(), Index{0});
+        EditedMesh edited = mesh.edited();
+        DistanceGuard guard(edited, mesh.surface, all);
+        guard.open_budget();
+        const EditedMesh::Mark before = edited.mark();
+        EXPECT_TRUE(edited.collapse(at(4, 4), at(5, 4)));
+        return guard.accepts(edited.changed_since(before), 0.01);
+    };
+    Guarded open = part_of_ridge();
+    EXPECT_FALSE(accepts(open));
+    std::ranges::replace(open.mobility, Mobility::Fixed, Mobility::Boundary);
+    EXPECT_TRUE(accepts(open));
+}
+
+// Of a small part on a large surface, samples are as dense as on a mesh of the whole.
+TEST(DistanceGuard, SeesEachEditOfASmallPart) {
+    constexpr Index n = 64;
+    TriangleMesh bent = shapes::grid(n);
+    for (Vec3& p : bent.positions) p.z() = -0.2 * std::abs(p.x() - 0.5);
+    Guarded mesh(bent);
+    std::erase_if(mesh.placed.triangles, [&](const Triangle& t) {
+        return std::ranges::any_of(t, [&](Index v) {
+            const Vec3& p = bent.positions[v];
+            return std::abs(p.x() - 0.5) > 0.05 || std::abs(p.y() - 0.5) > 0.2;
+        });
+    });
+    const std::vector<Index> left = drop_unused(mesh.surface.num_vertices(), mesh.placed.triangles);
+    std::vector<SurfacePoint> points;
+    for (const Index v : left) points.push_back(mesh.placed.points[v]);
+    mesh.placed.points = points;
+    mesh.placed.offsets.resize(left.size());
+    mesh.mobility.assign(left.size(), Mobility::Free);
+    mesh.hard = remesh::rim_of(mesh.placed.triangles);
+    for (const auto& [from, to] : mesh.hard) mesh.mobility[from] = Mobility::Fixed;
+    std::vector<Index> all(mesh.surface.num_faces());
+    std::iota(all.begin(), all.end(), Index{0});
+    EditedMesh edited = mesh.edited();
+    DistanceGuard guard(edited, mesh.surface, all);
+    int num_tried = 0;
+    for (const Index v : left) {
+        const Index beside = v + n + 1;  // In x.
+        if (bent.positions[v].x() != 0.5 || mesh.mobility[rank_of(left, v)] != Mobility::Free) {
+            continue;
+        }
+        const EditedMesh::Mark before = edited.mark();
+        ASSERT_TRUE(edited.collapse(rank_of(left, v), rank_of(left, beside)));
+        EXPECT_FALSE(guard.accepts(edited.changed_since(before), 1e-5)) << v;
+        edited.take_back(before);
+        ++num_tried;
+    }
+    EXPECT_EQ(num_tried, 23);
 }
 
 // However much it is worth, no sample gets farther than 0.4 mean edges: here 0.057.

@@ -134,6 +134,16 @@ TEST_F(TileJobs, OrderAndThreadsDoNotCount) {
     EXPECT_EQ(joined.triangles, expected.triangles);
 }
 
+// Vertices do not follow sharp edges, so some triangles there are bad before they are improved.
+TEST_F(TileJobs, TrianglesOnSharpEdgesAreImproved) {
+    TriangleMesh plate = shapes::cube();
+    for (int i = 0; i < 5; ++i) plate = shapes::subdivide(plate);
+    for (Vec3& p : plate.positions) p.z() *= 0.05;
+    const fs::path file = put("a.ply", plate);
+    const remesh::TriangleQuality quality = remesh::measure_triangles(run(file, "a").view());
+    EXPECT_GT(quality.min_angle, 30 * agvd::degree);
+}
+
 // A torus with deep bumps: borders run through its saddles.
 TriangleMesh bumpy_torus(int around, int along, int twisted) {
     TriangleMesh mesh = shapes::torus(140, 60, 0.4);
