@@ -29,9 +29,10 @@ constexpr double beside_conic = 1e-10;
 // Parts do not turn by more (60 degrees) from their middle.
 constexpr double least_cosine = 0.5;
 
-bool turns_little(const Conic& conic, const Vec2& from, const Vec2& to) {
-    const Vec2 a = conic.gradient(from), b = conic.gradient(to);
-    return a.dot(b) >= least_cosine * a.norm() * b.norm();
+bool turns_little(const Vec2& a, const Vec2& b) {
+    const double both = a.dot(b);
+    return both > 0 &&
+           both * both >= least_cosine * least_cosine * a.squaredNorm() * b.squaredNorm();
 }
 
 }  // namespace
@@ -40,11 +41,43 @@ double ArcConics::slack(double distance) const {
     return equal_distances_on_arcs * (size_ + distance);
 }
 
+bool ArcConics::is_near(const Vec2& a, const Vec2& b, double distance) const {
+    const double equal = slack(distance);
+    return (a - b).squaredNorm() <= equal * equal;
+}
+
+// Windows side by side that show one image are one.
+void ArcConics::join_windows(Relays relays) {
+    windows_.clear();
+    for (PlanarRelay relay : relays) {
+        for (std::size_t i = 0; i < windows_.size() && !relay.sees_all; ++i) {
+            const PlanarRelay& other = windows_[i];
+            if (other.sees_all || !is_near(other.image, relay.image, relay.at_begin) ||
+                std::abs(other.weight - relay.weight) > slack(relay.at_begin)) {
+                continue;
+            }
+            if (is_near(other.end, relay.begin, relay.at_begin)) {
+                relay.begin = other.begin;
+                relay.at_begin = other.at_begin;
+            } else if (is_near(other.begin, relay.end, relay.at_end)) {
+                relay.end = other.end;
+                relay.at_end = other.at_end;
+            } else {
+                continue;
+            }
+            windows_[i--] = windows_.back();
+            windows_.pop_back();
+        }
+        windows_.push_back(relay);
+    }
+}
+
 void ArcConics::collect_sources(std::size_t site, Relays relays) {
     std::vector<Source>& sources = sources_[site];
     sources.clear();
     const Vec2 none(0, 0);
-    for (const PlanarRelay& relay : relays) {
+    join_windows(relays);
+    for (const PlanarRelay& relay : windows_) {
         if (relay.sees_all) {
             sources.push_back({relay.image, relay.weight, {none, none}, {false, false}, false});
             continue;
@@ -103,7 +136,7 @@ ArcConics::Reached ArcConics::reach_ends(const Conic& conic, const Vec2& from,
                                          const Chord& part) const {
     // The gap grows to the right.
     const Vec2 right = conic.gradient(from);
-    Reached reached{conic, from, {-right.y(), right.x()}, {from, from}, {infinity, infinity}};
+    Reached reached{conic, from, right, {from, from}, {infinity, infinity}};
     for (const Vec2& end : {part.from, part.to}) {
         const double equal = std::max(blur_, beside_conic * (size_ + conic.distance(0, end)));
         if (std::abs(conic.gap(end)) <= equal) shorten(reached, end);
@@ -112,10 +145,11 @@ ArcConics::Reached ArcConics::reach_ends(const Conic& conic, const Vec2& from,
 }
 
 void ArcConics::shorten(Reached& reached, const std::optional<Vec2>& at) {
-    if (!at || !turns_little(reached.conic, reached.from, *at)) return;
+    if (!at) return;
     const Vec2 step = *at - reached.from;
-    const std::size_t side = step.dot(reached.along) > 0 ? 1 : 0;
+    const std::size_t side = cross(reached.right, step) > 0 ? 1 : 0;
     if (!(step.squaredNorm() < reached.length_sq[side])) return;
+    if (!turns_little(reached.right, reached.conic.gradient(*at))) return;
     reached.ends[side] = *at;
     reached.length_sq[side] = step.squaredNorm();
 }
@@ -126,8 +160,7 @@ void ArcConics::stop_at_source(const Source& source, std::size_t site, Reached& 
     const Vec2& m = reached.from;
     const double least = conic.distance(site, m);
     const double equal = slack(least);
-    const Vec2 apart = source.focus - conic.focus[site];
-    if (apart.squaredNorm() <= equal * equal) {
+    if (is_near(source.focus, conic.focus[site], least)) {
         // Paths over a corner are the shortest up to the ray on which straight ones pass it.
         for (std::size_t k = 0; k < 2 && source.is_bent; ++k) {
             if (source.has_ray[k]) shorten(reached, conic.on_ray(site, source.rays[k]));
@@ -136,10 +169,11 @@ void ArcConics::stop_at_source(const Source& source, std::size_t site, Reached& 
     }
     const double h =
         std::min(size_, std::sqrt(std::max(reached.length_sq[0], reached.length_sq[1])));
+    const double excess = source.distance(m) - least;
+    if (excess > 2 * h + equal) return;  // Excesses change by at most 2 a unit.
     const Vec2 turn = (m - source.focus).normalized() - (m - conic.focus[site]).normalized();
-    const double margin =
-        source.distance(m) - least - turn.norm() * h - h * h / (2 * (m - conic.focus[site]).norm());
-    if (margin > equal) return;
+    const double bend = h * h / (2 * (m - conic.focus[site]).norm());
+    if (excess - turn.norm() * h - bend > equal) return;
     const std::size_t pole = 1 - site;
     const Vec2 c1 = conic.focus[site] - conic.focus[pole];
     const Vec2 c2 = source.focus - conic.focus[pole];

@@ -56,11 +56,12 @@ private:
     // How far a conic goes from a point of it: against the arc's direction, and along it.
     struct Reached {
         const Conic& conic;
-        Vec2 from, along;
+        Vec2 from, right;                 // A point of it, and its gradient there.
         std::array<Vec2, 2> ends;         // `from` where nothing ends it.
         std::array<double, 2> length_sq;  // Infinity there.
     };
 
+    void join_windows(Relays relays);
     void collect_sources(std::size_t site, Relays relays);
     [[nodiscard]] std::array<const Source*, 2> nearest(const Vec2& p) const;
     [[nodiscard]] std::optional<Middle> find_middle(const Chord& part) const;
@@ -70,7 +71,9 @@ private:
     [[nodiscard]] bool split_part(const Chord& part);
     void add(const Part& part);
     [[nodiscard]] double slack(double distance) const;
+    [[nodiscard]] bool is_near(const Vec2& a, const Vec2& b, double distance) const;
 
+    std::vector<PlanarRelay> windows_;
     std::array<std::vector<Source>, 2> sources_;
     double size_ = 0;
     double blur_ = 0;  // Where ends lie off the bisector, parts as short as that may have no conic.

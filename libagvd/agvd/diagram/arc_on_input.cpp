@@ -61,9 +61,10 @@ Conic moved(const Motion& motion, const Conic& conic) {
     return {{motion(conic.focus[0]), motion(conic.focus[1])}, conic.weight};
 }
 
-void ArcMapper::map(const Conic& conic, const SurfacePoint& begin, const SurfacePoint& end,
-                    std::vector<InputSegment>& out) {
+void ArcMapper::map(const Conic& conic, bool is_line, const SurfacePoint& begin,
+                    const SurfacePoint& end, std::vector<InputSegment>& out) {
     conic_ = conic;
+    is_line_ = is_line;
     face_ = begin.face.value();
     halvings_left_ = most_halvings_of_piece;
     map_between({begin, position_in_frame(base_.surface(), begin, 3 * face_)},
@@ -126,6 +127,7 @@ bool ArcMapper::follow_arc() {
     for (std::size_t i = 0; i + 1 < segments_.size(); ++i) {
         if (!move_crossing(segments_[i], segments_[i + 1])) return false;
     }
+    if (is_line_) return true;
     for (const InputSegment& segment : segments_) {
         if (!stays_in_face(segment)) return false;
     }

@@ -29,7 +29,7 @@ public:
     //! the arc as well.
     //! \param conic  in the frame of the base's face.
     //! Cost: that of mapping the chord; where it and the arc cross other edges, of finer ones.
-    void map(const Conic& conic, const SurfacePoint& begin, const SurfacePoint& end,
+    void map(const Conic& conic, bool is_line, const SurfacePoint& begin, const SurfacePoint& end,
              std::vector<InputSegment>& out);
 
 private:
@@ -52,6 +52,7 @@ private:
 
     // The arc at hand.
     Conic conic_;
+    bool is_line_ = false;
     Index face_ = 0;  // Of the base.
     int halvings_left_ = 0;
 };

@@ -6,7 +6,7 @@
 
 #include <array>
 
-#include "agvd/core/types.h"
+#include "agvd/mesh/surface.h"
 
 namespace agvd {
 
@@ -44,5 +44,10 @@ struct BisectorArc {
 //! The point of an arc at a share of its way, in its face's frame: 0 is its begin, 1 its end.
 //! Others lie on the ray from a focus through the chord's point at this share.
 [[nodiscard]] Vec2 point_on_arc(const BisectorArc& arc, double share);
+
+//! Where the foci lie in the plane of the arc's face in space, which holds the arc as well. Where a
+//! surface has lengths in place of positions, the face is drawn with another shape, and so are
+//! they.
+[[nodiscard]] std::array<Vec3, 2> foci_in_space(const Surface& surface, const BisectorArc& arc);
 
 }  // namespace agvd

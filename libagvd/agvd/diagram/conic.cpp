@@ -72,15 +72,4 @@ double Conic::most_stray(const Vec2& from, const Vec2& to) const {
     return std::abs(first.dot(chord) * last.dot(chord)) / (turn * chord.norm());
 }
 
-const char* arc_kind_name(ArcKind kind) {
-    return kind == ArcKind::Line ? "line" : kind == ArcKind::Hyperbola ? "hyperbola" : "chord";
-}
-
-Vec2 point_on_arc(const BisectorArc& arc, double share) {
-    if (share <= 0) return arc.begin;
-    if (share >= 1) return arc.end;
-    if (arc.kind == ArcKind::Chord) return (1 - share) * arc.begin + share * arc.end;
-    return Conic{arc.focus, arc.weight}.between(arc.begin, arc.end, share);
-}
-
 }  // namespace agvd

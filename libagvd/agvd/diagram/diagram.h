@@ -95,6 +95,11 @@ struct CurvePiece {
 //! Cost: O(points of the edge).
 [[nodiscard]] double curve_length(const Surface& surface, const Diagram& diagram, Index edge);
 
+//! The polyline of an arc: indices into diagram.points, from its begin to its end. Of a closed
+//! curve the last one may be the first point of its edge.
+//! \param arc  one of the arcs of the edge.
+[[nodiscard]] std::vector<Index> points_of_arc(const Diagram& diagram, Index edge, Index arc);
+
 //! A directed edge of the complex with the cell on its left.
 struct DirectedEdge {
     Index edge = no_index;  //!< Of Diagram::edges.

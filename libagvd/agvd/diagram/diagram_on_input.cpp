@@ -107,7 +107,7 @@ private:
         const Conic conic{arc.focus, arc.weight};
         const CurvePiece piece = curve_piece(base_.surface(), from_, edge, i);
         segments_.clear();
-        mapper_.map(conic, piece.from, piece.to, segments_);
+        mapper_.map(conic, arc.kind == ArcKind::Line, piece.from, piece.to, segments_);
         ticker_.tick(segment_work * segments_.size());
         double doubled_area = 0;  // Beside the chord.
         const Vec2 first = segments_.front().base_begin;

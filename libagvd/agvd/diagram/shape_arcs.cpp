@@ -179,7 +179,9 @@ private:
             // With errors in the distances the ends lie beside the conic.
             const Chord on_it{shape.conic.moved_onto(shape.begin),
                               shape.conic.moved_onto(shape.end)};
-            add_inner_points(shape.conic, on_it, tolerance, 0, drawn.points);
+            if (shape.kind != ArcKind::Line) {
+                add_inner_points(shape.conic, on_it, tolerance, 0, drawn.points);
+            }
             shape.num_points = static_cast<Index>(drawn.points.size() - before);
             drawn.points.push_back(shape.end);
         }

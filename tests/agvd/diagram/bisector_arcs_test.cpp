@@ -41,17 +41,14 @@ double distance_to_segment(const Vec2& p, const Vec2& a, const Vec2& b) {
 // The polyline along an arc, in the plane of its face.
 std::vector<Vec2> points_along(const Surface& surface, const Diagram& diagram, Index edge,
                                Index arc) {
-    const bool is_last = arc + 1 == diagram.edge_arcs[edge + 1];
-    const bool is_closed = diagram.edges[edge].tail == no_index;
-    const Index end = !is_last ? diagram.arcs[arc + 1].first_point
-                               : diagram.edge_points[edge + 1] - (is_closed ? 0 : 1);
+    const std::vector<Index> indices = points_of_arc(diagram, edge, arc);
+    const Index h = 3 * diagram.arcs[arc].face.value();
     std::vector<Vec2> points;
-    for (Index p = diagram.arcs[arc].first_point; p < end; ++p) {
-        const CurvePiece piece = curve_piece(surface, diagram, edge, p);
+    for (std::size_t i = 0; i + 1 < indices.size(); ++i) {
+        const CurvePiece piece = curve_piece(surface, diagram, edge, indices[i]);
         EXPECT_EQ(piece.from.face, diagram.arcs[arc].face);
-        const Index h = 3 * piece.from.face.value();
         points.push_back(position_in_frame(surface, piece.from, h));
-        if (p + 1 == end) points.push_back(position_in_frame(surface, piece.to, h));
+        if (i + 2 == indices.size()) points.push_back(position_in_frame(surface, piece.to, h));
     }
     return points;
 }
