@@ -188,14 +188,7 @@ void ArcConics::stop_at_source(const Source& source, std::size_t site, Reached& 
     for (const double sign : {-1.0, 1.0}) {
         const auto met = conic.on_ray(pole, (height * normal + sign * across) / norm_sq);
         if (!met) continue;
-        Vec2 at = *met;
-        // What rounding left of the difference.
-        const Vec2 g = conic.gradient(at), tangent = Vec2(-g.y(), g.x());
-        const Vec2 rise = (at - source.focus).normalized() - (at - conic.focus[site]).normalized();
-        const double difference = source.distance(at) - conic.distance(site, at);
-        const Vec2 step = difference / rise.dot(tangent) * tangent;
-        if (!(step.norm() <= 1e-3 * h)) continue;  // Behind the foci, or not finite.
-        at = conic.moved_onto(at - step);
+        const Vec2 at = conic.moved_onto(*met);
         if (source.sees(at)) shorten(reached, at);
     }
 }

@@ -11,16 +11,12 @@ namespace agvd {
 namespace {
 
 constexpr Index shaped_faces_per_task = 128;
-// Polylines of arcs that touch may cross: they are drawn this many times finer, twice.
-constexpr double finer = 1.0 / 16;
-constexpr int most_drawings = 3;
 constexpr int most_arc_halvings = 20;
 
 // An arc as it is drawn now.
 struct DrawnArc {
     Index arc;
     std::vector<Vec2> points;  // With both ends.
-    std::vector<double> distances;
     std::vector<ArcShape> shapes;
     bool has_conics;
 };
@@ -57,31 +53,30 @@ public:
         const FaceArcs& found = arcs_.faces[position];
         if (found.arcs.count == 0) return;
         face_ = in_.propagation.mixed_faces[position];
-        size_ = longest_side(face_corners(in_.surface, face_));
+        corners_ = face_corners(in_.surface, face_);
+        size_ = longest_side(corners_);
         gatherer_.gather_own(position, relays_);
-        const bool is_enough = std::all_of(elements_of(arcs_.arcs, found.arcs).begin(),
-                                           elements_of(arcs_.arcs, found.arcs).end(),
-                                           [&](const Arc& arc) { return is_reached(arc); });
-        if (!is_enough) gatherer_.gather_all(position, relays_);
+        vertices_.clear();
+        const std::span<const Arc> arcs = elements_of(arcs_.arcs, found.arcs);
+        are_all_reached_ =
+            std::all_of(arcs.begin(), arcs.end(), [&](const Arc& arc) { return is_reached(arc); });
+        if (!are_all_reached_) gatherer_.gather_all(position, relays_);
         const std::size_t first_vertex = out_.moved_vertices.size();
         settle_vertices(found.voronoi_vertices);
-        drawn_.clear();
+        num_drawn_ = 0;
         for (Index arc = found.arcs.begin; arc < found.arcs.end(); ++arc) split(arc);
-        double tolerance = *in_.chord;
-        bool is_sound = false;
-        for (int i = 0; i < most_drawings && !is_sound; ++i, tolerance *= finer) {
-            for (DrawnArc& drawn : drawn_) draw(tolerance, drawn);
-            is_sound = !any_cross() && change_areas(found);
-        }
-        if (!is_sound) {
+        for (DrawnArc& drawn : drawn_arcs()) draw(drawn);
+        if (any_outside() || any_cross() || !change_areas(found)) {
             vertices_.clear();
             out_.moved_vertices.resize(first_vertex);
-            for (DrawnArc& drawn : drawn_) keep(drawn);
+            for (DrawnArc& drawn : drawn_arcs()) keep(drawn);
         }
-        for (const DrawnArc& drawn : drawn_) store(drawn);
+        for (const DrawnArc& drawn : drawn_arcs()) store(drawn);
     }
 
 private:
+    [[nodiscard]] std::span<DrawnArc> drawn_arcs() { return std::span(drawn_).first(num_drawn_); }
+
     // Where distances with errors contradict each other, steps are long: such vertices stay.
     void settle_vertices(const Block& found) {
         constexpr double farthest = 1e-6;  // A share of the triangle's size.
@@ -138,13 +133,14 @@ private:
     void split(Index index) {
         const Arc& arc = arcs_.arcs[index];
         const Chord ends = ends_of(arc);
-        DrawnArc& drawn = drawn_.emplace_back();
+        if (num_drawn_ == drawn_.size()) drawn_.emplace_back();
+        DrawnArc& drawn = drawn_[num_drawn_++];
         drawn.arc = index;
-        drawn.has_conics = false;
-        if (!is_reached(arc)) return keep(drawn);
+        if (!are_all_reached_ && !is_reached(arc)) return keep(drawn);
         const auto conics = conics_.split(relays_beside(arc), ends, size_);
         if (conics.empty()) return keep(drawn);
         drawn.has_conics = true;
+        drawn.shapes.clear();
         Vec2 from = ends.from;
         for (const ArcConics::Part& part : conics) {
             const ArcKind kind = part.conic.is_line() ? ArcKind::Line : ArcKind::Hyperbola;
@@ -171,7 +167,7 @@ private:
         return points;
     }
 
-    void draw(double tolerance, DrawnArc& drawn) const {
+    void draw(DrawnArc& drawn) const {
         if (!drawn.has_conics) return;
         drawn.points.assign(1, drawn.shapes.front().begin);
         for (ArcShape& shape : drawn.shapes) {
@@ -180,7 +176,7 @@ private:
             const Chord on_it{shape.conic.moved_onto(shape.begin),
                               shape.conic.moved_onto(shape.end)};
             if (shape.kind != ArcKind::Line) {
-                add_inner_points(shape.conic, on_it, tolerance, 0, drawn.points);
+                add_inner_points(shape.conic, on_it, *in_.chord, 0, drawn.points);
             }
             shape.num_points = static_cast<Index>(drawn.points.size() - before);
             drawn.points.push_back(shape.end);
@@ -198,11 +194,31 @@ private:
         add_inner_points(conic, {top, chord.to}, tolerance, depth + 1, points);
     }
 
-    // One conic does not cross itself.
+    // Conics of distances with errors may leave the face.
+    [[nodiscard]] bool any_outside() const {
+        if (in_.propagation.certified_error == 0) return false;
+        const auto is_outside = [&](const Vec2& p) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                const Vec2 side = corners_[(k + 1) % 3] - corners_[k];
+                if (cross(side, p - corners_[k]) < -inside_tolerance * size_ * side.norm()) {
+                    return true;
+                }
+            }
+            return false;
+        };
+        for (std::size_t i = 0; i < num_drawn_; ++i) {
+            const std::vector<Vec2>& points = drawn_[i].points;
+            if (std::any_of(points.begin(), points.end(), is_outside)) return true;
+        }
+        return false;
+    }
+
     [[nodiscard]] bool any_cross() {
-        if (drawn_.size() == 1 && drawn_[0].shapes.size() == 1) return false;
+        // A conic does not cross itself, but where the ends lie beside it its polyline may.
+        const bool is_exact = in_.propagation.certified_error == 0;
+        if (is_exact && num_drawn_ == 1 && drawn_[0].shapes.size() == 1) return false;
         segments_.clear();
-        for (const DrawnArc& drawn : drawn_) {
+        for (const DrawnArc& drawn : drawn_arcs()) {
             for (std::size_t i = 0; i + 1 < drawn.points.size(); ++i) {
                 segments_.push_back({drawn.points[i], drawn.points[i + 1]});
             }
@@ -219,7 +235,7 @@ private:
     [[nodiscard]] bool change_areas(const FaceArcs& found) {
         constexpr double rounding = 1e-13;
         const std::size_t first = out_.area_changes.size();
-        for (const DrawnArc& drawn : drawn_) {
+        for (const DrawnArc& drawn : drawn_arcs()) {
             const Arc& arc = arcs_.arcs[drawn.arc];
             const double area =
                 (doubled_area(drawn.points) - doubled_area(points_between(old_ends_of(arc), arc))) /
@@ -279,10 +295,13 @@ private:
 
     // The face at hand.
     Index face_ = 0;
+    std::array<Vec2, 3> corners_;
     double size_ = 0;
+    bool are_all_reached_ = false;     // By the relays of the face itself.
     std::vector<PlanarRelay> relays_;  // By ascending site.
     std::vector<ShapedFaces::MovedVertex> vertices_;
-    std::vector<DrawnArc> drawn_;
+    std::vector<DrawnArc> drawn_;  // The first num_drawn_; others are kept for their memory.
+    std::size_t num_drawn_ = 0;
     std::vector<Chord> segments_;
 };
 

@@ -26,6 +26,8 @@ namespace {
 struct ArcFigures {
     double largest_gap = 0;           // |dA - dB| in cell radii, at ten points of each arc.
     double largest_stray = 0;         // Of the polylines from the arcs, mesh units.
+    double farthest_outside = 0;      // Of these points from the face, in cell radii.
+    Index most_of_line = 0;           // Points of the polyline of a line.
     double largest_jump = 0;          // Between an arc's ends and its polyline's, in cell radii.
     double longest_chord = 0;         // Of arcs without foci, in cell radii.
     std::array<Index, 3> num_arcs{};  // By kind.
@@ -116,9 +118,17 @@ private:
                         std::max(figures.longest_chord, (arc.end - arc.begin).norm() / radius_);
                     continue;
                 }
+                if (arc.kind == ArcKind::Line) {
+                    figures.most_of_line =
+                        std::max(figures.most_of_line, static_cast<Index>(line.size()));
+                }
                 for (int i = 0; i < 10; ++i) {
                     const Vec2 p = point_on_arc(arc, i / 9.0);
                     const SurfacePoint on = to_surface(surface, arc.face.value(), p);
+                    figures.farthest_outside =
+                        std::max(figures.farthest_outside,
+                                 (position_in_frame(surface, on, 3 * arc.face.value()) - p).norm() /
+                                     radius_);
                     figures.largest_gap =
                         std::max(figures.largest_gap, gap(to_base(on), drawn.edges[e]));
                     double least = infinity;
@@ -152,16 +162,22 @@ std::array<Index, 3> expect_true_arcs(const TriangleMesh& mesh, Index num_sites,
     const Surface surface = build_surface(mesh.view());
     const double size = std::sqrt(surface_area(surface));
     const double chord = 1e-4 * size;
-    const ArcScene scene(mesh, points::scattered(surface, num_sites, 3), max_length * size, chord,
-                         roles);
+    const auto sites = points::scattered(surface, num_sites, 3);
+    const ArcScene scene(mesh, sites, max_length * size, chord, roles);
     checks::expect_valid_complex(scene.base(), scene.diagram, roles.site.empty() ? 1 : 3);
     const ArcFigures on_input = scene.figures_on_input();
     for (const ArcFigures& figures : {scene.figures_on_base(), on_input}) {
         EXPECT_LE(figures.largest_gap, 1e-11);
         EXPECT_LE(figures.largest_stray, chord);
+        EXPECT_LE(figures.farthest_outside, 1e-11);
+        EXPECT_LE(figures.most_of_line, 50u);
         EXPECT_LE(figures.largest_jump, 1e-14);
         EXPECT_LE(figures.longest_chord, 1e-9);
     }
+    // Without inner points, arcs and their chords cross other edges of the input.
+    const ArcScene coarse(mesh, sites, max_length * size, size, roles);
+    EXPECT_LE(coarse.figures_on_input().largest_gap, 1e-11);
+    EXPECT_LE(coarse.figures_on_input().farthest_outside, 1e-11);
     EXPECT_NEAR(total_area(scene.on_input), total_area(scene.diagram), 1e-12 * size * size);
     return on_input.num_arcs;
 }
@@ -255,28 +271,50 @@ TEST(BisectorArcs, AreAHyperbolaByFormulaBetweenWeightedSitesInThePlane) {
         }
     }
     ASSERT_EQ(sites.size(), 2u);
-    constexpr double chord = 1e-5;
-    const Diagram diagram = build_diagram(
-        surface, sites, propagate(surface, sites, {.points = {.start = {0, .2}}, .max_error = 0}),
-        {.chord = chord});
-    EXPECT_GT(diagram.arcs.size(), 4u);
     const auto on_formula = [](double y) {
         return .5 + .1 * std::sqrt(1 + (y - .5) * (y - .5) / .08);
     };
-    for (const BisectorArc& arc : diagram.arcs) {
-        EXPECT_EQ(arc.kind, ArcKind::Hyperbola);
-        for (int i = 0; i < 10; ++i) {
-            const Vec3 p = position(
-                mesh.view(), to_surface(surface, arc.face.value(), point_on_arc(arc, i / 9.0)));
-            EXPECT_NEAR(p.x(), on_formula(p.y()), 1e-14);
+    const PropagationOptions weighted{.points = {.start = {0, .2}}, .max_error = 0};
+    const auto expect_on_formula = [&](const Diagram& diagram, double chord) {
+        for (const BisectorArc& arc : diagram.arcs) {
+            EXPECT_EQ(arc.kind, ArcKind::Hyperbola);
+            for (int i = 0; i < 10; ++i) {
+                const Vec2 at = point_on_arc(arc, i / 9.0);
+                const SurfacePoint in_face = to_surface(surface, arc.face.value(), at);
+                const Vec3 p = position(mesh.view(), in_face);
+                EXPECT_NEAR(p.x(), on_formula(p.y()), 1e-14);
+                // In the face: it need not be moved there.
+                EXPECT_LE((position_in_frame(surface, in_face, 3 * arc.face.value()) - at).norm(),
+                          1e-14);
+            }
         }
-    }
-    // The middle of a chord is at most so far from the arc.
-    for (Index p = diagram.edge_points[0]; p + 1 < diagram.edge_points[1]; ++p) {
-        const CurvePiece piece = curve_piece(surface, diagram, 0, p);
-        const Vec3 middle =
-            (position(mesh.view(), piece.from) + position(mesh.view(), piece.to)) / 2;
-        EXPECT_LE(std::abs(middle.x() - on_formula(middle.y())), 1.1 * chord);
+        for (Index p = diagram.edge_points[0]; p < diagram.edge_points[1]; ++p) {
+            const Vec3 at = position(mesh.view(), diagram.points[p]);
+            EXPECT_NEAR(diagram.point_distance[p], (at - Vec3(.2, .5, 0)).norm(), 1e-14);
+        }
+        // The middle of a chord is at most so far from the arc.
+        for (Index p = diagram.edge_points[0]; p + 1 < diagram.edge_points[1]; ++p) {
+            const CurvePiece piece = curve_piece(surface, diagram, 0, p);
+            const Vec3 middle =
+                (position(mesh.view(), piece.from) + position(mesh.view(), piece.to)) / 2;
+            EXPECT_LE(std::abs(middle.x() - on_formula(middle.y())), 1.1 * chord);
+        }
+    };
+    const Diagram diagram =
+        build_diagram(surface, sites, propagate(surface, sites, weighted), {.chord = 1e-5});
+    EXPECT_GT(diagram.arcs.size(), 4u);
+    expect_on_formula(diagram, 1e-5);
+    // Two faces, so that one arc crosses many of the input's.
+    const IntrinsicTriangulation base(surface, {.min_length = 1});
+    EXPECT_GT(base.counts().removed, 8u);
+    const auto on_base = base.to_intrinsic(sites);
+    for (const double chord : {1e-5, .5}) {
+        const Diagram mapped = diagram_on_input(
+            base, build_diagram(base.surface(), on_base,
+                                propagate(base.surface(), on_base, weighted), {.chord = chord}));
+        EXPECT_GT(mapped.arcs.size(), 4u);
+        expect_on_formula(mapped, chord);
+        EXPECT_NEAR(total_area(mapped), 1, 1e-14);
     }
 }
 
@@ -315,13 +353,25 @@ TEST(BisectorArcs, WithErrorsFormAValidComplex) {
         const auto num_chords =
             std::count_if(diagram.arcs.begin(), diagram.arcs.end(),
                           [](const BisectorArc& arc) { return arc.kind == ArcKind::Chord; });
-        EXPECT_LT(num_chords, static_cast<std::ptrdiff_t>(diagram.arcs.size() / 10));
+        EXPECT_LT(num_chords, static_cast<std::ptrdiff_t>(diagram.arcs.size() / 50));
         for (const BisectorArc& arc : diagram.arcs) {
             if (arc.kind == ArcKind::Chord) continue;
             const Vec2 p = point_on_arc(arc, 0.5);
             EXPECT_NEAR((p - arc.focus[0]).norm() + arc.weight[0],
                         (p - arc.focus[1]).norm() + arc.weight[1], 1e-13);
         }
+    }
+}
+
+// Conics of distances with large errors may cross: these arcs stay as they were.
+TEST(BisectorArcs, WithLargeErrorsDoNotCross) {
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+        const Surface surface = build_surface(shapes::jitter(shapes::sphere(3), 0.1, seed).view());
+        const auto sites = points::scattered(surface, 100, seed);
+        const Propagation propagation =
+            propagate(surface, sites, {.engine = Engine::Steiner, .steiner_points = 1});
+        checks::expect_valid_complex(surface,
+                                     build_diagram(surface, sites, propagation, {.chord = 1e-4}));
     }
 }
 
