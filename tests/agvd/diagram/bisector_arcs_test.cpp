@@ -318,6 +318,35 @@ TEST(BisectorArcs, AreAHyperbolaByFormulaBetweenWeightedSitesInThePlane) {
     }
 }
 
+// A kite with its long diagonal, x = 0; the base has the short one. The arc above that crosses x =
+// 0 twice, its chord does not.
+TEST(BisectorArcs, AreCutWhereTheyCrossAnEdgeOfTheInputBesideTheirChord) {
+    const TriangleMesh mesh{{{-1, 0, 0}, {0, -5, 0}, {1, 0, 0}, {0, 5, 0}}, {{0, 1, 3}, {1, 2, 3}}};
+    const Surface surface = build_surface(mesh.view());
+    // (-.45, .8) and (.15, .8).
+    const std::vector<SurfacePoint> sites{{FaceId(0), {.45, (.55 - .16) / 2, (.55 + .16) / 2}},
+                                          {FaceId(1), {(.85 - .16) / 2, .15, (.85 + .16) / 2}}};
+    const IntrinsicTriangulation base(surface);
+    const auto on_base = base.to_intrinsic(sites);
+    const Propagation propagation =
+        propagate(base.surface(), on_base, {.points = {.start = {0, .2}}, .max_error = 0});
+    const Diagram diagram =
+        diagram_on_input(base, build_diagram(base.surface(), on_base, propagation, {.chord = 10}));
+    Index num_left = 0;
+    for (const BisectorArc& arc : diagram.arcs) {
+        if (arc.face == FaceId(0)) ++num_left;
+        for (int i = 0; i < 10; ++i) {
+            const Vec2 at = point_on_arc(arc, i / 9.0);
+            const SurfacePoint in_face = to_surface(surface, arc.face.value(), at);
+            EXPECT_LE((position_in_frame(surface, in_face, 3 * arc.face.value()) - at).norm(),
+                      1e-14);
+            const Vec3 p = position(mesh.view(), in_face);
+            EXPECT_NEAR(p.x(), -.15 + .1 * std::sqrt(1 + (p.y() - .8) * (p.y() - .8) / .08), 1e-14);
+        }
+    }
+    EXPECT_GT(num_left, 0u);
+}
+
 // A strip bent to an L: paths of a site to the other leg bend at the inner corner.
 TEST(BisectorArcs, AreHyperbolasAboutACornerThatPathsBendAt) {
     const TriangleMesh mesh{{{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0}},
