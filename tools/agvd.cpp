@@ -28,9 +28,11 @@ namespace fs = std::filesystem;
 namespace {
 
 cli::BasedDiagram build(const agvd::Surface& surface, const std::vector<agvd::SurfacePoint>& sites,
-                        const agvd::PropagationOptions& options, cli::Console& console) {
-    return cli::based_diagram(surface, sites, options,
-                              [&](const char* stage) { return console.progress_of(stage); });
+                        const agvd::PropagationOptions& options, cli::Console& console,
+                        std::optional<double> chord = {}) {
+    return cli::based_diagram(
+        surface, sites, options, [&](const char* stage) { return console.progress_of(stage); },
+        chord);
 }
 
 constexpr const char* diagram_footer =
@@ -38,7 +40,8 @@ constexpr const char* diagram_footer =
     "  agvd diagram bunny.ply -n 100 -o cells.vtp -o labels.ply\n"
     "  agvd diagram bunny.ply --sites sites.txt -o edges.obj\n"
     "  agvd diagram bunny.ply -n 100 --html cells.html\n"
-    "  agvd diagram bunny.ply -n 100 -o cells.vtp --cells cut.ply\n\n"
+    "  agvd diagram bunny.ply -n 100 -o cells.vtp --cells cut.ply\n"
+    "  agvd diagram bunny.ply -n 100 --max-error 0 --chord 1e-5 -o arcs.vtp\n\n"
     "Behind a point of --sites may stand `site N`, the number of the site that it\n"
     "belongs to (several points may; on all lines or on none), and `start D`, a\n"
     "distance that counts from there on: an additive weight.\n\n"
@@ -49,7 +52,12 @@ constexpr const char* diagram_footer =
     "  .ply   the cleaned mesh with the vertex properties site (-1: no site) and\n"
     "         distance\n"
     "  .obj   the polylines as v and l lines\n"
-    "  .agvd  everything, exactly: what `agvd compare` reads\n\n";
+    "  .agvd  everything, exactly: what `agvd compare` reads\n\n"
+    "With --chord a bisector is made of arcs, each with one kind in one face: the\n"
+    "points p with |p - focus_left| + weight_left = |p - focus_right| +\n"
+    "weight_right, their distance from both sites. In .vtp each arc is a polyline\n"
+    "with the cell data edge, kind (0: line, 1: hyperbola, 2: chord without foci),\n"
+    "foci and weights; .ply and .agvd have an element arc.\n\n";
 
 // Names the first sites that own nothing: others are nearer everywhere.
 void warn_of_empty_cells(const agvd::Diagram& diagram, cli::Console& console) {
@@ -79,8 +87,9 @@ void check_has_positions(const cli::QueryArguments& arguments) {
 }
 
 struct DiagramRun : cli::QueryArguments {
-    fs::path cells;       // The cut mesh; empty: none.
-    fs::path html;        // Empty: none.
+    fs::path cells;  // The cut mesh; empty: none.
+    fs::path html;   // Empty: none.
+    std::optional<double> chord;
     std::string command;  // The command line: see page::to_shell.
 };
 
@@ -171,7 +180,9 @@ void run_diagram(const DiagramRun& arguments, cli::Console& console) {
     propagating.num_threads = arguments.common.threads;
     const cli::BasedDiagram based = cli::naming_file(
         arguments.input,
-        [&, &points = sites] { return build(surface, points, propagating, console); },
+        [&, &points = sites] {
+            return build(surface, points, propagating, console, arguments.chord);
+        },
         arguments.sites);
     const agvd::Diagram& diagram = based.diagram;
 
@@ -320,6 +331,14 @@ CLI::App* add_diagram(CLI::App& app, DiagramRun& arguments) {
                      "Write a page that shows cells, bisectors, sites and lines of equal distance: "
                      "one file for any browser, which needs no network")
         ->type_name("FILE");
+    cli::start_group(*command, cli::heading::accuracy);
+    command
+        ->add_option("--chord", arguments.chord,
+                     "Draw bisectors within this distance of their arcs, in mesh units, and write "
+                     "the arcs; by default within a hundredth of each chord's length")
+        ->check(CLI::Validator(
+            [](const std::string& text) { return cli::check_length("chord", text); }, ""))
+        ->type_name("LENGTH");
     command->footer(std::string(diagram_footer) + cli::exit_code_help);
     return command;
 }

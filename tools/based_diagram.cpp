@@ -38,7 +38,8 @@ agvd::IntrinsicTriangulation base_for(const agvd::Surface& surface, std::size_t 
 BasedDiagram based_diagram(const agvd::Surface& surface,
                            const std::vector<agvd::SurfacePoint>& sites,
                            agvd::PropagationOptions options,
-                           const std::function<agvd::Progress(const char*)>& progress_of) {
+                           const std::function<agvd::Progress(const char*)>& progress_of,
+                           std::optional<double> chord) {
     const agvd::IntrinsicTriangulation base = base_for(surface, sites.size(), progress_of("clean"));
     const std::vector<agvd::SurfacePoint> on_base = base.to_intrinsic(sites);
     options.progress = progress_of("propagate");
@@ -46,8 +47,9 @@ BasedDiagram based_diagram(const agvd::Surface& surface,
     const agvd::Progress drawing = progress_of("diagram");
     return {agvd::diagram_on_input(
                 base,
-                agvd::build_diagram(base.surface(), on_base, propagation,
-                                    {.num_threads = options.num_threads, .progress = drawing}),
+                agvd::build_diagram(
+                    base.surface(), on_base, propagation,
+                    {.chord = chord, .num_threads = options.num_threads, .progress = drawing}),
                 drawing),
             propagation.certified_error};
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "agvd/diagram/diagram.h"
@@ -23,10 +24,11 @@ struct BasedDiagram {
 
 //! \param options      for the propagation; all steps use its num_threads. Its progress is ignored.
 //! \param progress_of  a callback for each stage, by its name.
+//! \param chord        as in agvd::DiagramOptions.
 //! \throw as agvd::propagate.
 [[nodiscard]] BasedDiagram based_diagram(
     const agvd::Surface& surface, const std::vector<agvd::SurfacePoint>& sites,
-    agvd::PropagationOptions options,
-    const std::function<agvd::Progress(const char*)>& progress_of);
+    agvd::PropagationOptions options, const std::function<agvd::Progress(const char*)>& progress_of,
+    std::optional<double> chord = {});
 
 }  // namespace cli

@@ -47,22 +47,45 @@ Polylines draw(const agvd::Diagram& diagram, const agvd::MeshView& mesh) {
     return lines;
 }
 
+DrawnArcs draw_arcs(const agvd::Surface& surface, const agvd::Diagram& diagram,
+                    const Polylines& lines) {
+    DrawnArcs drawn;
+    if (diagram.edge_arcs.empty()) return drawn;
+    for (Index e = 0; e < diagram.edges.size(); ++e) {
+        for (Index a = diagram.edge_arcs[e]; a < diagram.edge_arcs[e + 1]; ++a) {
+            const agvd::BisectorArc& arc = diagram.arcs[a];
+            const Index begin = lines.offsets[e] + arc.first_point - diagram.edge_points[e];
+            const auto count = static_cast<Index>(points_of_arc(diagram, e, a).size());
+            drawn.lines.push_back(e);
+            drawn.spans.push_back({begin, begin + count});
+            drawn.kinds.push_back(arc.kind);
+            const auto foci = foci_in_space(surface, arc);
+            for (std::size_t k = 0; k < 2; ++k) {
+                drawn.foci[k].push_back(foci[k]);
+                drawn.weights[k].push_back(arc.weight[k]);
+            }
+        }
+    }
+    return drawn;
+}
+
 }  // namespace
 
 DrawnDiagram draw_diagram(const agvd::MeshView& mesh,
                           const std::vector<agvd::SurfacePoint>& given_sites,
                           const agvd::PropagationOptions& options, const SurfaceOptions& as_surface,
-                          const StageProgress& progress_of) {
+                          const StageProgress& progress_of, std::optional<double> chord) {
     const GivenSurface given = given_surface(mesh, as_surface, options, progress_of);
     const agvd::Surface& surface = given.surface();
     const std::vector<agvd::SurfacePoint> sites = given.to_surface(given_sites);
-    BasedDiagram based = based_diagram(surface, sites, options, progress_of);
+    BasedDiagram based = based_diagram(surface, sites, options, progress_of, chord);
     DrawnDiagram drawn;
     drawn.diagram = std::move(based.diagram);
     drawn.certified_error = based.certified_error;
     drawn.cells = agvd::build_cells(drawn.diagram);
     drawn.dual = remesh::build_dual(surface, drawn.diagram, progress_of("dual"));
     drawn.lines = draw(drawn.diagram, surface.mesh.view());
+    drawn.arcs = draw_arcs(surface, drawn.diagram, drawn.lines);
     for (const agvd::SurfacePoint& site : sites) {
         drawn.site_positions.push_back(agvd::position(surface.mesh.view(), site));
     }

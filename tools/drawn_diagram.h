@@ -5,6 +5,7 @@
 
 #include <array>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "agvd/diagram/cut_cells.h"
@@ -23,6 +24,15 @@ struct Polylines {
     std::vector<agvd::Index> offsets;  //!< #edges + 1.
 };
 
+//! The arcs of a diagram. Arc i is the points [spans[i][0], spans[i][1]) of the polyline lines[i].
+struct DrawnArcs {
+    std::vector<agvd::Index> lines;
+    std::vector<std::array<agvd::Index, 2>> spans;  //!< Of Polylines::points.
+    std::vector<agvd::ArcKind> kinds;
+    std::array<std::vector<agvd::Vec3>, 2> foci;  //!< On the left and right, in space.
+    std::array<std::vector<double>, 2> weights;   //!< Likewise.
+};
+
 //! What a diagram is computed to: on the surface, and for the caller's vertices.
 struct DrawnDiagram {
     agvd::Diagram diagram;
@@ -30,6 +40,7 @@ struct DrawnDiagram {
     agvd::Cells cells;
     std::vector<agvd::Triangle> dual;
     Polylines lines;
+    DrawnArcs arcs;  //!< Empty without a chord.
     std::vector<agvd::Vec3> site_positions;
     //! #V: the nearest site; invalid where none reaches.
     std::vector<agvd::SiteId> labels;
@@ -48,12 +59,14 @@ struct SurfaceOptions {
 
 //! \param sites    on the caller's faces.
 //! \param options  their progress is ignored.
+//! \param chord    as in agvd::DiagramOptions.
 //! \throw as remesh::clean_input, remesh::to_cleaned, remesh::carry_edges and agvd::propagate.
 [[nodiscard]] DrawnDiagram draw_diagram(const agvd::MeshView& mesh,
                                         const std::vector<agvd::SurfacePoint>& sites,
                                         const agvd::PropagationOptions& options,
                                         const SurfaceOptions& as_surface,
-                                        const StageProgress& progress_of);
+                                        const StageProgress& progress_of,
+                                        std::optional<double> chord = {});
 
 //! The mesh cut along the bisectors. Parameters and errors as above.
 //! \return its face_origin names the caller's faces.

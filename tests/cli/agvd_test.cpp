@@ -33,6 +33,26 @@ TEST_F(AgvdDiagram, WritesEveryOutputAskedFor) {
     EXPECT_EQ(remesh::read_diagram(at("d.agvd")).sites.size(), 20u);
 }
 
+TEST_F(AgvdDiagram, WritesArcsWithAChord) {
+    const std::string in = put("in.off", shapes::sphere(3));
+    const auto outcome = diagram({in, "-n", "20", "--max-error", "0", "--chord", "1e-3", "-o",
+                                  at("d.agvd"), "-o", at("d.vtp"), "-q"});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    const agvd::Diagram drawn = remesh::read_diagram(at("d.agvd")).diagram;
+    EXPECT_EQ(drawn.edge_arcs.size(), drawn.edges.size() + 1);
+    for (const agvd::BisectorArc& arc : drawn.arcs) {
+        if (arc.kind == agvd::ArcKind::Chord) continue;
+        const agvd::Vec2 p = agvd::point_on_arc(arc, 0.5);
+        EXPECT_NEAR((p - arc.focus[0]).norm() + arc.weight[0],
+                    (p - arc.focus[1]).norm() + arc.weight[1], 1e-13);
+    }
+    EXPECT_NE(bytes("d.vtp").find("Name=\"focus_left\""), std::string::npos);
+    const auto wrong = diagram({in, "-n", "20", "--chord", "0", "-o", at("d.vtp")});
+    EXPECT_EQ(wrong.exit_code, 2);
+    EXPECT_NE(wrong.err.find("the chord is 0; use a number above 0"), std::string::npos)
+        << wrong.err;
+}
+
 // A diagram needs no topology: the cell of a single site is the whole surface.
 TEST_F(AgvdDiagram, OneAndTwoSitesDoOnAnySurface) {
     const std::string torus = put("torus.off", shapes::torus(16, 12));

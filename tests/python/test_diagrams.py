@@ -275,6 +275,26 @@ def test_lengths_may_stand_for_positions():
         remesh.voronoi(V[[0, 1, 14]], [[0, 1, 2]], [0], edge_lengths=[[1, 1, 3]])
 
 
+def test_bisectors_are_made_of_arcs():
+    V, F = flat_square(8)
+    points = np.array([[0.2, 0.5, 0], [0.8, 0.5, 0]])
+    assert remesh.voronoi(V, F, points, 0).arcs is None
+    diagram = remesh.voronoi(V, F, points, 0, weights=[0, 0.2], chord=1e-5)
+    arcs = diagram.arcs
+    assert (arcs.kind == 1).all() and len(arcs.kind) > 4
+    assert np.allclose(arcs.focus_left, points[0]) and np.allclose(arcs.focus_right, points[1])
+    assert (arcs.weight_left == 0).all() and (arcs.weight_right == 0.2).all()
+    assert (diagram.line_sites[arcs.line] == [0, 1]).all()
+    spans = [diagram.points[begin:end] for begin, end in arcs.span]
+    for before, after in zip(spans, spans[1:]):
+        assert np.array_equal(before[-1], after[0])
+    # |p - (.2, .5)| = |p - (.8, .5)| + .2
+    x, y = np.vstack(spans)[:, :2].T
+    assert np.allclose(x, 0.5 + 0.1 * np.sqrt(1 + (y - 0.5) ** 2 / 0.08), atol=1e-14)
+    with pytest.raises(remesh.InvalidOption):
+        remesh.voronoi(V, F, points, 0, chord=0)
+
+
 def test_cells_may_be_cut_out():
     V, F = flat_square(8)
     points = np.array([[0.21, 0.33, 0], [0.84, 0.7, 0], [0.1, 0.95, 0]])

@@ -37,7 +37,7 @@ def test_every_function_and_class_has_an_example():
     things = [getattr(remesh, name) for name in remesh.__all__]
     things = [x for x in things if (inspect.isfunction(x) or inspect.isclass(x)) and not is_error(x)]
     things += [remesh.examples.sphere, remesh.examples.torus]
-    assert len(things) == 23
+    assert len(things) == 24
     for thing in things:
         assert ">>> " in thing.__doc__, thing.__name__
 

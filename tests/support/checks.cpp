@@ -255,6 +255,8 @@ void expect_same(const Diagram& a, const Diagram& b) {
                                return e.left == f.left && e.right == f.right && e.tail == f.tail &&
                                       e.head == f.head;
                            }));
+    EXPECT_TRUE(a.arcs == b.arcs);
+    EXPECT_EQ(a.edge_arcs, b.edge_arcs);
     EXPECT_EQ(a.vertex_offsets, b.vertex_offsets);
     EXPECT_TRUE(std::equal(a.vertex_ends.begin(), a.vertex_ends.end(), b.vertex_ends.begin(),
                            b.vertex_ends.end(), [](const EdgeEnd& e, const EdgeEnd& f) {

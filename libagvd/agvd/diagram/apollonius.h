@@ -100,7 +100,7 @@ private:
     // A piece of an arc.
     struct Segment {
         Index arc;
-        Vec2 from, to;
+        Chord chord;
     };
 
     void begin(Index face, const std::array<Vec2, 3>& corners) {
@@ -135,22 +135,11 @@ private:
             const Chord& chord = chords_[i - start_.arcs];
             Vec2 last = chord.from;
             for (Index j = arc.first_point; j < arc.first_point + arc.num_points; ++j) {
-                segments_.push_back({i, last, out_.points[j]});
+                segments_.push_back({i, {last, out_.points[j]}});
                 last = out_.points[j];
             }
-            segments_.push_back({i, last, chord.to});
+            segments_.push_back({i, {last, chord.to}});
         }
-    }
-
-    // Whether the ends of each segment lie on different sides of the other.
-    [[nodiscard]] static bool do_cross(const Segment& s, const Segment& t) {
-        const auto divides = [](const Segment& line, const Segment& other) {
-            const Vec2 along = line.to - line.from;
-            const double from = cross(along, other.from - line.from);
-            const double to = cross(along, other.to - line.from);
-            return (from < 0 && to > 0) || (from > 0 && to < 0);
-        };
-        return divides(s, t) && divides(t, s);
     }
 
     // Takes the inner points from arcs that cross, O(n^2) for n pieces. False: there are none.
@@ -162,7 +151,7 @@ private:
         bool is_any = false;
         for (std::size_t i = 0; i < segments_.size(); ++i) {
             for (std::size_t j = i + 1; j < segments_.size(); ++j) {
-                if (!do_cross(segments_[i], segments_[j])) continue;
+                if (!do_cross(segments_[i].chord, segments_[j].chord)) continue;
                 out_.arcs[segments_[i].arc].num_points = 0;
                 out_.arcs[segments_[j].arc].num_points = 0;
                 is_any = true;

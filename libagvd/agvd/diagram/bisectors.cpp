@@ -345,6 +345,28 @@ VertexCandidate find_voronoi_vertex(const TriangleSites& triangle,
     return {centroid, least_reach(relays[1], centroid).distance, no_voronoi_vertex * triangle.size};
 }
 
+VertexCandidate settled_vertex(const std::array<Relays, 3>& relays, const VertexCandidate& vertex) {
+    constexpr int most_steps = 3;
+    VertexCandidate best = vertex;
+    double least = infinity;
+    Vec2 p = vertex.position;
+    for (int i = 0; i < most_steps; ++i) {
+        const Reach a = least_reach(relays[0], p), b = least_reach(relays[1], p),
+                    c = least_reach(relays[2], p);
+        const Vec2 residual(a.distance - b.distance, b.distance - c.distance);
+        if (!(residual.norm() < least)) break;
+        least = residual.norm();
+        best.position = p;
+        best.distance = std::max({a.distance, b.distance, c.distance});
+        const Vec2 first = gradient(p, a) - gradient(p, b),
+                   second = gradient(p, b) - gradient(p, c);
+        p -= Vec2(second.y() * residual.x() - first.y() * residual.y(),
+                  first.x() * residual.y() - second.x() * residual.x()) /
+             cross(first, second);
+    }
+    return best;
+}
+
 VertexCandidate least_unequal(const TriangleSites& triangle, std::span<const Vec2> positions,
                               const std::array<Index, 3>& sites) {
     assert(!positions.empty());

@@ -40,6 +40,17 @@ struct Chord {
     Vec2 from, to;
 };
 
+//! Whether the ends of each of two chords lie on different sides of the other.
+[[nodiscard]] inline bool do_cross(const Chord& a, const Chord& b) {
+    const auto divides = [](const Chord& line, const Chord& other) {
+        const Vec2 along = line.to - line.from;
+        const double from = cross(along, other.from - line.from);
+        const double to = cross(along, other.to - line.from);
+        return (from < 0 && to > 0) || (from > 0 && to < 0);
+    };
+    return divides(a, b) && divides(b, a);
+}
+
 struct BisectorPoint {
     Vec2 position;
     double distance;  //!< From both sites.
@@ -94,6 +105,11 @@ struct IntervalStart {
 [[nodiscard]] VertexCandidate find_voronoi_vertex(const TriangleSites& triangle,
                                                   const std::array<IntervalStart, 3>& intervals,
                                                   bool thorough);
+
+//! The vertex, moved to where rounding alone is left: find_voronoi_vertex() stops a little before.
+//! \param relays  of its three sites.
+[[nodiscard]] VertexCandidate settled_vertex(const std::array<Relays, 3>& relays,
+                                             const VertexCandidate& vertex);
 
 //! That of some positions at which the distances from three sites differ least; by how much is the
 //! violation.

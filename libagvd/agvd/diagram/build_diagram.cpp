@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <string>
 
 #include "agvd/diagram/face_relays.h"
 #include "agvd/diagram/stages.h"
@@ -55,14 +56,20 @@ OwnPlaces own_places(const Surface& surface, std::span<const SurfacePoint> point
 Diagram build(const Surface& surface, std::span<const SurfacePoint> sites,
               const Propagation& propagation, const DiagramOptions& options,
               std::vector<Relay>* relays) {
+    if (options.chord && !(*options.chord > 0)) {
+        throw InvalidOption("the chord is " + std::to_string(*options.chord) +
+                            "; use a length above 0");
+    }
     Poller poller(options.progress);
     poller.poll();
     const OwnPlaces own = own_places(surface, sites, propagation);
     const SitePlacement placement(surface, own.points, own.sites);
     DiagramParts parts;
-    Diagram diagram = build_complex({surface, own.points, own.sites, placement, propagation,
-                                     options.chord_tolerance, options.num_threads, poller},
-                                    own.num_sites, parts);
+    const StageInput input{surface,       own.points,          own.sites,
+                           placement,     propagation,         options.chord_tolerance,
+                           options.chord, options.num_threads, poller};
+    Diagram diagram = build_complex(input, own.num_sites, parts);
+    if (options.chord) shape_arcs(input, parts);
     if (relays != nullptr) std::vector<Relay>().swap(*relays);
     draw_points(surface, parts, Ticker(poller), diagram);
     measure_cells(surface, parts, Ticker(poller), diagram);
@@ -75,64 +82,6 @@ Diagram build(const Surface& surface, std::span<const SurfacePoint> sites,
     return diagram;
 }
 
-// Draws Voronoi edges on the faces of another mesh, point by point.
-class EdgeMapper {
-public:
-    EdgeMapper(const IntrinsicTriangulation& base, const Diagram& from, Diagram& to, Ticker ticker)
-        : base_(base), from_(from), to_(to), ticker_(ticker) {}
-
-    void map_edges() {
-        to_.edge_points.push_back(0);
-        for (Index e = 0; e < from_.edges.size(); ++e) {
-            const Index begin = from_.edge_points[e], end = from_.edge_points[e + 1];
-            for (Index i = begin; i + 1 < end; ++i) map_piece(e, i, i + 1);
-            if (from_.edges[e].tail == no_index) {
-                if (begin < end) map_piece(e, end - 1, begin);
-            } else {
-                add(base_.to_input(from_.points[end - 1]), from_.point_distance[end - 1]);
-            }
-            to_.edge_points.push_back(static_cast<Index>(to_.points.size()));
-        }
-    }
-
-private:
-    void add(const SurfacePoint& point, double distance) {
-        to_.points.push_back(point);
-        to_.point_distance.push_back(distance);
-    }
-
-    // But for its end.
-    void map_piece(Index edge, Index begin, Index end) {
-        constexpr std::size_t segment_work = 16;  // Steps that a segment counts for.
-        ticker_.tick(segment_work);
-        const CurvePiece piece = curve_piece(base_.surface(), from_, edge, begin);
-        parts_.clear();
-        base_.to_input(piece.from, piece.to, parts_);
-        const MeshView mesh = base_.input().mesh.view();
-        const auto length_of = [&](std::size_t i) {
-            if (base_.input().has_own_lengths) {
-                return face_distance(base_.input(), parts_[i], parts_[i + 1]);
-            }
-            return (position(mesh, parts_[i + 1]) - position(mesh, parts_[i])).norm();
-        };
-        double length = 0;
-        for (std::size_t i = 0; i < parts_.size(); i += 2) length += length_of(i);
-        double passed = 0;
-        for (std::size_t i = 0; i < parts_.size(); i += 2) {
-            const double share = length > 0 ? passed / length : 0;
-            add(parts_[i],
-                (1 - share) * from_.point_distance[begin] + share * from_.point_distance[end]);
-            passed += length_of(i);
-        }
-    }
-
-    const IntrinsicTriangulation& base_;
-    const Diagram& from_;
-    Diagram& to_;
-    Ticker ticker_;
-    std::vector<SurfacePoint> parts_;  // Two a part.
-};
-
 }  // namespace
 
 Diagram build_diagram(const Surface& surface, std::span<const SurfacePoint> sites,
@@ -143,21 +92,6 @@ Diagram build_diagram(const Surface& surface, std::span<const SurfacePoint> site
 Diagram build_diagram(const Surface& surface, std::span<const SurfacePoint> sites,
                       Propagation&& propagation, const DiagramOptions& options) {
     return build(surface, sites, propagation, options, &propagation.relays);
-}
-
-Diagram diagram_on_input(const IntrinsicTriangulation& base, Diagram diagram,
-                         const Progress& progress) {
-    Poller poller(progress);
-    Diagram mapped;  // Only the edges' points; passages are of the base's faces.
-    EdgeMapper(base, diagram, mapped, Ticker(poller)).map_edges();
-    diagram.points = std::move(mapped.points);
-    diagram.point_distance = std::move(mapped.point_distance);
-    diagram.edge_points = std::move(mapped.edge_points);
-    diagram.passages.clear();
-    diagram.vertices = base.to_input(diagram.vertices);
-    diagram.nearest_site.resize(base.input().num_vertices());
-    diagram.nearest_distance.resize(base.input().num_vertices());
-    return diagram;
 }
 
 }  // namespace agvd

@@ -23,9 +23,8 @@ struct FoundCuts {
 
 class FaceCutter {
 public:
-    FaceCutter(const Surface& surface, const Propagation& propagation, const EdgeLabels& labels,
-               FoundCuts& out)
-        : surface_(surface), propagation_(propagation), labels_(labels), out_(out) {}
+    FaceCutter(const StageInput& input, const EdgeLabels& labels, FoundCuts& out)
+        : in_(input), labels_(labels), out_(out) {}
 
     void cut(Index mixed_index, std::span<const PlacedSite> placed) {
         face_ = propagation_.mixed_faces[mixed_index];
@@ -119,12 +118,14 @@ private:
         }
         const Index begin = size_of(out_.crossings);
         label_line(on_cut_, name, {length, from.site, to.site}, scratch_, out_.crossings);
+        if (in_.chord) settle_crossings(on_cut_, length, std::span(out_.crossings).subspan(begin));
         out_.cuts.push_back({face_, from.name, to.name, {begin, size_of(out_.crossings) - begin}});
         return name;
     }
 
-    const Surface& surface_;
-    const Propagation& propagation_;
+    const StageInput& in_;
+    const Surface& surface_ = in_.surface;
+    const Propagation& propagation_ = in_.propagation;
     const EdgeLabels& labels_;
     FoundCuts& out_;
     RelayGatherer gatherer_{surface_, propagation_, labels_};
@@ -187,7 +188,7 @@ void cut_faces(const StageInput& input, EdgeLabels& labels) {
     const auto count = size_of(mixed);
     std::vector<FoundCuts> found(num_chunks(count, grain));
     const auto cut_chunk = [&](Index chunk, Index begin, Index end) {
-        FaceCutter cutter(input.surface, input.propagation, labels, found[chunk]);
+        FaceCutter cutter(input, labels, found[chunk]);
         Ticker ticker(input.poller);
         for (Index i = begin; i < end; ++i) {
             const auto placed = input.placement.in_face(mixed[i]);

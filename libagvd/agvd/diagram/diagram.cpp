@@ -41,6 +41,18 @@ CurvePiece curve_piece(const Surface& surface, const Diagram& diagram, Index edg
     return piece;
 }
 
+std::vector<Index> points_of_arc(const Diagram& diagram, Index edge, Index arc) {
+    const Index end = diagram.edge_points[edge + 1];
+    const bool is_last = arc + 1 == diagram.edge_arcs[edge + 1];
+    const Index last = is_last ? end : diagram.arcs[arc + 1].first_point + 1;
+    std::vector<Index> points;
+    for (Index p = diagram.arcs[arc].first_point; p < last; ++p) points.push_back(p);
+    if (is_last && diagram.edges[edge].tail == no_index) {
+        points.push_back(diagram.edge_points[edge]);
+    }
+    return points;
+}
+
 double curve_length(const Surface& surface, const Diagram& diagram, Index edge) {
     double sum = 0;
     for (Index i = diagram.edge_points[edge]; i + 1 < diagram.edge_points[edge + 1]; ++i) {

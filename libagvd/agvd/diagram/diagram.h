@@ -6,9 +6,11 @@
 //! Held by Complex.IsValid and Diagram.SameBytesForAnyThreadCountAndLambda in tests/agvd/diagram.
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "agvd/core/progress.h"
+#include "agvd/diagram/bisector_arc.h"
 #include "agvd/intrinsic/intrinsic_triangulation.h"
 #include "agvd/propagation/propagate.h"
 
@@ -57,6 +59,12 @@ struct Diagram {
     std::vector<Index> edge_points;      //!< #edges + 1 offsets into points.
     std::vector<VoronoiEdge> edges;      //!< With the cells on both sides.
 
+    //! With DiagramOptions::chord what edges between cells are made of, edge after edge. An arc
+    //! goes on to the first point of the next one, the last to the end of its edge. Edges on the
+    //! surface's boundary have none.
+    std::vector<BisectorArc> arcs;
+    std::vector<Index> edge_arcs;  //!< #edges + 1 offsets into arcs; empty without arcs.
+
     std::vector<Index> vertex_offsets;    //!< #vertices + 1 offsets into the next two.
     std::vector<EdgeEnd> vertex_ends;     //!< Counter-clockwise edge ends.
     std::vector<SiteId> vertex_sites;     //!< The cell after each end; invalid: outside.
@@ -87,6 +95,11 @@ struct CurvePiece {
 //! Cost: O(points of the edge).
 [[nodiscard]] double curve_length(const Surface& surface, const Diagram& diagram, Index edge);
 
+//! The polyline of an arc: indices into diagram.points, from its begin to its end. Of a closed
+//! curve the last one may be the first point of its edge.
+//! \param arc  one of the arcs of the edge.
+[[nodiscard]] std::vector<Index> points_of_arc(const Diagram& diagram, Index edge, Index arc);
+
 //! A directed edge of the complex with the cell on its left.
 struct DirectedEdge {
     Index edge = no_index;  //!< Of Diagram::edges.
@@ -112,13 +125,17 @@ struct Cells {
 //! `{}` gives the defaults.
 struct DiagramOptions {
     double chord_tolerance = 0.01;  //!< Arcs are sampled to this share of their chord's length.
-    int num_threads = 0;            //!< >= 0; 0: all cores. Same bytes for any number.
-    Progress progress = {};         //!< Polled during the call; see agvd::poll.
+    //! If given: Diagram::arcs is made, and polylines stray from the arcs by at most so much, mesh
+    //! units, > 0.
+    std::optional<double> chord = {};
+    int num_threads = 0;     //!< >= 0; 0: all cores. Same bytes for any number.
+    Progress progress = {};  //!< Polled during the call; see agvd::poll.
 };
 
 //! Builds local Apollonius diagrams in the mixed faces and joins them ([meng2023] Sec. 4.2, 5.3).
 //!
 //! Cost: O(k) per mixed face and label change, k = relays of the face. Re-entrant.
+//! \throw InvalidOption  the chord is not above 0.
 //! \throw Cancelled  the progress callback returned false.
 [[nodiscard]] Diagram build_diagram(const Surface& surface, std::span<const SurfacePoint> sites,
                                     const Propagation& propagation,
@@ -131,7 +148,8 @@ struct DiagramOptions {
 
 //! The same complex with all points on base.input(): Voronoi edges get a point where they cross an
 //! edge of the input, so that consecutive points share a face of it as before. The distances of
-//! these points are interpolated. Labels are those of the input's vertices.
+//! these points are interpolated. Labels are those of the input's vertices. With arcs these points
+//! lie on the arcs, which end there; areas of cells follow.
 //! \param diagram  of base.surface().
 //! \throw Cancelled  the progress callback returned false.
 //! Cost: that of mapping each segment.

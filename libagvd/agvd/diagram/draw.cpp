@@ -2,6 +2,7 @@
 // come before those on the surface's boundary, and Voronoi vertices before the label changes on
 // the boundary, where an edge between cells meets two edges of the boundary.
 #include <cassert>
+#include <utility>
 
 #include "agvd/diagram/face_relays.h"
 #include "agvd/diagram/stages.h"
@@ -41,6 +42,7 @@ public:
     void draw_points() {
         reserve_points();
         out_.edge_points.assign(1, 0);
+        if (has_shapes_) out_.edge_arcs.assign(1, 0);
         for (const JoinedEdges::Edge& edge : joined_.edges) draw_edge(edge);
         for (const std::vector<Index>& loop : parts_.boundary_loops) {
             const std::vector<BoundaryCrossing> crossings = crossings_along(loop);
@@ -131,7 +133,10 @@ private:
         out_.passages.reserve(most);
     }
 
-    void finish_edge() { out_.edge_points.push_back(size_of(out_.points)); }
+    void finish_edge() {
+        out_.edge_points.push_back(size_of(out_.points));
+        if (has_shapes_) out_.edge_arcs.push_back(size_of(out_.arcs));
+    }
 
     void draw_edge(const JoinedEdges::Edge& edge) {
         ArcEnd from = edge.first;
@@ -141,6 +146,7 @@ private:
             const NodeId node = node_at(arcs_, from);
             const bool is_across = from.is_tail() ? arc.tail_is_across : arc.head_is_across;
             add_node(node, ends_edges(joined_, node) ? Passage{} : passage_at(node, is_across));
+            if (has_shapes_) add_shapes(from);
             add_inner_points(arc, from.is_tail());
             const ArcEnd to = from.other();
             if (to == edge.last) break;
@@ -229,11 +235,32 @@ private:
         }
     }
 
+    // Of an arc at whose first node the last point so far lies.
+    void add_shapes(ArcEnd from) {
+        const std::span<const ArcShape> shapes =
+            elements_of(parts_.shapes.shapes, parts_.shapes.of_arc[from.arc()]);
+        const FaceId face(arcs_.arcs[from.arc()].face);
+        Index point = size_of(out_.points) - 1;
+        for (std::size_t i = 0; i < shapes.size(); ++i) {
+            const ArcShape& shape = shapes[from.is_tail() ? i : shapes.size() - 1 - i];
+            BisectorArc arc{face,        shape.kind, point, shape.conic.focus, shape.conic.weight,
+                            shape.begin, shape.end};
+            if (!from.is_tail()) {
+                std::swap(arc.focus[0], arc.focus[1]);
+                std::swap(arc.weight[0], arc.weight[1]);
+                std::swap(arc.begin, arc.end);
+            }
+            out_.arcs.push_back(arc);
+            point += shape.num_points + 1;
+        }
+    }
+
     const Surface& surface_;
     const DiagramParts& parts_;
     const EdgeLabels& labels_ = parts_.labels;
     const Arcs& arcs_ = parts_.arcs;
     const JoinedEdges& joined_ = parts_.joined;
+    const bool has_shapes_ = !parts_.shapes.of_arc.empty();
     Ticker ticker_;
     Diagram& out_;
 };

@@ -60,4 +60,10 @@ struct SingleCrossing {
 void label_line(std::span<const LineRelay> relays, LineId line, const LabelledSegment& segment,
                 EnvelopeScratch& scratch, std::vector<Crossing>& out);
 
+//! Moves the label changes of a line to where rounding alone is left: label_line() stops a little
+//! before, and tells relays of one site apart up to a share of the segment only. Their order stays.
+//! Cost: O(relays) for each.
+void settle_crossings(std::span<const LineRelay> relays, double length,
+                      std::span<Crossing> crossings);
+
 }  // namespace agvd

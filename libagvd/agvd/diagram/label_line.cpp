@@ -106,6 +106,17 @@ double step_to_root(const Search& search, const Samples& samples, const Bracket&
     return x;
 }
 
+// The nearest relay of a site at x.
+LineSample least_sample(std::span<const LineRelay> relays, Index site, double x) {
+    LineSample least{infinity, 0, 0};
+    for (const LineRelay& relay : relays) {
+        if (relay.site != site) continue;
+        const LineSample here = sample(relay, x);
+        if (here.value < least.value) least = here;
+    }
+    return least;
+}
+
 }  // namespace
 
 std::optional<SingleCrossing> find_single_crossing(std::span<const LineRelay> relays, double length,
@@ -163,6 +174,28 @@ void label_line(std::span<const LineRelay> relays, LineId line, const LabelledSe
         const double distance =
             std::max(distance_on_line(relays, before, x), distance_on_line(relays, after, x));
         out.push_back({intervals[i].end, distance, before, after, line});
+    }
+}
+
+void settle_crossings(std::span<const LineRelay> relays, double length,
+                      std::span<Crossing> crossings) {
+    constexpr int most_steps = 4;
+    for (std::size_t i = 0; i < crossings.size(); ++i) {
+        Crossing& crossing = crossings[i];
+        const Bracket bracket{i == 0 ? 0 : crossings[i - 1].at * length,
+                              i + 1 == crossings.size() ? length : crossings[i + 1].at * length};
+        double gap = infinity;
+        double x = crossing.at * length;
+        for (int step = 0; step <= most_steps && bracket.holds(x); ++step) {
+            const LineSample a = least_sample(relays, crossing.site_before, x);
+            const LineSample b = least_sample(relays, crossing.site_after, x);
+            const double gap_here = a.value - b.value;
+            if (!(std::abs(gap_here) < gap)) break;
+            gap = std::abs(gap_here);
+            crossing.at = x / length;
+            crossing.distance = std::max(a.value, b.value);
+            x -= gap_here / (a.slope - b.slope);
+        }
     }
 }
 

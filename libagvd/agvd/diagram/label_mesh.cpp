@@ -121,6 +121,9 @@ void label_some(const StageInput& input, const EdgeLabels& labels,
                    {surface.length[edge], labels.point_site[surface.tail(h)],
                     labels.point_site[surface.head(h)]},
                    scratch, out.crossings);
+        if (input.chord) {
+            settle_crossings(relays, surface.length[edge], std::span(out.crossings).subspan(begin));
+        }
         const Index count = size_of(out.crossings) - begin;
         if (count > 0) out.rows.push_back({edge, {begin, count}});
     }

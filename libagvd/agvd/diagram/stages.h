@@ -2,7 +2,9 @@
 //! The stages of a diagram: what they read, and what they make before it is drawn.
 #pragma once
 
-#include "agvd/diagram/arcs.h"
+#include <optional>
+
+#include "agvd/diagram/arc_shapes.h"
 #include "agvd/diagram/diagram.h"
 #include "agvd/propagation/site_placement.h"
 
@@ -15,8 +17,10 @@ struct StageInput {
     std::span<const Index> site_of_point;  //!< #points.
     const SitePlacement& placement;        //!< Of the points; their sites, not their numbers.
     const Propagation& propagation;
-    double chord_tolerance;  //!< As in DiagramOptions.
-    int num_threads;         //!< As in DiagramOptions.
+    // As in DiagramOptions.
+    double chord_tolerance;
+    std::optional<double> chord;
+    int num_threads;
     Poller& poller;
 };
 
@@ -26,6 +30,7 @@ struct DiagramParts {
     EdgeLabels labels;
     Arcs arcs;  //!< Faces by position.
     JoinedEdges joined;
+    ArcShapes shapes;
 };
 
 //! Labels the vertices. A vertex all of whose faces are mixed takes the nearest site over the
@@ -55,6 +60,13 @@ void trace_faces(const StageInput& input, std::span<const Index> positions, Diag
 //! Cost: that of draw_complex() for most diagrams; on the others that of the cells with islands,
 //! and O(#V + arcs) quick steps.
 [[nodiscard]] Diagram absorb_islands(const StageInput& input, DiagramParts& parts);
+
+//! Finds the conics that arcs are made of, and draws the arcs by these. Arcs of which the distances
+//! contradict each other, or would cross others, stay as they are.
+//! \param input  with a chord.
+//! Parallel. Cost: O(relays) a conic, and a few square roots a point; where a face has several
+//! arcs, O(points^2) comparisons.
+void shape_arcs(const StageInput& input, DiagramParts& parts);
 
 //! The complex without the points of its edges. Cost: O(arcs + boundary).
 [[nodiscard]] Diagram draw_complex(const Surface& surface, const DiagramParts& parts,

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "remesh/meshfile/atomic_file.h"
+#include "remesh/meshfile/diagram_arcs.h"
 #include "remesh/meshfile/formats.h"
 #include "remesh/meshfile/packed.h"
 #include "remesh/meshfile/ply_values.h"
@@ -55,6 +56,7 @@ public:
         if (diagram.edge_points.back() != diagram.points.size()) {
             fail("the Voronoi edges do not have all curve points");
         }
+        if (count_.contains("arc")) count_arcs();
     }
 
 private:
@@ -105,6 +107,8 @@ private:
             read_edge(element, i);
         } else if (element.name == "voronoi_vertex") {
             read_vertex(element, i);
+        } else if (element.name == "arc") {
+            read_arc(element, i);
         } else {
             skip_element(values_, element, i, file_);
         }
@@ -142,6 +146,42 @@ private:
         }
         for (const double label : lists_[1]) diagram.vertex_sites.push_back(site(label));
         diagram.vertex_offsets.push_back(static_cast<Index>(diagram.vertex_ends.size()));
+    }
+
+    void read_arc(const PlyElement& element, std::uint64_t i) {
+        read_row(element, i, arc_properties, {});
+        if (!(row_[2] >= 0 && row_[2] <= static_cast<double>(ArcKind::Chord)) ||
+            row_[2] != std::floor(row_[2])) {
+            fail("an arc has a kind that does not exist");
+        }
+        const auto at = [&](std::size_t k) { return Vec2(row_[k], row_[k + 1]); };
+        arc_edges_.push_back(index(row_[0], "voronoi_edge"));
+        out_.diagram.arcs.push_back({FaceId(index(row_[1], "face")),
+                                     static_cast<ArcKind>(row_[2]),
+                                     index(row_[3], "curve_point"),
+                                     {at(6), at(9)},
+                                     {row_[8], row_[11]},
+                                     at(12),
+                                     at(14)});
+    }
+
+    // Edges have their arcs in turn, each from one of the edge's points on.
+    void count_arcs() {
+        Diagram& diagram = out_.diagram;
+        diagram.edge_arcs.assign(1, 0);
+        Index a = 0;
+        for (Index e = 0; e < diagram.edges.size(); ++e) {
+            Index least = diagram.edge_points[e];
+            for (; a < arc_edges_.size() && arc_edges_[a] == e; ++a) {
+                const Index first = diagram.arcs[a].first_point;
+                if (first < least || first >= diagram.edge_points[e + 1]) {
+                    fail("an arc begins beside its Voronoi edge");
+                }
+                least = first + 1;
+            }
+            diagram.edge_arcs.push_back(a);
+        }
+        if (a != arc_edges_.size()) fail("arcs are not in the order of the Voronoi edges");
     }
 
     // Fills row_ and lists_ with the properties of these names, of whatever type.
@@ -222,6 +262,7 @@ private:
     std::size_t start_ = 0;                       // Of the item being read.
     std::vector<double> row_;                     // Numbers of it: 32-bit integers fit.
     std::vector<std::vector<double>> lists_;
+    std::vector<Index> arc_edges_;      // Of each arc.
     std::vector<SurfacePoint> points_;  // Of sites, where they are not the sites themselves.
 };
 
@@ -245,6 +286,8 @@ std::int32_t site_number(SiteId site) {
     return site.is_valid() ? static_cast<std::int32_t>(site.value()) : -1;
 }
 
+Index num_edges(const Diagram& diagram) { return static_cast<Index>(diagram.edges.size()); }
+
 // The points of an edge's polyline, counted from `first`; a closed curve comes back to its first.
 std::vector<Index> polyline(const Diagram& diagram, Index edge, Index first) {
     std::vector<Index> points;
@@ -254,8 +297,6 @@ std::vector<Index> polyline(const Diagram& diagram, Index edge, Index first) {
     if (diagram.edges[edge].tail == no_index) points.push_back(first + begin);
     return points;
 }
-
-Index num_edges(const Diagram& diagram) { return static_cast<Index>(diagram.edges.size()); }
 
 // Points of a file: those of the mesh, of the sites, and of the edges.
 struct LabelledPoints {
@@ -292,39 +333,81 @@ LabelledPoints labelled_points(const DrawnDiagram& drawn, Ticker& ticker) {
     return points;
 }
 
-// The sides of all cells of the file: sites, edges, faces.
-std::vector<std::int32_t> sides_of_cells(const DrawnDiagram& drawn, SiteId VoronoiEdge::*side) {
-    std::vector<std::int32_t> numbers(drawn.sites.size(), -1);
-    for (const VoronoiEdge& edge : drawn.diagram.edges) {
-        numbers.push_back(site_number(edge.*side));
+// A polyline of a VTP file: a Voronoi edge, or an arc of one.
+struct VtpLine {
+    Index edge;
+    Index arc = no_index;
+};
+
+std::vector<VtpLine> vtp_lines(const Diagram& diagram) {
+    std::vector<VtpLine> lines;
+    for (Index e = 0; e < num_edges(diagram); ++e) {
+        if (diagram.edge_arcs.empty() || diagram.edge_arcs[e] == diagram.edge_arcs[e + 1]) {
+            lines.push_back({e});
+            continue;
+        }
+        for (Index a = diagram.edge_arcs[e]; a < diagram.edge_arcs[e + 1]; ++a) {
+            lines.push_back({e, a});
+        }
     }
-    numbers.resize(numbers.size() + drawn.surface.num_faces(), -1);
-    return numbers;
+    return lines;
 }
 
 std::string format_vtp_diagram(const DrawnDiagram& drawn, Ticker ticker) {
+    const Diagram& diagram = drawn.diagram;
     const Index first_site = drawn.surface.num_vertices();
     const auto num_sites = static_cast<Index>(drawn.sites.size());
     const LabelledPoints points = labelled_points(drawn, ticker);
+    const std::vector<VtpLine> lines = vtp_lines(diagram);
     VtpWriter writer;
     const auto add_numbers = [&]<typename T>(const char* name, const char* type,
                                              const std::vector<T>& numbers) {
         writer.add_array<T>(name, type, 1, numbers.size(), ticker,
                             [&](std::size_t i) { return std::array{numbers[i]}; });
     };
+    // Of the cells of the file: sites, lines, faces.
+    const auto add_of_lines = [&](const char* name, std::int32_t none, const auto& number_of) {
+        std::vector<std::int32_t> numbers(drawn.sites.size(), none);
+        for (const VtpLine& line : lines) numbers.push_back(number_of(line));
+        numbers.resize(numbers.size() + drawn.surface.num_faces(), none);
+        add_numbers(name, "Int32", numbers);
+    };
+    const auto side = [&](SiteId VoronoiEdge::*of_edge) {
+        return [&diagram, of_edge](const VtpLine& line) {
+            return site_number(diagram.edges[line.edge].*of_edge);
+        };
+    };
     writer.begin_section("PointData", " Scalars=\"distance\"");
     add_numbers("site", "Int32", points.sites);
     add_numbers("distance", "Float64", points.distances);
     writer.end_section();
     writer.begin_section("CellData");
-    add_numbers("site_left", "Int32", sides_of_cells(drawn, &VoronoiEdge::left));
-    add_numbers("site_right", "Int32", sides_of_cells(drawn, &VoronoiEdge::right));
+    add_of_lines("site_left", -1, side(&VoronoiEdge::left));
+    add_of_lines("site_right", -1, side(&VoronoiEdge::right));
+    if (!diagram.edge_arcs.empty()) {
+        add_of_lines("edge", -1,
+                     [](const VtpLine& line) { return static_cast<std::int32_t>(line.edge); });
+        add_of_lines("kind", -1, [&](const VtpLine& line) {
+            return line.arc == no_index ? -1
+                                        : static_cast<std::int32_t>(diagram.arcs[line.arc].kind);
+        });
+        std::vector<BisectorArc> arcs(drawn.sites.size());
+        for (const VtpLine& line : lines) {
+            arcs.push_back(line.arc == no_index ? BisectorArc{} : diagram.arcs[line.arc]);
+        }
+        arcs.resize(arcs.size() + drawn.surface.num_faces());
+        append_foci(writer, drawn.surface, arcs, ticker);
+    }
     writer.end_section();
     writer.add_points(points.positions, ticker);
     writer.add_cells("Verts", num_sites, ticker,
                      [&](std::size_t s) { return std::array{first_site + s}; });
-    writer.add_cells("Lines", drawn.diagram.edges.size(), ticker, [&](std::size_t e) {
-        return polyline(drawn.diagram, static_cast<Index>(e), first_site + num_sites);
+    writer.add_cells("Lines", lines.size(), ticker, [&](std::size_t i) {
+        const auto& [edge, arc] = lines[i];
+        if (arc == no_index) return polyline(diagram, edge, first_site + num_sites);
+        std::vector<Index> of_arc = points_of_arc(diagram, edge, arc);
+        for (Index& point : of_arc) point += first_site + num_sites;
+        return of_arc;
     });
     writer.add_cells("Polys", drawn.surface.num_faces(), ticker,
                      [&](std::size_t f) { return drawn.surface.mesh.triangles[f]; });
@@ -348,12 +431,20 @@ std::string format_obj_lines(const DrawnDiagram& drawn, Ticker ticker) {
 }
 
 // With the vertices' labels and distances.
-std::string format_ply_mesh(const DrawnDiagram& drawn, Ticker ticker) {
+std::string format_labelled_mesh(const DrawnDiagram& drawn, Ticker ticker) {
     Attribute site{.name = "site", .type = NumberType::Int32};
     for (const SiteId s : drawn.diagram.nearest_site) site.values.push_back(site_number(s));
     const Attribute distance{.name = "distance", .values = drawn.diagram.nearest_distance};
     return format_ply(drawn.surface.mesh.view(), {.of_vertices = {std::move(site), distance}},
                       ticker);
+}
+
+std::string format_ply_mesh(const DrawnDiagram& drawn, Ticker ticker) {
+    std::string bytes = format_labelled_mesh(drawn, ticker);
+    if (drawn.diagram.edge_arcs.empty()) return bytes;
+    bytes.insert(bytes.find("end_header\n"), arc_header(drawn.diagram));
+    append_arcs(bytes, drawn.diagram, ticker);
+    return bytes;
 }
 
 void append_point(std::string& bytes, const SurfacePoint& point) {
@@ -394,12 +485,13 @@ std::string diagram_header(const Diagram& diagram, std::size_t num_points) {
            "them\n" +
            element("voronoi_vertex", diagram.vertices.size()) + point +
            "property double distance\nproperty list uint int ends\n"
-           "property list uint int sites\n";
+           "property list uint int sites\n" +
+           (diagram.edge_arcs.empty() ? std::string() : arc_header(diagram));
 }
 
 std::string format_whole_diagram(const DrawnDiagram& drawn, Ticker ticker) {
     const Diagram& diagram = drawn.diagram;
-    std::string bytes = format_ply_mesh(drawn, ticker);
+    std::string bytes = format_labelled_mesh(drawn, ticker);
     const bool are_points = drawn.points.site.empty() && drawn.points.start.empty();
     const auto num_points = static_cast<Index>(are_points ? 0 : drawn.sites.size());
     bytes.insert(bytes.find("end_header\n"), diagram_header(diagram, num_points));
@@ -437,6 +529,7 @@ std::string format_whole_diagram(const DrawnDiagram& drawn, Ticker ticker) {
                     [](const EdgeEnd& end) { return 2 * end.edge + (end.is_tail ? 0 : 1); });
         append_list(bytes, std::span(diagram.vertex_sites).subspan(begin, degree), site_number);
     }
+    if (!diagram.edge_arcs.empty()) append_arcs(bytes, diagram, ticker);
     return bytes;
 }
 

@@ -109,9 +109,12 @@ struct DiagramFile {
 //!   arc of a cell as a polyline (a closed curve repeats its first point), and each site as a
 //!   vertex. Point data `site` (of an edge's point: on its left) and `distance` from it, in mesh
 //!   units; cell data `site_left`, `site_right` of the polylines (-1: outside the surface, which
-//!   only a boundary arc has; -1 for all other cells).
+//!   only a boundary arc has; -1 for all other cells). Of a diagram with arcs each arc is a
+//!   polyline, with cell data `edge`, `kind` (0: line, 1: hyperbola, 2: chord; -1: no arc),
+//!   `focus_left`, `focus_right` (in space) and `weight_left`, `weight_right`.
 //! - ply: the surface's mesh as write_mesh writes it, with vertex properties `site` (int) and
-//!   `distance` (double; where no site reaches, site is -1 and distance is infinity).
+//!   `distance` (double; where no site reaches, site is -1 and distance is infinity), and of a
+//!   diagram with arcs an element `arc`, as BisectorArc.
 //! - obj: the polylines as `v` and `l` lines, each preceded by a comment `# sites LEFT RIGHT`.
 //! - agvd: everything, for read_diagram: such a PLY, and as elements of their own the sites and the
 //!   complex. The header's comments explain them.

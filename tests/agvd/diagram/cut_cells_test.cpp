@@ -92,6 +92,17 @@ TEST(CutCells, HaveTheAreasOfTheirCellsOnRandomMeshes) {
     }
 }
 
+// Points of arcs on the input lie beside the chords of the base.
+TEST(CutCells, HaveTheAreasOfTheirCellsWithArcs) {
+    const Surface surface = build_surface(shapes::jitter(shapes::sphere(3), 0.05, 3).view());
+    const IntrinsicTriangulation base(surface, {.max_length = 0.2});
+    const auto on_base = base.to_intrinsic(points::scattered(surface, 40, 3));
+    const Propagation propagation = propagate(base.surface(), on_base, {.max_error = 0});
+    expect_cut_along_bisectors(
+        surface, diagram_on_input(
+                     base, build_diagram(base.surface(), on_base, propagation, {.chord = 1e-3})));
+}
+
 // A cell inside one face, around which the other site has points: its border reaches no side.
 TEST(CutCells, MayBeHolesInAFace) {
     const TriangleMesh mesh{{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, {{0, 1, 2}}};

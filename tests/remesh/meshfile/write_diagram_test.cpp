@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 
 #include "agvd/core/error.h"
 #include "remesh/meshfile/mesh_file.h"
@@ -154,6 +155,61 @@ TEST_F(WriteDiagram, AgvdKeepsThePointsOfSitesAndTheirStarts) {
     EXPECT_TRUE(back.points == points);
     remesh::write_diagram(at("d.vtp"), surface_, sites_, diagram_, {}, points);
     EXPECT_NE(bytes("d.vtp").find("NumberOfVerts=\"4\""), std::string::npos);
+}
+
+// Edge 0 is a hyperbola in face 0; the closed curve a line, a chord and a line.
+class WriteArcs : public WriteDiagram {
+protected:
+    WriteArcs() {
+        const auto arc = [](Index face, ArcKind kind, Index first_point, double x) {
+            return BisectorArc{FaceId(face),  kind,        first_point, {Vec2(x, 1), Vec2(2, 3)},
+                               {0.25, 0.125}, Vec2(x, -1), Vec2(x, -2)};
+        };
+        diagram_.arcs = {arc(0, ArcKind::Hyperbola, 0, 1), arc(1, ArcKind::Line, 2, 2),
+                         arc(0, ArcKind::Chord, 3, 3), arc(1, ArcKind::Line, 4, 4)};
+        diagram_.edge_arcs = {0, 1, 4, 4};
+    }
+};
+
+TEST_F(WriteArcs, VtpHasAPolylineForEachWithItsFociInSpace) {
+    if (!remesh::knows_xml()) GTEST_SKIP() << "built without expat";
+    const remesh::VtkData data =
+        remesh::read_vtk_xml({.path = "d.vtp", .bytes = written("d.vtp"), .with_attributes = true});
+    EXPECT_EQ(data.cells[1].corners.values,
+              (std::vector<double>{7, 8, 9, 10, 10, 11, 11, 9, 12, 13}));
+    EXPECT_EQ(data.cells[1].ends, (std::vector<std::size_t>{2, 4, 6, 8, 10}));
+    std::map<std::string, std::vector<double>> values;
+    for (const auto& array : data.of_cells) values[array.name] = array.values;
+    EXPECT_EQ(values["site_left"], (std::vector<double>{-1, -1, -1, 0, 1, 1, 1, 0, -1, -1}));
+    EXPECT_EQ(values["edge"], (std::vector<double>{-1, -1, -1, 0, 1, 1, 1, 2, -1, -1}));
+    EXPECT_EQ(values["kind"], (std::vector<double>{-1, -1, -1, 1, 0, 2, 0, -1, -1, -1}));
+    EXPECT_EQ(values["weight_left"], (std::vector<double>{0, 0, 0, .25, .25, .25, .25, 0, 0, 0}));
+    // Corner 1 of face 0 lies on the x axis, and corner 2 above it.
+    const auto focus = [&](const char* name, std::size_t cell) {
+        const std::vector<double>& all = values[name];
+        return Vec3(all.at(3 * cell), all.at(3 * cell + 1), all.at(3 * cell + 2));
+    };
+    EXPECT_EQ(focus("focus_left", 3), Vec3(1, 1, 0));
+    EXPECT_EQ(focus("focus_right", 3), Vec3(2, 3, 0));
+    EXPECT_EQ(focus("focus_left", 5), Vec3(0, 0, 0));  // A chord has none.
+}
+
+TEST_F(WriteArcs, AgvdGivesThemBackAndPlyHasThem) {
+    const std::string text = written("d.agvd");
+    const remesh::DiagramFile back = remesh::read_diagram(at("d.agvd"));
+    EXPECT_TRUE(back.diagram.arcs == diagram_.arcs);
+    EXPECT_EQ(back.diagram.edge_arcs, diagram_.edge_arcs);
+    EXPECT_NE(written("d.ply").find("element arc 4\nproperty int edge\n"), std::string::npos);
+    EXPECT_EQ(remesh::read_mesh(at("d.ply")).mesh.triangles, surface_.mesh.triangles);
+}
+
+TEST_F(WriteArcs, InAnotherOrderOrOfUnknownKindAreRefused) {
+    const std::vector<BisectorArc> arcs = diagram_.arcs;
+    diagram_.arcs[1].first_point = 5;
+    EXPECT_THROW((void)remesh::read_diagram(put("d.agvd", written("d.agvd"))), InvalidInput);
+    diagram_.arcs = arcs;
+    diagram_.arcs[0].kind = static_cast<ArcKind>(3);
+    EXPECT_THROW((void)remesh::read_diagram(put("d.agvd", written("d.agvd"))), InvalidInput);
 }
 
 TEST_F(WriteDiagram, DamagedDiagramsAreRefused) {

@@ -35,11 +35,28 @@ py::array_t<std::int64_t> sides_of(const std::vector<agvd::VoronoiEdge>& edges) 
     return to_array<std::int64_t>(std::move(sides), 2);
 }
 
+py::dict to_dict(cli::DrawnArcs arcs) {
+    std::vector<std::int64_t> kinds;
+    for (const agvd::ArcKind kind : arcs.kinds) kinds.push_back(static_cast<std::int64_t>(kind));
+    std::vector<std::array<std::int64_t, 2>> spans;
+    for (const auto& [begin, end] : arcs.spans) spans.push_back({begin, end});
+    py::dict result;
+    result["line"] = to_numbers(arcs.lines);
+    result["span"] = to_array<std::int64_t>(std::move(spans), 2);
+    result["kind"] = to_array<std::int64_t>(std::move(kinds));
+    result["focus_left"] = to_array<double>(std::move(arcs.foci[0]), 3);
+    result["weight_left"] = to_array<double>(std::move(arcs.weights[0]));
+    result["focus_right"] = to_array<double>(std::move(arcs.foci[1]), 3);
+    result["weight_right"] = to_array<double>(std::move(arcs.weights[1]));
+    return result;
+}
+
 py::dict run_voronoi(const Doubles& positions, const Indices& triangles, const Indices& faces,
                      const Doubles& barycentric, const Indices& groups, const Doubles& weights,
                      const Indices& barriers, const Doubles& side_lengths,
-                     const std::string& engine, std::optional<double> max_error, bool keep_slits,
-                     int num_threads, const py::object& function) {
+                     const std::string& engine, std::optional<double> max_error,
+                     std::optional<double> chord, bool keep_slits, int num_threads,
+                     const py::object& function) {
     const agvd::MeshView mesh = view_of(positions, triangles);
     const agvd::PropagationOptions options =
         propagation_options(groups, weights, engine, max_error, num_threads);
@@ -48,8 +65,9 @@ py::dict run_voronoi(const Doubles& positions, const Indices& triangles, const I
     PythonProgress progress(function,
                             {{"clean", 1}, {"propagate", 1}, {"diagram", 1}, {"dual", 1}});
     cli::DrawnDiagram drawn = progress.run([&] {
-        return cli::draw_diagram(mesh, sites, options, as_surface,
-                                 [&](const char* stage) { return progress.of(stage); });
+        return cli::draw_diagram(
+            mesh, sites, options, as_surface, [&](const char* stage) { return progress.of(stage); },
+            chord);
     });
     py::dict result;
     result["labels"] = to_numbers(drawn.labels);
@@ -65,6 +83,7 @@ py::dict run_voronoi(const Doubles& positions, const Indices& triangles, const I
     result["line_sites"] = sides_of(drawn.diagram.edges);
     result["dual"] = to_array<Index>(std::move(drawn.dual), 3);
     result["certified_error"] = drawn.certified_error;
+    if (chord) result["arcs"] = to_dict(std::move(drawn.arcs));
     return result;
 }
 
@@ -114,7 +133,8 @@ void bind_diagram(py::module_& module) {
                py::arg("barycentric").noconvert(), py::arg("groups").noconvert(),
                py::arg("weights").noconvert(), py::arg("barriers").noconvert(),
                py::arg("side_lengths").noconvert(), py::arg("engine"), py::arg("max_error"),
-               py::arg("keep_slits"), py::arg("num_threads"), py::arg("progress"));
+               py::arg("chord"), py::arg("keep_slits"), py::arg("num_threads"),
+               py::arg("progress"));
     module.def("cut_cells", &run_cut_cells, py::arg("positions").noconvert(),
                py::arg("triangles").noconvert(), py::arg("faces").noconvert(),
                py::arg("barycentric").noconvert(), py::arg("groups").noconvert(),

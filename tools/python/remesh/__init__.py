@@ -16,7 +16,7 @@ once, and gives the same bytes for any number of threads. Ctrl-C ends a call in 
 import sys as _sys
 
 from . import examples, tiles
-from ._diagrams import Voronoi, cut_cells, geodesic_distance, nearest_sites, voronoi
+from ._diagrams import BisectorArcs, Voronoi, cut_cells, geodesic_distance, nearest_sites, voronoi
 from ._evaluation import evaluate
 from ._files import read, write
 from ._isolines import Isolines, isolines
@@ -40,6 +40,7 @@ if hasattr(_sys.modules.get("pyvista"), "register_dataset_accessor"):
     from . import _pyvista
 
 __all__ = [
+    "BisectorArcs",
     "Cancelled",
     "Cleaned",
     "ConstraintUnmet",

@@ -14,6 +14,37 @@ from ._stages import Progress, take_sites
 
 
 @dataclass(frozen=True)
+class BisectorArcs:
+    """The k arcs of the bisectors. Arc i lies in one face and has the points p with
+    ``|p - focus_left[i]| + weight_left[i] == |p - focus_right[i]| + weight_right[i]``, which is their
+    distance from both sites. Foci are images of the sites, or of vertices that paths bend at.
+
+    >>> V, F = remesh.examples.sphere(3)
+    >>> diagram = remesh.voronoi(V, F, [0, 1, 2], max_error=0, chord=1e-3)
+    >>> arcs = diagram.arcs
+    >>> p = diagram.points[arcs.span[:, 0]]  # the first point of each
+    >>> left = np.linalg.norm(p - arcs.focus_left, axis=1) + arcs.weight_left
+    >>> right = np.linalg.norm(p - arcs.focus_right, axis=1) + arcs.weight_right
+    >>> bool(np.allclose(left, right, atol=1e-11))
+    True
+    """
+
+    #: k: the polyline that the arc is a part of.
+    line: NDArray[np.int64]
+    #: k x 2: the arc is ``points[span[i, 0]:span[i, 1]]`` of the diagram.
+    span: NDArray[np.int64]
+    #: k: 0: a line, 1: a hyperbola, 2: a chord without foci, drawn where distances with errors
+    #: contradict each other.
+    kind: NDArray[np.int64]
+    #: k x 3, in the plane of the face.
+    focus_left: NDArray[np.float64]
+    #: k: the distance of the site on the left from its focus.
+    weight_left: NDArray[np.float64]
+    focus_right: NDArray[np.float64]
+    weight_right: NDArray[np.float64]
+
+
+@dataclass(frozen=True)
 class Voronoi:
     """A geodesic Voronoi diagram of k sites. Lengths are in mesh units.
 
@@ -50,6 +81,8 @@ class Voronoi:
     dual: NDArray[np.uint32]
     #: No distance is longer than the exact one by more than this share of it.
     certified_error: float
+    #: With ``chord``: what the bisectors are made of.
+    arcs: BisectorArcs | None = None
 
     @property
     def bisectors(self) -> list[NDArray[np.float64]]:
@@ -125,7 +158,7 @@ def _lengths(edge_lengths: Any, barriers: Any, mesh: _kinds.Given) -> _arrays.Fl
 
 def voronoi(V: Any, F: Any = None, sites: Any = None, max_error: float | None = None, *,
             groups: Any = None, weights: Any = None, barriers: Any = None, edge_lengths: Any = None, engine: str = "window",
-            keep_slits: bool = False, threads: int = 0,
+            chord: float | None = None, keep_slits: bool = False, threads: int = 0,
             progress: Progress | None = None) -> Voronoi:
     """The geodesic Voronoi diagram of sites on a surface.
 
@@ -143,6 +176,8 @@ def voronoi(V: Any, F: Any = None, sites: Any = None, max_error: float | None = 
     cleaning repairs is an error. Not together with barriers; sites are vertices, or faces and
     barycentric coordinates.
     engine: ``"window"`` or ``"steiner"``: see the README.
+    chord: polylines stray from the bisectors by at most this length, and the result has ``arcs``;
+    None: by a hundredth of each chord, without arcs.
     keep_slits: open edges at one place, such as the two sides of a slit, are not welded.
 
     >>> V, F = remesh.examples.sphere(3)
@@ -157,9 +192,14 @@ def voronoi(V: Any, F: Any = None, sites: Any = None, max_error: float | None = 
     """
     mesh = _kinds.take(V, F)
     faces, barycentric = take_sites(mesh, sites)
-    return Voronoi(**_remesh.voronoi(mesh.V, mesh.F, faces, barycentric,
-                                     _groups(groups, len(faces)), _weights(weights, len(faces)), _barriers(barriers, mesh), _lengths(edge_lengths, barriers, mesh),
-                                     *_common(engine, max_error, keep_slits, threads), progress))
+    name, error, slits, num_threads = _common(engine, max_error, keep_slits, threads)
+    found = _remesh.voronoi(
+        mesh.V, mesh.F, faces, barycentric, _groups(groups, len(faces)),
+        _weights(weights, len(faces)), _barriers(barriers, mesh),
+        _lengths(edge_lengths, barriers, mesh), name, error,
+        None if chord is None else _arrays.number(chord, "chord"), slits, num_threads, progress)
+    arcs = found.pop("arcs", None)
+    return Voronoi(**found, arcs=None if arcs is None else BisectorArcs(**arcs))
 
 
 def cut_cells(V: Any, F: Any = None, sites: Any = None, max_error: float | None = None, *,
@@ -172,7 +212,7 @@ def cut_cells(V: Any, F: Any = None, sites: Any = None, max_error: float | None 
     none reaches it), and the face of the input that it is a part of. It is a manifold, and the faces
     of a site have the area of its cell.
 
-    All parameters are those of voronoi().
+    All parameters are those of voronoi(), which has ``chord`` besides.
 
     >>> V, F = remesh.examples.sphere(3)
     >>> W, G, site, source = remesh.cut_cells(V, F, [0, 1])

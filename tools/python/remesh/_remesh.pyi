@@ -76,8 +76,8 @@ def page(positions: _Floats, triangles: _Indices, result_positions: _Floats,
 def has_viewer() -> bool: ...
 def voronoi(positions: _Floats, triangles: _Indices, faces: _Indices, barycentric: _Floats,
             groups: _Indices, weights: _Floats, barriers: _Indices,
-            side_lengths: _Floats, engine: str, max_error: float | None, keep_slits: bool, num_threads: int,
-            progress: _Progress) -> dict[str, Any]: ...
+            side_lengths: _Floats, engine: str, max_error: float | None, chord: float | None,
+            keep_slits: bool, num_threads: int, progress: _Progress) -> dict[str, Any]: ...
 def cut_cells(positions: _Floats, triangles: _Indices, faces: _Indices, barycentric: _Floats,
               groups: _Indices, weights: _Floats, barriers: _Indices, side_lengths: _Floats,
               engine: str, max_error: float | None, keep_slits: bool, num_threads: int,
