@@ -90,7 +90,7 @@ struct RightTriangle {
 
 // The right triangles of the two ends of an edge. They are alike but for their slopes.
 struct EdgePart {
-    double area, mass, spread;  // Of each.
+    double area = 0, mass = 0, spread = 0;  // Of each.
     Vec3 along, across;         // Slopes: their sum at the tail, across - along at the head.
 
     [[nodiscard]] RightTriangle at_tail() const { return {area, mass, spread, across + along}; }
@@ -100,7 +100,7 @@ struct EdgePart {
 // \param edge       the triangle lies on its left.
 // \param up         unit normal of the triangle.
 // \param cotangent  of the angle opposite the edge.
-EdgePart edge_part(const Vec3& edge, const Vec3& up, double cotangent, double density) {
+inline EdgePart edge_part(const Vec3& edge, const Vec3& up, double cotangent, double density) {
     const double squared_length = edge.squaredNorm();
     const double area = cotangent * squared_length / 8;
     const double mass = density * area;
@@ -223,22 +223,25 @@ void measure_energy(const SiteMesh& mesh, std::span<const Vec3> positions,
         const double density = (weight[t[0]] + weight[t[1]] + weight[t[2]]) / 3;
         // The circumcentre lies above the midpoint of each edge by half the edge times the
         // cotangent: two right triangles, one in the cell of either end.
-        std::array<RightTriangle, 3> part;
+        std::array<EdgePart, 3> half;
         double energy = 0, weighted = 0;
         double flat = flat_cotangent, steepest = 0;
         std::size_t obtuse_at_rim = 3;
         for (std::size_t k = 0; k < 3; ++k) {
             const double cotangent = -edge[(k + 1) % 3].dot(edge[(k + 2) % 3]) / doubled_area;
-            const EdgePart both = edge_part(edge[k], up, cotangent, density);
-            part[k].add(both.at_tail());
-            part[(k + 1) % 3].add(both.at_head());
-            energy += 2 * both.area * both.spread;
-            weighted += 2 * both.mass * both.spread;
+            half[k] = edge_part(edge[k], up, cotangent, density);
+            energy += 2 * half[k].area * half[k].spread;
+            weighted += 2 * half[k].mass * half[k].spread;
             const bool is_rim = mesh.twin[3 * i + k] == no_index;
             if (is_rim) flat = flat_cotangent_at_rim;
             if (is_rim && cotangent < 0) obtuse_at_rim = k;
             steepest = std::max(steepest, std::abs(cotangent));
             result.cotangent[3 * i + k] = cotangent;
+        }
+        std::array<RightTriangle, 3> part;
+        for (std::size_t k = 0; k < 3; ++k) {
+            part[k] = half[k].at_tail();
+            part[k].add(half[(k + 2) % 3].at_head());
         }
         if (obtuse_at_rim < 3) {
             const std::size_t k = obtuse_at_rim;
