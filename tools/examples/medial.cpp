@@ -5,7 +5,6 @@
 #include <cstdio>
 
 #include "agvd/agvd.h"
-#include "agvd/mesh/topology.h"
 #include "examples/example.h"
 #include "remesh/meshfile/mesh_file.h"
 

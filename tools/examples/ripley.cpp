@@ -1,5 +1,5 @@
-// example-ripley: Ripley's K of points on a surface, by distances along the surface (Ripley 1976;
-// on a sphere Robeson, Li and Huang 2014). K(r) is the area times the share of pairs that are no
+// example-ripley: Ripley's K of points on a surface, by distances along the surface ([ripley1976];
+// on a sphere [robeson2014]). K(r) is the area times the share of pairs that are no
 // farther apart than r. Points that are independent and uniform have the mean area of a disc of
 // radius r around a point, which is 2 pi R^2 (1 - cos(r / R)) on a sphere; clusters have more,
 // points that keep a distance have less.

@@ -142,16 +142,19 @@ private:
         }
     }
 
-    // Takes the inner points from arcs that cross, O(n^2) for n pieces. False: there are none.
+    // Takes the inner points from arcs that cross, O(n^2) for n pieces. False: there are none. Where
+    // four cells meet in a point, or three on a side, arcs cross by rounding, which no other way of
+    // drawing them avoids.
     [[nodiscard]] bool straighten() {
         assert(chords_.size() == out_.arcs.size() - start_.arcs);
         // Two segments that share an end do not cross.
         if (chords_.size() + out_.points.size() - start_.points < 3) return false;
         collect_segments();
+        const double slack = inside_tolerance * triangle_.size;
         bool is_any = false;
         for (std::size_t i = 0; i < segments_.size(); ++i) {
             for (std::size_t j = i + 1; j < segments_.size(); ++j) {
-                if (!do_cross(segments_[i].chord, segments_[j].chord)) continue;
+                if (!do_cross(segments_[i].chord, segments_[j].chord, slack)) continue;
                 out_.arcs[segments_[i].arc].num_points = 0;
                 out_.arcs[segments_[j].arc].num_points = 0;
                 is_any = true;
