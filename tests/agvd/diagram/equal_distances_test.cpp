@@ -11,8 +11,10 @@
 #include "agvd/intrinsic/intrinsic_triangulation.h"
 #include "agvd/mesh/surface_points.h"
 #include "agvd/propagation/propagate.h"
+#include "support/checks.h"
 #include "support/points.h"
 #include "support/random_meshes.h"
+#include "support/shapes.h"
 
 using namespace agvd;
 
@@ -64,4 +66,44 @@ TEST(EqualDistances, HoldAtThePointsOfBisectorsOnRandomMeshes) {
             EXPECT_LE(largest_gap(random_meshes::make(family, seed), 9), 1e-10);
         }
     }
+}
+
+// Sites at the vertices of a plane grid's boundary: bisectors pass through its vertices, and four
+// cells meet in points of its edges.
+TEST(EqualDistances, HoldWhereCellsMeetAtVerticesAndOnEdges) {
+    std::size_t num_points = 0;
+    for (Index n = 3; n <= 20; ++n) {
+        // n x m squares of size 1.
+        const Index m = n + 3 * (n % 3);
+        TriangleMesh mesh = shapes::grid(m);
+        for (Vec3& p : mesh.positions) p *= m;
+        std::erase_if(mesh.triangles, [&](const Triangle& t) {
+            return std::any_of(t.begin(), t.end(),
+                               [&](Index v) { return mesh.positions[v].y() > n + 0.5; });
+        });
+        const Surface surface = build_surface(mesh.view());
+        std::vector<SurfacePoint> sites;
+        std::vector<Vec3> places;
+        const auto loops = boundary_loops(surface);
+        for (const Index h : loops.at(0)) {
+            sites.push_back(point_at(surface, surface.tail(h)));
+            places.push_back(mesh.positions[surface.tail(h)]);
+        }
+        const Diagram diagram =
+            build_diagram(surface, sites, propagate(surface, sites, {.max_error = 0}));
+        checks::expect_valid_complex(surface, diagram);
+        for (Index e = 0; e < diagram.edges.size(); ++e) {
+            const auto [left, right, tail, head] = diagram.edges[e];
+            if (!right.is_valid()) continue;
+            for (Index i = diagram.edge_points[e]; i < diagram.edge_points[e + 1]; ++i) {
+                const Vec3 p = position(mesh, diagram.points[i]);
+                double least = infinity;
+                for (const Vec3& place : places) least = std::min(least, (p - place).norm());
+                EXPECT_NEAR((p - places[left.value()]).norm(), least, 1e-9 * n) << p.transpose();
+                EXPECT_NEAR((p - places[right.value()]).norm(), least, 1e-9 * n) << p.transpose();
+                ++num_points;
+            }
+        }
+    }
+    EXPECT_GT(num_points, 10000U);
 }
