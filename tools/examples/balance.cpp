@@ -3,6 +3,7 @@
 // ([geiss2013]), and maximise a concave function whose gradient is what areas lack.
 #include <Eigen/Dense>
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <sstream>
 
@@ -16,22 +17,23 @@ using agvd::Index;
 
 constexpr const char* usage =
     "usage: example-balance MESH N CELLS.ply SITES.txt\n"
-    "Takes the vertices farthest from all before as N sites, and lets each start at such a "
-    "distance\n"
-    "that all cells have the same area within 1 %. Prints the areas. Writes the mesh cut along "
-    "the\n"
-    "borders, with the property `site` of each face, and the sites with their starts, for\n"
-    "`agvd diagram --sites`.\n";
+    "Takes N vertices as sites, each as far as can be from those before, and lets each start at a\n"
+    "distance such that all cells have the same area within 1 %. Prints the areas. Writes the\n"
+    "mesh cut along the borders, with the property `site` of each face, and the sites with their\n"
+    "starts, for `agvd diagram --sites`.\n";
 
 constexpr double tolerance = 0.01;    // Of the areas.
 constexpr double least_share = 0.01;  // Of a step: shorter ones are given up.
 
-// Each as far as can be from those before.
+// Each as far as can be from those before, the first in the first face.
 std::vector<Index> farthest_vertices(const agvd::Surface& surface, Index count) {
-    std::vector<Index> vertices{0};
-    std::vector<agvd::SurfacePoint> points{agvd::point_at(surface, 0)};
+    std::vector<Index> vertices{surface.tail(0)};
+    std::vector<agvd::SurfacePoint> points{agvd::point_at(surface, vertices[0])};
     while (vertices.size() < count) {
-        const auto distance = agvd::propagate(surface, points).vertex_distance;
+        auto distance = agvd::propagate(surface, points).vertex_distance;
+        for (Index v = 0; v < surface.num_vertices(); ++v) {
+            if (surface.outgoing[v] == agvd::no_index) distance[v] = 0;  // It is in no face.
+        }
         const auto farthest = std::max_element(distance.begin(), distance.end());
         vertices.push_back(static_cast<Index>(farthest - distance.begin()));
         points.push_back(agvd::point_at(surface, vertices.back()));
@@ -63,7 +65,9 @@ Cells cells_of(const agvd::Surface& surface, const std::vector<agvd::SurfacePoin
 // border's length for each unit of difference between both sides.
 Eigen::VectorXd newton_step(const agvd::Surface& surface, const Cells& cells) {
     const Eigen::Index n = cells.excess.size();
-    Eigen::MatrixXd change = Eigen::MatrixXd::Constant(n, n, 1e-9);  // Equal changes do nothing.
+    const double mean_area = agvd::surface_area(surface) / static_cast<double>(n);
+    // Equal changes of all starts do nothing; the matrix would be singular.
+    Eigen::MatrixXd change = Eigen::MatrixXd::Constant(n, n, std::sqrt(mean_area));
     for (Index e = 0; e < cells.diagram.edges.size(); ++e) {
         const agvd::VoronoiEdge& edge = cells.diagram.edges[e];
         if (!edge.right.is_valid()) continue;
@@ -74,7 +78,7 @@ Eigen::VectorXd newton_step(const agvd::Surface& surface, const Cells& cells) {
         change(i, j) -= rate;
         change(j, i) -= rate;
     }
-    return change.ldlt().solve(cells.excess * agvd::surface_area(surface) / static_cast<double>(n));
+    return change.ldlt().solve(mean_area * cells.excess);
 }
 
 // Steps are halved until areas are more even and no cell is nearly lost ([kitagawa2019]).

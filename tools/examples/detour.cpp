@@ -56,8 +56,9 @@ void find_detours(const example::Arguments& arguments) {
         std::printf("pair %zu: %.8f, without barriers %.8f, %s\n", i, paths[i].length,
                     free_paths[i].length,
                     paths[i].is_locally_shortest ? "locally shortest" : "not locally shortest");
-        for (lines.emplace_back(); const agvd::SurfacePoint& point : paths[i].points) {
-            lines.back().push_back(agvd::position(open.mesh.view(), point));
+        example::Line& line = lines.emplace_back();
+        for (const agvd::SurfacePoint& point : paths[i].points) {
+            line.push_back(agvd::position(open.mesh.view(), point));
         }
     }
     example::write_lines(arguments[3], lines);

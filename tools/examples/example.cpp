@@ -30,8 +30,9 @@ double number(const std::string& text, const std::string& name, double least, do
     char* end = nullptr;
     const double value = std::strtod(text.c_str(), &end);
     if (text.empty() || *end != '\0' || !(value >= least && value <= most)) {
-        throw agvd::InvalidOption(name + " is " + text + "; give a number of at least " +
-                                  std::to_string(least));
+        std::ostringstream message;
+        message << name << " is " << text << "; give a number from " << least << " to " << most;
+        throw agvd::InvalidOption(message.str());
     }
     return value;
 }

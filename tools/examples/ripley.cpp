@@ -1,9 +1,9 @@
-// example-ripley: Ripley's K of points on a surface, by distances along the surface ([ripley1976];
-// on a sphere [robeson2014]). K(r) is the area times the share of pairs that are no
-// farther apart than r. Points that are independent and uniform have the mean area of a disc of
-// radius r around a point, which is 2 pi R^2 (1 - cos(r / R)) on a sphere; clusters have more,
-// points that keep a distance have less.
+// example-ripley: Ripley's K of points on a surface, by distances along the surface ([ripley1976]).
+// K(r) is the area times the share of pairs that are no farther apart than r. That of uniform,
+// independent points is the mean area of a disc of radius r around a point, which on a sphere is
+// 2 pi R^2 (1 - cos(r / R)) ([robeson2014]). Clusters have more; points that keep apart have less.
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "agvd/agvd.h"
@@ -35,7 +35,7 @@ void print_k(const example::Arguments& arguments) {
     const agvd::Surface surface = agvd::build_surface(remesh::read_mesh(arguments[0]).mesh.view());
     const auto points =
         remesh::read_sites(arguments[1], surface.mesh.view(), {}, remesh::Repeats::Allowed).sites;
-    const double step = example::number(arguments[2], "STEP", 1e-300);
+    const double step = example::number(arguments[2], "STEP", 1e-9);
     const auto count = static_cast<std::size_t>(example::number(arguments[3], "COUNT", 1, 1e6));
     if (points.size() < 2) throw agvd::InvalidInput(arguments[1] + ": add a second point");
 

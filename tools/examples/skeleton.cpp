@@ -1,6 +1,7 @@
 // example-skeleton: the skeleton of a tree-like shape ([lazarus1999]). Lines of equal distance from
 // a root run around its branches; their centroids are the nodes. The shortest path from a ring to
 // the root crosses the next ring on the way there: its parent.
+#include <algorithm>
 #include <cstdio>
 
 #include "agvd/agvd.h"
@@ -20,7 +21,7 @@ constexpr const char* usage =
     "  ROOT  points whose nearest one counts: `v VERTEX`, `f FACE B0 B1 B2` or `p X Y Z` on each\n"
     "        line\n";
 
-// Of points and lines of at most this share of STEP apart it is taken that they touch.
+// Polylines stray from the lines by at most this share of STEP.
 constexpr double tolerance = 1e-3;
 
 // Of the surface that a closed line spans, seen along its normal. That of the curve itself lies
@@ -62,7 +63,7 @@ void find_skeleton(const example::Arguments& arguments) {
     const agvd::Surface surface = agvd::build_surface(remesh::read_mesh(arguments[0]).mesh.view());
     const agvd::MeshView mesh = surface.mesh;
     const auto root = remesh::read_sites(arguments[1], mesh).sites;
-    const double step = example::number(arguments[2], "STEP", 1e-300);
+    const double step = example::number(arguments[2], "STEP", 1e-9);
 
     const agvd::Propagation field =
         agvd::propagate(surface, root, {.max_error = 0, .relay_faces = agvd::all_faces(surface)});
@@ -78,19 +79,20 @@ void find_skeleton(const example::Arguments& arguments) {
         starts.push_back(drawn.points[drawn.offsets[i]]);
     }
     const auto paths = agvd::paths_to_sites(surface, root, field, starts);
+    const auto is_ring_at = [&](std::size_t line, Index level) {
+        return isolines.lines[line].is_closed && isolines.lines[line].level == level;
+    };
     std::vector<example::Line> skeleton;
     std::size_t num_rings = 0;
     for (std::size_t i = 0; i < rings.size(); ++i) {
-        if (!isolines.lines[i].is_closed) continue;
+        const Index level = isolines.lines[i].level;
+        if (!is_ring_at(i, level)) continue;
         ++num_rings;
-        if (isolines.lines[i].level == 0) continue;  // Behind it is the root.
+        if (level == 0) continue;  // Next comes the root.
         const Vec3 crossing = point_after(mesh, paths[i].path, step);
         for (std::size_t j = 0; j < rings.size(); ++j) {
-            if (isolines.lines[j].level + 1 != isolines.lines[i].level ||
-                !isolines.lines[j].is_closed ||
-                distance_to(rings[j], crossing) > 2 * tolerance * step) {
-                continue;
-            }
+            if (!is_ring_at(j, level - 1)) continue;
+            if (distance_to(rings[j], crossing) > 2 * tolerance * step) continue;
             skeleton.push_back({centroid_of(rings[j]), centroid_of(rings[i])});
             break;
         }
