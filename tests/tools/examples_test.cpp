@@ -250,6 +250,9 @@ TEST_F(Examples, MedialAxisOfARectangle) {
     EXPECT_NEAR(printed.at(0), 1 + 2 * std::sqrt(2) * (1 - 1 / 40.0), 1e-6);
     // From sites .5 above and .5 below, and half a square aside.
     EXPECT_NEAR(printed.at(1), std::hypot(.5, .0125), 1e-6);
+    // Sites on both sides of a corner, two vertices apart, are neighbours as well.
+    const auto shorter = numbers_in(example("medial", {at("rectangle.obj"), at("axis.obj"), "3"}));
+    EXPECT_NEAR(shorter.at(0), 1 + 2 * std::sqrt(2) * (1 - 3 / 40.0), 1e-6);
 }
 
 TEST_F(Examples, MedialAxisOfAnEllipse) {
@@ -277,7 +280,7 @@ TEST_F(Examples, MedialAxisOfARegionOnABentSurface) {
     ASSERT_EQ(std::accumulate(region.values.begin(), region.values.end(), 0.0), 2 * 40 * 20);
     put("prism.ply", remesh::format_mesh(std::filesystem::path("prism.ply"), mesh.view(),
                                          {.of_faces = {region}}));
-    example("medial", {at("prism.ply"), at("axis.obj"), "region"});
+    example("medial", {at("prism.ply"), at("axis.obj"), "1", "region"});
     // From the lower corner of the region: whole sides, and the way on the last one.
     const auto unrolled = [&](const Vec3& p) {
         const double turn = std::atan2(p.y(), p.x()), sector = 2 * pi / columns;

@@ -13,7 +13,7 @@ namespace {
 using agvd::Index;
 
 constexpr const char* usage =
-    "usage: example-medial MESH AXIS.obj [PROPERTY [K]]\n"
+    "usage: example-medial MESH AXIS.obj [K [PROPERTY]]\n"
     "Writes the medial axis of the faces whose PROPERTY is not 0, or of all, as lines. The sites\n"
     "are the vertices of the boundary. Prints the length of the axis and the largest distance\n"
     "from the boundary.\n"
@@ -45,16 +45,16 @@ void find_axis(const example::Arguments& arguments) {
     const remesh::MeshFile file =
         remesh::read_mesh(arguments[0], remesh::ReadOptions{.with_attributes = true});
     std::vector<bool> is_inside(file.mesh.triangles.size(), true);
-    if (arguments.size() > 2) {
-        const auto* const property = remesh::find_attribute(file.attributes.of_faces, arguments[2]);
+    if (arguments.size() > 3) {
+        const auto* const property = remesh::find_attribute(file.attributes.of_faces, arguments[3]);
         if (property == nullptr) {
-            throw agvd::InvalidInput(arguments[0] + ": faces have no property " + arguments[2]);
+            throw agvd::InvalidInput(arguments[0] + ": faces have no property " + arguments[3]);
         }
         std::transform(property->values.begin(), property->values.end(), is_inside.begin(),
                        [](double value) { return value != 0; });
     }
     const auto most_apart =
-        static_cast<Index>(arguments.size() > 3 ? example::number(arguments[3], "K", 1) : 1);
+        static_cast<Index>(arguments.size() > 2 ? example::number(arguments[2], "K", 1) : 1);
 
     const agvd::Surface surface = cut_out(agvd::build_surface(file.mesh.view()), is_inside);
     std::vector<agvd::SurfacePoint> sites;
