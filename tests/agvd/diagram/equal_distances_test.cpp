@@ -14,7 +14,6 @@
 #include "support/checks.h"
 #include "support/points.h"
 #include "support/random_meshes.h"
-#include "support/shapes.h"
 
 using namespace agvd;
 
@@ -68,40 +67,64 @@ TEST(EqualDistances, HoldAtThePointsOfBisectorsOnRandomMeshes) {
     }
 }
 
-// Sites at the vertices of a plane grid's boundary: bisectors pass through its vertices, and four
-// cells meet in points of its edges.
+namespace {
+
+// n x m squares of size 1 / n, whose diagonals are parallel or alternate.
+TriangleMesh squares(Index n, Index m, bool alternate) {
+    TriangleMesh mesh;
+    for (Index i = 0; i <= n; ++i) {
+        for (Index j = 0; j <= m; ++j) mesh.positions.emplace_back(j / double{n}, i / double{n}, 0);
+    }
+    for (Index i = 0; i < n; ++i) {
+        for (Index j = 0; j < m; ++j) {
+            const Index a = i * (m + 1) + j, b = a + 1, c = b + m + 1, d = a + m + 1;
+            const bool turned = alternate && (i + j) % 2 == 1;
+            mesh.triangles.push_back(turned ? Triangle{a, b, d} : Triangle{a, b, c});
+            mesh.triangles.push_back(turned ? Triangle{b, c, d} : Triangle{a, c, d});
+        }
+    }
+    return mesh;
+}
+
+// Sites at the vertices of the boundary: bisectors pass through vertices, and four cells meet in
+// points of edges. Returns the number of points of bisectors.
+std::size_t expect_equal_distances(const TriangleMesh& mesh) {
+    const Surface surface = build_surface(mesh.view());
+    std::vector<SurfacePoint> sites;
+    std::vector<Vec3> places;
+    const auto loops = boundary_loops(surface);
+    for (const Index h : loops.at(0)) {
+        sites.push_back(point_at(surface, surface.tail(h)));
+        places.push_back(mesh.positions[surface.tail(h)]);
+    }
+    const Diagram diagram =
+        build_diagram(surface, sites, propagate(surface, sites, {.max_error = 0}));
+    checks::expect_valid_complex(surface, diagram);
+    std::size_t num_points = 0;
+    for (Index e = 0; e < diagram.edges.size(); ++e) {
+        const VoronoiEdge& edge = diagram.edges[e];
+        if (!edge.right.is_valid()) continue;
+        for (Index i = diagram.edge_points[e]; i < diagram.edge_points[e + 1]; ++i) {
+            const Vec3 p = position(mesh, diagram.points[i]);
+            double least = infinity;
+            for (const Vec3& place : places) least = std::min(least, (p - place).norm());
+            EXPECT_NEAR((p - places[edge.left.value()]).norm(), least, 1e-9) << p.transpose();
+            EXPECT_NEAR((p - places[edge.right.value()]).norm(), least, 1e-9) << p.transpose();
+            ++num_points;
+        }
+    }
+    return num_points;
+}
+
+}  // namespace
+
 TEST(EqualDistances, HoldWhereCellsMeetAtVerticesAndOnEdges) {
     std::size_t num_points = 0;
-    for (Index n = 3; n <= 20; ++n) {
-        // n x m squares of size 1.
-        const Index m = n + 3 * (n % 3);
-        TriangleMesh mesh = shapes::grid(m);
-        for (Vec3& p : mesh.positions) p *= m;
-        std::erase_if(mesh.triangles, [&](const Triangle& t) {
-            return std::any_of(t.begin(), t.end(),
-                               [&](Index v) { return mesh.positions[v].y() > n + 0.5; });
-        });
-        const Surface surface = build_surface(mesh.view());
-        std::vector<SurfacePoint> sites;
-        std::vector<Vec3> places;
-        const auto loops = boundary_loops(surface);
-        for (const Index h : loops.at(0)) {
-            sites.push_back(point_at(surface, surface.tail(h)));
-            places.push_back(mesh.positions[surface.tail(h)]);
-        }
-        const Diagram diagram =
-            build_diagram(surface, sites, propagate(surface, sites, {.max_error = 0}));
-        checks::expect_valid_complex(surface, diagram);
-        for (Index e = 0; e < diagram.edges.size(); ++e) {
-            const auto [left, right, tail, head] = diagram.edges[e];
-            if (!right.is_valid()) continue;
-            for (Index i = diagram.edge_points[e]; i < diagram.edge_points[e + 1]; ++i) {
-                const Vec3 p = position(mesh, diagram.points[i]);
-                double least = infinity;
-                for (const Vec3& place : places) least = std::min(least, (p - place).norm());
-                EXPECT_NEAR((p - places[left.value()]).norm(), least, 1e-9 * n) << p.transpose();
-                EXPECT_NEAR((p - places[right.value()]).norm(), least, 1e-9 * n) << p.transpose();
-                ++num_points;
+    for (Index n = 3; n <= 12; ++n) {
+        for (const Index m : {n, 2 * n, 2 * n + 1}) {
+            for (const bool alternate : {false, true}) {
+                SCOPED_TRACE(std::to_string(n) + " x " + std::to_string(m));
+                num_points += expect_equal_distances(squares(n, m, alternate));
             }
         }
     }
