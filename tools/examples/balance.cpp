@@ -86,20 +86,25 @@ Cells balance(const agvd::Surface& surface, const std::vector<agvd::SurfacePoint
     Eigen::VectorXd starts = Eigen::VectorXd::Zero(std::ssize(sites));
     Cells cells = cells_of(surface, sites, starts);
     const double least_excess = std::min(-0.5, (cells.excess.minCoeff() - 1) / 2);
-    for (double share = 1; worst(cells) > tolerance;) {
+    double share = 1;  // Of a step.
+    const auto is_better = [&](const Cells& next) {
+        return next.excess.minCoeff() >= least_excess &&
+               next.excess.norm() <= (1 - share / 4) * cells.excess.norm();
+    };
+    while (worst(cells) > tolerance) {
         const Eigen::VectorXd step = newton_step(surface, cells);
-        for (share = std::min(1.0, 4 * share); share > least_share; share /= 2) {
-            Cells next = cells_of(surface, sites, starts + share * step);
-            if (next.excess.minCoeff() < least_excess) continue;
-            if (next.excess.norm() > (1 - share / 4) * cells.excess.norm()) continue;
-            starts += share * step;
-            cells = std::move(next);
-            break;
+        share = std::min(1.0, 4 * share);
+        Cells next = cells_of(surface, sites, starts + share * step);
+        while (!is_better(next)) {
+            share /= 2;
+            if (share < least_share) {
+                throw agvd::ConstraintUnmet("a cell stays " + std::to_string(100 * worst(cells)) +
+                                            " % off; take another number of sites");
+            }
+            next = cells_of(surface, sites, starts + share * step);
         }
-        if (share <= least_share) {
-            throw agvd::ConstraintUnmet("a cell stays " + std::to_string(100 * worst(cells)) +
-                                        " % off; take another number of sites");
-        }
+        starts += share * step;
+        cells = std::move(next);
     }
     return cells;
 }
@@ -110,6 +115,7 @@ void write_cells(const example::Arguments& arguments) {
         example::number(arguments[1], "N", 2, std::min(2000U, surface.num_vertices())));
     const std::vector<Index> vertices = farthest_vertices(surface, count);
     std::vector<agvd::SurfacePoint> sites;
+    sites.reserve(count);
     for (const Index v : vertices) sites.push_back(agvd::point_at(surface, v));
     const Cells balanced = balance(surface, sites);
     std::ostringstream lines;

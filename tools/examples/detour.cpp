@@ -24,6 +24,7 @@ constexpr const char* usage =
 std::vector<std::uint8_t> mark_edges(const agvd::Surface& surface,
                                      const std::vector<std::array<Index, 2>>& ends) {
     std::vector<std::uint64_t> wanted;
+    wanted.reserve(ends.size());
     for (const auto& [a, b] : ends) wanted.push_back(agvd::edge_key(a, b));
     wanted = agvd::distinct(std::move(wanted));
     std::vector<std::uint8_t> is_marked;
