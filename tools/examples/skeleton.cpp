@@ -22,7 +22,7 @@ constexpr const char* usage =
     "        line\n";
 
 // Polylines stray from the lines by at most this share of STEP.
-constexpr double tolerance = 1e-3;
+constexpr double chord_tolerance = 1e-3;
 
 // Of the surface that a closed line spans, seen along its normal. That of the curve itself lies
 // nearer to the side where the line is more bent.
@@ -69,7 +69,7 @@ void find_skeleton(const example::Arguments& arguments) {
         agvd::propagate(surface, root, {.max_error = 0, .relay_faces = agvd::all_faces(surface)});
     const auto levels = agvd::levels_every(field, step);
     const agvd::Isolines isolines = agvd::build_isolines(surface, field, levels);
-    const auto drawn = agvd::draw_isolines(surface, isolines, tolerance * step);
+    const auto drawn = agvd::draw_isolines(surface, isolines, chord_tolerance * step);
     std::vector<example::Line> rings(isolines.lines.size());
     std::vector<agvd::SurfacePoint> starts;
     for (std::size_t i = 0; i < rings.size(); ++i) {
@@ -79,23 +79,23 @@ void find_skeleton(const example::Arguments& arguments) {
         starts.push_back(drawn.points[drawn.offsets[i]]);
     }
     const auto paths = agvd::paths_to_sites(surface, root, field, starts);
-    const auto is_ring_at = [&](std::size_t line, Index level) {
-        return isolines.lines[line].is_closed && isolines.lines[line].level == level;
-    };
     std::vector<example::Line> skeleton;
     std::size_t num_rings = 0;
     for (std::size_t i = 0; i < rings.size(); ++i) {
-        const Index level = isolines.lines[i].level;
-        if (!is_ring_at(i, level)) continue;
+        if (!isolines.lines[i].is_closed) continue;
         ++num_rings;
-        if (level == 0) continue;  // Next comes the root.
         const Vec3 crossing = point_after(mesh, paths[i].path, step);
+        std::size_t parent = i;
+        double least = agvd::infinity;
         for (std::size_t j = 0; j < rings.size(); ++j) {
-            if (!is_ring_at(j, level - 1)) continue;
-            if (distance_to(rings[j], crossing) > 2 * tolerance * step) continue;
-            skeleton.push_back({centroid_of(rings[j]), centroid_of(rings[i])});
-            break;
+            if (isolines.lines[j].level + 1 != isolines.lines[i].level) continue;
+            const double distance = distance_to(rings[j], crossing);
+            if (distance >= least) continue;
+            least = distance;
+            parent = j;
         }
+        if (parent == i || !isolines.lines[parent].is_closed) continue;  // The root, or a rim.
+        skeleton.push_back({centroid_of(rings[parent]), centroid_of(rings[i])});
     }
     std::printf("%zu rings, %zu joined to a parent\n", num_rings, skeleton.size());
     example::write_lines(arguments[3], skeleton);
