@@ -71,9 +71,10 @@ namespace {
 
 // n x m squares of size 1 / n, whose diagonals are parallel or alternate.
 TriangleMesh squares(Index n, Index m, bool alternate) {
+    const double side = 1.0 / n;
     TriangleMesh mesh;
     for (Index i = 0; i <= n; ++i) {
-        for (Index j = 0; j <= m; ++j) mesh.positions.emplace_back(j / double{n}, i / double{n}, 0);
+        for (Index j = 0; j <= m; ++j) mesh.positions.emplace_back(j * side, i * side, 0);
     }
     for (Index i = 0; i < n; ++i) {
         for (Index j = 0; j < m; ++j) {
