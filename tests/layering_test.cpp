@@ -154,6 +154,22 @@ TEST(Layering, EveryIncludeKeepsToTheRows) {
     }
 }
 
+TEST(Layering, ExamplesIncludeInstalledHeadersOnly) {
+    static const std::regex include(R"re(\s*#\s*include\s*"([^"]*)".*)re");
+    int num_includes = 0;
+    for (const auto& entry : fs::directory_iterator(fs::path(AGVD_SOURCE_DIR) / "tools/examples")) {
+        std::ifstream stream(entry.path());
+        for (std::string line; std::getline(stream, line);) {
+            std::smatch match;
+            if (!std::regex_match(line, match, include)) continue;
+            ++num_includes;
+            EXPECT_TRUE(is_public(match[1]) || match[1] == "examples/example.h")
+                << entry.path() << ": " << line;
+        }
+    }
+    EXPECT_GT(num_includes, 15);
+}
+
 namespace {
 
 // Of files without their extension: a header and its source file are one module.

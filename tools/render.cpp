@@ -25,9 +25,10 @@ using render::View;
 
 const Color plain_color{0.62F, 0.62F, 0.60F};  // Under lines in colour.
 const Color overlay_color{0.02F, 0.05F, 0.16F};
+const Color inside_color{1, 1, 1};
 
 struct Options {
-    std::string mesh, picture, overlay, network, size = "1200x900";
+    std::string mesh, picture, overlay, inside, network, size = "1200x900";
     agvd::Index num_vertices = 2000;
     std::vector<double> view{15, -30, 0};
     double line_width = 1.6;
@@ -98,13 +99,16 @@ void draw(const Options& options) {
     const Color& front = options.network.empty() ? render::front_color : plain_color;
     render::draw_mesh(mesh.view(), view, front, options.is_wire, canvas);
     canvas.shade_hollows(0.05 * std::min(width, height));
-    if (!options.overlay.empty()) {
-        const Lines lines = read_lines(options.overlay);
+    const auto draw_lines = [&](const std::string& path, const Color& color, double bias) {
+        if (path.empty()) return;
+        const Lines lines = read_lines(path);
         for (const auto& [from, to] : lines.segments) {
             canvas.draw_line(view.to_pixels(lines.points[from]), view.to_pixels(lines.points[to]),
-                             overlay_color, options.line_width, 2 * options.line_width);
+                             color, options.line_width, bias);
         }
-    }
+    };
+    draw_lines(options.overlay, overlay_color, 2 * options.line_width);
+    draw_lines(options.inside, inside_color, agvd::infinity);
     if (!options.network.empty()) draw_network(options, view, canvas);
     remesh::write_file_atomically(options.picture, canvas.png());
 }
@@ -125,6 +129,8 @@ int main(int argc, char** argv) {
         ->default_str("15,-30,0");
     app.add_flag("--wire", options.is_wire, "Draw the edges");
     app.add_option("--overlay", options.overlay, "OBJ whose `l` lines are drawn on the surface");
+    app.add_option("--inside", options.inside,
+                   "OBJ whose `l` lines are drawn in white, also behind the surface");
     app.add_option(
         "--network", options.network,
         "Mesh whose creases are drawn in colours as `remesh` keeps them, with dots at corners");

@@ -143,15 +143,18 @@ private:
     }
 
     // Takes the inner points from arcs that cross, O(n^2) for n pieces. False: there are none.
+    // Where four cells meet in a point, or three on a side, arcs cross by rounding, which no other
+    // way of drawing them avoids.
     [[nodiscard]] bool straighten() {
         assert(chords_.size() == out_.arcs.size() - start_.arcs);
         // Two segments that share an end do not cross.
         if (chords_.size() + out_.points.size() - start_.points < 3) return false;
         collect_segments();
+        const double slack = inside_tolerance * triangle_.size;
         bool is_any = false;
         for (std::size_t i = 0; i < segments_.size(); ++i) {
             for (std::size_t j = i + 1; j < segments_.size(); ++j) {
-                if (!do_cross(segments_[i].chord, segments_[j].chord)) continue;
+                if (!do_cross(segments_[i].chord, segments_[j].chord, slack)) continue;
                 out_.arcs[segments_[i].arc].num_points = 0;
                 out_.arcs[segments_[j].arc].num_points = 0;
                 is_any = true;
@@ -210,20 +213,25 @@ private:
     }
 
     // A lens is wrong where a third site is nearer on the arc, and less likely the farther the arc
-    // strays. It is certain where the site has no other interval to be connected to.
+    // strays. It is certain where the site has no other interval to be connected to. One of a site
+    // that is tied at a corner is a point, but for rounding.
     void judge_lens(const Breakpoint& from, const Breakpoint& to, Ear& ear) const {
-        const std::array sites{from.site_after, to.site_after};
-        const auto middle =
-            project(triangle_, relays_of_site(triangle_, sites[0]),
-                    relays_of_site(triangle_, sites[1]), {from.position, to.position});
-        if (!middle) {
-            ear.violation = no_voronoi_vertex * triangle_.size;
-            return;
+        const Chord chord{from.position, to.position};
+        const bool is_point = (chord.to - chord.from).norm() <= inside_tolerance * triangle_.size;
+        double below = 0;
+        if (!is_point) {
+            const std::array sites{from.site_after, to.site_after};
+            const auto middle = project(triangle_, relays_of_site(triangle_, sites[0]),
+                                        relays_of_site(triangle_, sites[1]), chord);
+            if (!middle) {
+                ear.violation = no_voronoi_vertex * triangle_.size;
+                return;
+            }
+            constexpr double stray_weight = 1e-3;
+            const Vec2& p = middle->position;
+            below = undercut(triangle_, p, middle->distance, sites);
+            ear.violation = below + stray_weight * (p - (chord.from + chord.to) / 2).norm();
         }
-        constexpr double stray_weight = 1e-3;
-        const Vec2& p = middle->position;
-        const double below = undercut(triangle_, p, middle->distance, sites);
-        ear.violation = below + stray_weight * (p - (from.position + to.position) / 2).norm();
         ear.is_certain = below <= inside_tolerance * triangle_.size &&
                          std::count_if(breakpoints_.begin(), breakpoints_.end(),
                                        [&](const Breakpoint& breakpoint) {

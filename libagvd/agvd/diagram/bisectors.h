@@ -41,12 +41,14 @@ struct Chord {
 };
 
 //! Whether the ends of each of two chords lie on different sides of the other.
-[[nodiscard]] inline bool do_cross(const Chord& a, const Chord& b) {
-    const auto divides = [](const Chord& line, const Chord& other) {
+//! \param slack  mesh units, >= 0: ends that are no farther from the other's line are on no side.
+[[nodiscard]] inline bool do_cross(const Chord& a, const Chord& b, double slack = 0) {
+    const auto divides = [slack](const Chord& line, const Chord& other) {
         const Vec2 along = line.to - line.from;
+        const double least = slack * along.norm();
         const double from = cross(along, other.from - line.from);
         const double to = cross(along, other.to - line.from);
-        return (from < 0 && to > 0) || (from > 0 && to < 0);
+        return (from < -least && to > least) || (from > least && to < -least);
     };
     return divides(a, b) && divides(b, a);
 }

@@ -11,6 +11,7 @@
 #include "agvd/intrinsic/intrinsic_triangulation.h"
 #include "agvd/mesh/surface_points.h"
 #include "agvd/propagation/propagate.h"
+#include "support/checks.h"
 #include "support/points.h"
 #include "support/random_meshes.h"
 
@@ -64,4 +65,69 @@ TEST(EqualDistances, HoldAtThePointsOfBisectorsOnRandomMeshes) {
             EXPECT_LE(largest_gap(random_meshes::make(family, seed), 9), 1e-10);
         }
     }
+}
+
+namespace {
+
+// n x m squares of size 1 / n, whose diagonals are parallel or alternate.
+TriangleMesh squares(Index n, Index m, bool alternate) {
+    const double side = 1.0 / n;
+    TriangleMesh mesh;
+    for (Index i = 0; i <= n; ++i) {
+        for (Index j = 0; j <= m; ++j) mesh.positions.emplace_back(j * side, i * side, 0);
+    }
+    for (Index i = 0; i < n; ++i) {
+        for (Index j = 0; j < m; ++j) {
+            const Index a = i * (m + 1) + j, b = a + 1, c = b + m + 1, d = a + m + 1;
+            const bool turned = alternate && (i + j) % 2 == 1;
+            mesh.triangles.push_back(turned ? Triangle{a, b, d} : Triangle{a, b, c});
+            mesh.triangles.push_back(turned ? Triangle{b, c, d} : Triangle{a, c, d});
+        }
+    }
+    return mesh;
+}
+
+// Sites at the vertices of the boundary: bisectors pass through vertices, and four cells meet in
+// points of edges. Returns the number of points of bisectors.
+std::size_t expect_equal_distances(const TriangleMesh& mesh) {
+    const Surface surface = build_surface(mesh.view());
+    std::vector<SurfacePoint> sites;
+    std::vector<Vec3> places;
+    const auto loops = boundary_loops(surface);
+    for (const Index h : loops.at(0)) {
+        sites.push_back(point_at(surface, surface.tail(h)));
+        places.push_back(mesh.positions[surface.tail(h)]);
+    }
+    const Diagram diagram =
+        build_diagram(surface, sites, propagate(surface, sites, {.max_error = 0}));
+    checks::expect_valid_complex(surface, diagram);
+    std::size_t num_points = 0;
+    for (Index e = 0; e < diagram.edges.size(); ++e) {
+        const VoronoiEdge& edge = diagram.edges[e];
+        if (!edge.right.is_valid()) continue;
+        for (Index i = diagram.edge_points[e]; i < diagram.edge_points[e + 1]; ++i) {
+            const Vec3 p = position(mesh, diagram.points[i]);
+            double least = infinity;
+            for (const Vec3& place : places) least = std::min(least, (p - place).norm());
+            EXPECT_NEAR((p - places[edge.left.value()]).norm(), least, 1e-9) << p.transpose();
+            EXPECT_NEAR((p - places[edge.right.value()]).norm(), least, 1e-9) << p.transpose();
+            ++num_points;
+        }
+    }
+    return num_points;
+}
+
+}  // namespace
+
+TEST(EqualDistances, HoldWhereCellsMeetAtVerticesAndOnEdges) {
+    std::size_t num_points = 0;
+    for (Index n = 3; n <= 12; ++n) {
+        for (const Index m : {n, 2 * n, 2 * n + 1}) {
+            for (const bool alternate : {false, true}) {
+                SCOPED_TRACE(std::to_string(n) + " x " + std::to_string(m));
+                num_points += expect_equal_distances(squares(n, m, alternate));
+            }
+        }
+    }
+    EXPECT_GT(num_points, 10000U);
 }
