@@ -1,0 +1,188 @@
+// Lines and regions as sites: truth is the distance to segments and triangles in the plane and on
+// unrolled surfaces, and elsewhere that to ever denser points on the line, which falls by h^2.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "agvd/core/error.h"
+#include "agvd/mesh/surface_points.h"
+#include "agvd/propagation/propagate.h"
+#include "support/checks.h"
+#include "support/dice.h"
+#include "support/points.h"
+#include "support/random_meshes.h"
+#include "support/shapes.h"
+
+using namespace agvd;
+
+namespace {
+
+// The unit square with vertices that are moved within the plane, but for those of its sides.
+Surface uneven_square(Index n, std::uint64_t seed) {
+    TriangleMesh mesh = shapes::grid(n);
+    Dice dice(seed);
+    for (Vec3& p : mesh.positions) {
+        const double x = dice.number(-0.2, 0.2) / n, y = dice.number(-0.2, 0.2) / n;
+        if (p.x() > 0 && p.x() < 1 && p.y() > 0 && p.y() < 1) p += Vec3(x, y, 0);
+    }
+    return build_surface(mesh.view());
+}
+
+// A walk along edges, which may touch and cross itself.
+SiteShape random_line(const Surface& surface, Index num_edges, std::uint64_t seed) {
+    Dice dice(seed);
+    SiteShape line;
+    auto at = static_cast<Index>(dice.number(0, 1) * surface.num_vertices());
+    while (line.edges.size() < num_edges) {
+        std::vector<Index> around;
+        for_each_edge_at(surface, at, [&](Index h, Index) { around.push_back(surface.edge[h]); });
+        if (around.empty()) {
+            at = (at + 1) % surface.num_vertices();
+            continue;
+        }
+        const Index edge = around[static_cast<std::size_t>(dice.number(0, 1) *
+                                                           static_cast<double>(around.size()))];
+        line.edges.push_back(edge);
+        at = other_end(surface, edge, at);
+    }
+    return line;
+}
+
+SiteShape random_region(const Surface& surface, Index num_faces, std::uint64_t seed) {
+    Dice dice(seed);
+    SiteShape region;
+    auto face = static_cast<Index>(dice.number(0, 1) * surface.num_faces());
+    while (region.faces.size() < num_faces) {
+        region.faces.push_back(face);
+        const Index twin = surface.twin[3 * face + static_cast<Index>(dice.number(0, 3))];
+        if (twin != no_index) face = Surface::face(twin);
+    }
+    return region;
+}
+
+double to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
+    const Vec3 along = b - a;
+    const double share = std::clamp(along.dot(p - a) / along.squaredNorm(), 0.0, 1.0);
+    return (p - a - share * along).norm();
+}
+
+// In the plane z = 0.
+double in_plane(const Surface& surface, const SiteShape& shape, const Vec3& p) {
+    const auto& at = surface.mesh.positions;
+    double least = infinity;
+    for (const Index edge : shape.edges) {
+        const Index h = surface.edge_half[edge];
+        least = std::min(least, to_segment(p, at[surface.tail(h)], at[surface.head(h)]));
+    }
+    for (const Index face : shape.faces) {
+        int inside = 0;
+        for (Index h = 3 * face; h < 3 * face + 3; ++h) {
+            const Vec3 &a = at[surface.tail(h)], &b = at[surface.head(h)];
+            least = std::min(least, to_segment(p, a, b));
+            inside += (b - a).cross(p - a).z() >= 0 ? 1 : 0;
+        }
+        if (inside == 3) least = 0;
+    }
+    return least;
+}
+
+// One site each.
+std::vector<SiteShape> numbered(std::vector<SiteShape> shapes, Index first = 0) {
+    for (SiteShape& shape : shapes) shape.site = first++;
+    return shapes;
+}
+
+// Points on the edges, `num` intervals on each.
+std::vector<SurfacePoint> points_along(const Surface& surface, const SiteShape& line, Index num) {
+    std::vector<SurfacePoint> points;
+    for (const Index edge : line.edges) {
+        for (Index i = 0; i <= num; ++i) {
+            points.push_back(point_on(surface.edge_half[edge], static_cast<double>(i) / num));
+        }
+    }
+    return points;
+}
+
+}  // namespace
+
+TEST(SiteShapes, HaveTheirDistanceInThePlane) {
+    int count = 0;
+    for (std::uint64_t seed = 0; seed < 30; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        const Surface surface = uneven_square(12, seed);
+        const std::vector<SiteShape> shapes =
+            numbered({random_line(surface, 1 + static_cast<Index>(seed), seed),
+                      random_line(surface, 9, seed + 100),
+                      random_region(surface, 1 + static_cast<Index>(seed), seed + 200)});
+        const auto points = points::scattered(surface, 3, seed);
+        std::vector<SiteShape> with_points = shapes;
+        for (SiteShape& shape : with_points) shape.site += 3;
+        for (const double max_error : {0.0, 1e-4}) {
+            for (const bool has_points : {false, true}) {
+                const auto given = std::span(points).first(has_points ? 3 : 0);
+                const Propagation found = propagate(
+                    surface, given,
+                    {.shapes = has_points ? with_points : shapes, .max_error = max_error});
+                EXPECT_LE(found.certified_error, max_error);
+                for (Index v = 0; v < surface.num_vertices(); ++v) {
+                    const Vec3& p = surface.mesh.positions[v];
+                    std::vector<double> distance;
+                    for (const SurfacePoint& q : given) {
+                        distance.push_back((position(surface.mesh.view(), q) - p).norm());
+                    }
+                    for (const SiteShape& shape : shapes) {
+                        distance.push_back(in_plane(surface, shape, p));
+                    }
+                    const double least = *std::min_element(distance.begin(), distance.end());
+                    const double tolerance = 1e-13 + max_error * least;
+                    ASSERT_NEAR(found.vertex_distance[v], least, tolerance) << v;
+                    ASSERT_NEAR(distance[found.vertex_site[v].value()], least, tolerance) << v;
+                    ++count;
+                }
+            }
+        }
+    }
+    EXPECT_EQ(count, 30 * 4 * 13 * 13);
+}
+
+TEST(SiteShapes, AreNearerThanPointsOnThemByTheSquareOfTheirSpacing) {
+    int count = 0;
+    std::array<double, 3> excess{};  // Sums of what the points are farther, with 4, 16, 64 an edge.
+    for (const char* family : random_meshes::families()) {
+        for (std::uint64_t seed = 0; seed < 4; ++seed) {
+            SCOPED_TRACE(std::string(family) + " seed " + std::to_string(seed));
+            const Surface surface = build_surface(random_meshes::make(family, seed).view());
+            const SiteShape line = random_line(surface, 1 + 2 * static_cast<Index>(seed), seed);
+            const Propagation exact = propagate(surface, {}, {.shapes = {line}, .max_error = 0});
+            const Propagation near = propagate(surface, {}, {.shapes = {line}});
+            double longest = 0;
+            for (const Index e : line.edges) longest = std::max(longest, surface.length[e]);
+            for (std::size_t fine = 0; fine < 3; ++fine) {
+                const Index num = Index{4} << (2 * fine);
+                const Propagation of_points =
+                    propagate(surface, points_along(surface, line, num), {.max_error = 0});
+                for (Index v = 0; v < surface.num_vertices(); ++v) {
+                    const double d = exact.vertex_distance[v], p = of_points.vertex_distance[v];
+                    if (!(p < infinity)) {
+                        EXPECT_EQ(d, p);
+                        continue;
+                    }
+                    const double tolerance = 1e-11 * (p + longest);
+                    ASSERT_LE(d, p + tolerance) << v;
+                    ASSERT_GE(d, p - longest / num / 2 - tolerance) << v;
+                    ASSERT_GE(near.vertex_distance[v], d - tolerance) << v;
+                    ASSERT_LE(near.vertex_distance[v], d * (1 + near.certified_error) + tolerance);
+                    if (d > longest / 2) excess[fine] += (p - d) / longest;
+                    ++count;
+                }
+            }
+        }
+    }
+    EXPECT_GT(count, 1000);
+    EXPECT_GT(excess[0], 0.5);
+    EXPECT_LT(excess[1], excess[0] / 12);
+    EXPECT_LT(excess[2], excess[1] / 12);
+}
