@@ -25,6 +25,11 @@ void check_steiner_options(const Surface& surface, const PropagationOptions& opt
         throw InvalidOption("lambda is " + std::to_string(options.lambda) +
                             "; use a number above 0");
     }
+    if (options.max_error && !options.shapes.empty()) {
+        throw InvalidOption(
+            "the Steiner engine certifies no error for lines and regions, which it takes for "
+            "points; use the window engine or leave the maximal error out");
+    }
     if (options.max_error && *options.max_error == 0) {
         throw InvalidOption(
             "the Steiner engine cannot be exact; use the window engine or an error above 0");

@@ -63,7 +63,7 @@ struct PropagationOptions {
     //! Propagation::certified_error. Unset: the window engine takes default_max_error, the Steiner
     //! engine certifies nothing. If set, the Steiner engine inserts points where they are needed
     //! until the bound holds at every vertex, up to 1000 on an edge; it cannot be exact, and 0 is
-    //! an error.
+    //! an error, as is any with shapes.
     std::optional<double> max_error = {};
     //! Steiner engine, m: Steiner points on each edge, in [0, 1000]; the first ones with max_error.
     int steiner_points = 8;

@@ -186,3 +186,56 @@ TEST(SiteShapes, AreNearerThanPointsOnThemByTheSquareOfTheirSpacing) {
     EXPECT_LT(excess[1], excess[0] / 12);
     EXPECT_LT(excess[2], excess[1] / 12);
 }
+
+// From above, as the points on a line are farther than the line.
+TEST(SiteShapes, AreFoundBySteinerPointsWithAnErrorThatFalls) {
+    std::array<double, 3> excess{};
+    int count = 0;
+    for (std::uint64_t seed = 0; seed < 8; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        const Surface surface = build_surface(shapes::jitter(shapes::sphere(3), 0.03, seed).view());
+        const std::vector<SiteShape> shapes =
+            numbered({random_line(surface, 9, seed), random_region(surface, 7, seed + 50)}, 2);
+        const auto points = points::scattered(surface, 2, seed);
+        const Propagation exact = propagate(surface, points, {.shapes = shapes, .max_error = 0});
+        for (std::size_t fine = 0; fine < 3; ++fine) {
+            const Propagation found = propagate(surface, points,
+                                                {.shapes = shapes,
+                                                 .engine = Engine::Steiner,
+                                                 .steiner_points = (4 << (2 * fine)) - 1});
+            for (Index v = 0; v < surface.num_vertices(); ++v) {
+                ASSERT_GE(found.vertex_distance[v], exact.vertex_distance[v] - 1e-12) << v;
+                excess[fine] += found.vertex_distance[v] - exact.vertex_distance[v];
+                ++count;
+            }
+            for (const Index face : shapes[1].faces) {
+                for (const Index v : surface.mesh.triangles[face]) {
+                    EXPECT_EQ(found.vertex_distance[v], 0);
+                }
+            }
+        }
+    }
+    EXPECT_EQ(count, 8 * 3 * 642);
+    EXPECT_LT(excess[0], count * 1e-2);
+    EXPECT_LT(excess[1], excess[0] / 8);
+    EXPECT_LT(excess[2], excess[1] / 8);
+}
+
+TEST(SiteShapes, AreChecked) {
+    const Surface surface = build_surface(shapes::grid(2).view());
+    const auto points = points::scattered(surface, 2, 1);
+    const auto propagated = [&](const SiteShape& shape, const PropagationOptions& given = {}) {
+        PropagationOptions options = given;
+        options.shapes = {shape};
+        return propagate(surface, points, options);
+    };
+    EXPECT_THROW((void)propagated({.site = 2}), InvalidSites);
+    EXPECT_THROW((void)propagated({.edges = {16}, .site = 2}), InvalidSites);
+    EXPECT_THROW((void)propagated({.faces = {8}, .site = 2}), InvalidSites);
+    EXPECT_THROW((void)propagated({.edges = {0}, .site = 3}), InvalidSites);
+    EXPECT_THROW(
+        (void)propagated({.edges = {0}, .site = 2}, {.engine = Engine::Steiner, .max_error = 0.1}),
+        InvalidOption);
+    EXPECT_NO_THROW((void)propagated({.edges = {15}, .faces = {7}, .site = 2}));
+    EXPECT_NO_THROW((void)propagated({.edges = {15}, .site = 1}));
+}
