@@ -125,6 +125,10 @@ Nearest nearest(std::span<const PlanarRelay> relays, const Vec2& p) {
 PointLabel point_label(const Surface& surface, const Propagation& propagation,
                        const SurfacePoint& point) {
     const Index face = point.face.value();
+    for (const SiteShape& shape : propagation.shapes) {
+        if (std::find(shape.faces.begin(), shape.faces.end(), face) == shape.faces.end()) continue;
+        return {SiteId(shape.site), 0};
+    }
     const std::optional<Index> mixed = mixed_index_of(propagation, face);
     if (!mixed) return {propagation.vertex_site[surface.mesh.triangles[face][0]], {}};
     std::vector<PlanarRelay> planar;
