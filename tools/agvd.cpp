@@ -46,7 +46,7 @@ constexpr const char* diagram_footer =
     "belongs to (several points may; on all lines or on none), and `start D`, a\n"
     "distance that counts from there on: an additive weight. A line of the file that\n"
     "reads `l VERTEX VERTEX ...` is a site along edges of the mesh, `r FACE FACE ...`\n"
-    "a region of faces, whose border is as near as a line.\n\n"
+    "a region of faces, with distance 0 inside.\n\n"
     "Output (.gz behind the extension: compressed):\n"
     "  .vtp   VTK PolyData for ParaView: the cleaned mesh, the Voronoi edges and\n"
     "         boundary arcs as polylines, the sites as vertices; point data site and\n"

@@ -39,12 +39,12 @@ struct Reach {
 
 //! Straight where the interval lets the chord through, else bent at its nearer end.
 [[nodiscard]] inline Reach reach(const PlanarRelay& relay, const Vec2& p) {
-    if (relay.is_parallel) return reach_parallel(relay, p);
     const auto from = [&p](const Vec2& source, double weight) -> Reach {
         const double length = (p - source).norm();
         return {weight + length, source, length};
     };
     if (!relay.sees_all) {
+        if (relay.is_parallel) return reach_parallel(relay, p);
         const Vec2 chord = p - relay.image;
         if (cross(relay.begin - relay.image, chord) > 0) return from(relay.begin, relay.at_begin);
         if (cross(relay.end - relay.image, chord) < 0) return from(relay.end, relay.at_end);

@@ -77,6 +77,7 @@ private:
     // The relays across an edge suffice if they give the distances of its ends up to this share of
     // the edge. Errors below it are accepted for a shorter list of candidates.
     static constexpr double enough_at_ends = 1e-2;
+    static constexpr double slope_rounding = 1e-6;
     // Images nearer to an edge (share of its length) lie on it.
     static constexpr double on_edge = 1e-12;
     // A relay whose image lies across the edge, in the frame of one half-edge or the other.
@@ -198,33 +199,46 @@ private:
         const auto relays = relays_at(half_edge);
         for (const Relay& r : relays) {
             if (!is_across(r, half_edge)) continue;
-            const bool is_beam = is_parallel(r);
-            const double begin = is_beam ? -r.begin * r.x : root(r.begin - r.x, r.y);
-            const double end = is_beam ? -r.end * r.x : root(r.end - r.x, r.y);
+            if (is_parallel(r)) {
+                add_parallel(edge, half_edge, r);
+                continue;
+            }
+            const double begin = root(r.begin - r.x, r.y);
+            const double end = root(r.end - r.x, r.y);
             const double tail = r.weight + begin + r.begin;
             const double head = r.weight + end + (length - r.end);
             // Bent paths run along the edge.
-            constexpr double rounding = 1e-6;
             double slope_tail = -1;
             double slope_head = 1;
-            if (is_beam) {
-                if (r.begin <= 0) slope_tail = std::max(-1.0, -r.x - rounding);
-                if (r.end >= length) slope_head = std::min(1.0, -r.x + rounding);
-            } else {
-                if (r.begin <= 0 && begin > 0) slope_tail = std::max(-1.0, -r.x / begin - rounding);
-                if (r.end >= length && end > 0)
-                    slope_head = std::min(1.0, (length - r.x) / end + rounding);
-            }
-            if (forward) {
-                candidates_.push_back(
-                    {tail, head, slope_tail, slope_head, &r, r.site.value(), half_edge});
-            } else {
-                candidates_.push_back(
-                    {head, tail, -slope_head, -slope_tail, &r, r.site.value(), half_edge});
-            }
+            if (r.begin <= 0 && begin > 0)
+                slope_tail = std::max(-1.0, -r.x / begin - slope_rounding);
+            if (r.end >= length && end > 0)
+                slope_head = std::min(1.0, (length - r.x) / end + slope_rounding);
+            add_across(forward,
+                       {tail, head, slope_tail, slope_head, &r, r.site.value(), half_edge});
         }
         for (const Relay& r : relays) {
             if (is_inside(r)) add_distances(edge, half_edge, r);
+        }
+    }
+
+    // Parallel paths across the edge.
+    void add_parallel(Index edge, Index half_edge, const Relay& r) {
+        const double length = surface_.length[edge];
+        const double tail = r.weight - r.begin * r.x + r.begin;
+        const double head = r.weight - r.end * r.x + (length - r.end);
+        const double slope_tail = r.begin <= 0 ? std::max(-1.0, -r.x - slope_rounding) : -1;
+        const double slope_head = r.end >= length ? std::min(1.0, -r.x + slope_rounding) : 1;
+        add_across(surface_.edge_half[edge] == half_edge,
+                   {tail, head, slope_tail, slope_head, &r, r.site.value(), half_edge});
+    }
+
+    // A candidate in the direction of a half-edge or, if it is not the edge_half, of the twin.
+    void add_across(bool forward, const Candidate& c) {
+        if (forward) {
+            candidates_.push_back(c);
+        } else {
+            candidates_.push_back({c.hi, c.lo, -c.slope_hi, -c.slope_lo, c.relay, c.site, c.base});
         }
     }
 

@@ -150,7 +150,7 @@ private:
         std::vector<Index> indices;
         while (scan.has_word()) {
             const std::size_t at = scan.offset();
-            const bool is_number = detail::as_whole<std::int64_t>(scan.word()).has_value();
+            const bool is_number = as_whole<std::int64_t>(scan.word()).has_value();
             scan.go_to(at);
             if (!is_number) break;
             indices.push_back(index(scan, what, plural, count));

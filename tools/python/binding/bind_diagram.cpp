@@ -161,10 +161,10 @@ void bind_diagram(py::module_& module) {
                py::arg("num_threads"), py::arg("progress"));
     module.def("geodesic_distance", &run_distances, py::arg("positions").noconvert(),
                py::arg("triangles").noconvert(), py::arg("faces").noconvert(),
-               py::arg("barycentric").noconvert(), py::arg("weights").noconvert(),
-               py::arg("barriers").noconvert(), py::arg("side_lengths").noconvert(),
-               py::arg("engine"), py::arg("max_error"), py::arg("keep_slits"),
-               py::arg("num_threads"), py::arg("progress"));
+               py::arg("barycentric").noconvert(), py::arg("weights").noconvert(), py::arg("lines"),
+               py::arg("regions"), py::arg("barriers").noconvert(),
+               py::arg("side_lengths").noconvert(), py::arg("engine"), py::arg("max_error"),
+               py::arg("keep_slits"), py::arg("num_threads"), py::arg("progress"));
 }
 
 }  // namespace python
