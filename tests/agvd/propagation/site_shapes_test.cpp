@@ -10,6 +10,7 @@
 #include "agvd/core/error.h"
 #include "agvd/mesh/surface_points.h"
 #include "agvd/propagation/propagate.h"
+#include "support/dirty_shapes.h"
 #include "support/line_sites.h"
 #include "support/points.h"
 #include "support/random_meshes.h"
@@ -144,6 +145,37 @@ TEST(SiteShapes, AreFoundBySteinerPointsWithAnErrorThatFalls) {
     EXPECT_LT(excess[0], count * 1e-2);
     EXPECT_LT(excess[1], excess[0] / 8);
     EXPECT_LT(excess[2], excess[1] / 8);
+}
+
+// Contract of Propagation::mixed_faces, and all is reached.
+TEST(SiteShapes, ReachAllWhereSpikesLeaveNoDigits) {
+    int num_tried = 0;
+    for (std::uint64_t seed = 0; seed < 60; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        Surface surface;
+        try {
+            surface = build_surface(shapes::spiked(seed).view());
+        } catch (const InvalidInput&) {
+            continue;  // A face without area.
+        }
+        const std::vector<SiteShape> shapes =
+            numbered({random_line(surface, 5, seed), random_region(surface, 3, seed)});
+        for (const double max_error : {0.0, 1e-3}) {
+            const Propagation found =
+                propagate(surface, {}, {.shapes = shapes, .max_error = max_error});
+            std::vector<bool> is_mixed(surface.num_faces(), false);
+            for (const Index f : found.mixed_faces) is_mixed[f] = true;
+            for (Index f = 0; f < surface.num_faces(); ++f) {
+                const Triangle& t = surface.mesh.triangles[f];
+                for (const Index v : t) {
+                    EXPECT_TRUE(std::isfinite(found.vertex_distance[v]));
+                    EXPECT_TRUE(is_mixed[f] || found.vertex_site[v] == found.vertex_site[t[0]]);
+                }
+            }
+            ++num_tried;
+        }
+    }
+    EXPECT_GE(num_tried, 40);
 }
 
 TEST(SiteShapes, AreChecked) {

@@ -112,8 +112,8 @@ TEST_F(ReadSites, LinesAndRegionsAreSites) {
 }
 
 TEST_F(ReadSites, NamesFileAndLineOfASyntaxError) {
-    expect_error<agvd::IoError>("v 1\nw 2\n", "line 2: a site begins with v, f or p");
-    expect_error<agvd::IoError>("\n\nvertex 2\n", "line 3: a site begins with v, f or p");
+    expect_error<agvd::IoError>("v 1\nw 2\n", "line 2: a site begins with v, f, p, l or r");
+    expect_error<agvd::IoError>("\n\nvertex 2\n", "line 3: a site begins with v, f, p, l or r");
     expect_error<agvd::IoError>("v 1 2\n", "expected the end of the line");
     expect_error<agvd::IoError>("v\nv 1\n", "line 1: expected a vertex index");
     expect_error<agvd::IoError>("f 1 0.5 0.5\n", "expected a barycentric coordinate");

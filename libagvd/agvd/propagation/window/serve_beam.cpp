@@ -11,6 +11,13 @@
 namespace agvd {
 namespace {
 
+// Real meshes stay far below. Around a spike whose width is a rounding of its length beams would
+// circle without end.
+Index most_beams(const WindowFront& front) {
+    constexpr Index least = 1 << 16, of_a_face = 256;
+    return std::max(least, of_a_face * std::min(front.surface.num_faces(), no_index / of_a_face));
+}
+
 // Whether no path by an end of the half-edge is shorter on the whole interval.
 bool is_open(const Beam& beam, double tail_bound, double head_bound, double length) {
     const double at = meeting_point(tail_bound, head_bound, length, beam.begin, beam.end);
@@ -162,6 +169,10 @@ void serve_beam(WindowFront& front, Index record) {
         front.beams.give_back(record);
     }
     if (!lives) return;
+    if (front.beams.num_served++ > most_beams(front)) {
+        front.relative_error = infinity;
+        return;
+    }
     front.ticker.tick();
     ++front.num_served;
     face.apex_record = vertex_record(front, face.previous.tail);

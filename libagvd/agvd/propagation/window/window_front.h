@@ -142,6 +142,7 @@ struct PseudoSourceTable {
 struct BeamTable {
     RunArray<Beam> records;
     Index first_free = no_index;
+    Index num_served = 0;
 
     Index add(const Beam& beam) {
         if (first_free == no_index) return records.push(beam);
@@ -224,6 +225,7 @@ struct WindowFront {
         pseudo_sources.first_free = no_index;
         beams.records.clear();
         beams.first_free = no_index;
+        beams.num_served = 0;
         store.clear();
         queue.start(order, start);
         watched.first.fill(no_index);
