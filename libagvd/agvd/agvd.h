@@ -9,7 +9,6 @@
 #include "agvd/intrinsic/intrinsic_triangulation.h"
 #include "agvd/mesh/closest_point.h"
 #include "agvd/mesh/cut_surface.h"
-#include "agvd/mesh/insert_lines.h"
 #include "agvd/mesh/mesh.h"
 #include "agvd/mesh/surface.h"
 #include "agvd/paths/distances.h"

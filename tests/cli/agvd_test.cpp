@@ -112,7 +112,7 @@ TEST_F(AgvdDiagram, SitesMayBeLines) {
         const auto& p = cells.mesh.positions;
         area += (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]).norm() / 2;
     }
-    EXPECT_NEAR(area, 1.0 / 3, 1e-4);
+    EXPECT_NEAR(area, 1.0 / 3, 5e-4);  // Of chords.
     for (const char* output : {"d.agvd", "d.html"}) {
         const auto refused =
             diagram({in, "--sites", sites, "-q", output == std::string("d.agvd") ? "-o" : "--html",

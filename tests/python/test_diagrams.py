@@ -43,7 +43,7 @@ def test_sites_may_be_lines_and_regions():
     diagram = remesh.voronoi(V, F, [[0.5, 0.5, 0]], 0, lines=[side])
     expected = np.minimum(V[:, 1], np.linalg.norm(V - [0.5, 0.5, 0], axis=1))
     assert np.allclose(diagram.distances, expected, atol=1e-12)
-    assert diagram.cell_area == pytest.approx([2 / 3, 1 / 3], abs=1e-4)  # A parabola lies between.
+    assert diagram.cell_area == pytest.approx([2 / 3, 1 / 3], abs=1e-3)  # A parabola lies between.
     corner = np.flatnonzero((V[F][:, :, :2] == 1).all(axis=2).any(axis=1))
     distances = remesh.geodesic_distance(V, F, None, 0, lines=[side], regions=[corner])
     assert (distances[F[corner]] == 0).all() and (distances <= V[:, 1] + 1e-12).all()

@@ -1,6 +1,6 @@
 // Segments of lines in a face are divided where they meet others, and those along an edge at the
 // vertices on it; then the faces are cut along them (line_cutter.h).
-#include "agvd/mesh/insert_lines.h"
+#include "agvd/mesh/cut_surface.h"
 
 #include <algorithm>
 #include <cmath>

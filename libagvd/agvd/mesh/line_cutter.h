@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "agvd/core/progress.h"
-#include "agvd/mesh/insert_lines.h"
+#include "agvd/mesh/cut_surface.h"
 #include "agvd/mesh/surface.h"
 
 namespace agvd {

@@ -1,4 +1,4 @@
-#include "agvd/mesh/insert_lines.h"
+#include "agvd/mesh/cut_surface.h"
 
 #include <gtest/gtest.h>
 
