@@ -21,7 +21,8 @@ NAMES = {"remesh": remesh, "np": np}
 
 
 @pytest.mark.parametrize("name", MODULES)
-def test_examples_of_docstrings_run(name):
+def test_examples_of_docstrings_run(name, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)  # Some write files.
     if name == "_pyvista":
         pytest.importorskip("pyvista")
     module = remesh if name == "__init__" else importlib.import_module(f"remesh.{name}")

@@ -91,17 +91,16 @@ double farthest_from_vertices(std::span<const Vec3> points, const TriangleMesh& 
 
 double farthest_from_surface(const TriangleMesh& mesh, const TriangleMesh& surface) {
     const agvd::ClosestPointTree tree(surface.view());
+    constexpr int n = 6;
     double farthest_sq = 0;
-    const auto look = [&](const Vec3& point) {
-        farthest_sq = std::max(farthest_sq, tree.query(point).distance_sq);
-    };
-    for (const Vec3& v : mesh.positions) look(v);
     for (const auto& [a, b, c] : mesh.triangles) {
         const auto& p = mesh.positions;
-        look((p[a] + p[b] + p[c]) / 3);
-        look((p[a] + p[b]) / 2);
-        look((p[b] + p[c]) / 2);
-        look((p[c] + p[a]) / 2);
+        for (int i = 0; i <= n; ++i) {
+            for (int j = 0; i + j <= n; ++j) {
+                const Vec3 point = (i * p[a] + j * p[b] + (n - i - j) * p[c]) / n;
+                farthest_sq = std::max(farthest_sq, tree.query(point).distance_sq);
+            }
+        }
     }
     return std::sqrt(farthest_sq);
 }

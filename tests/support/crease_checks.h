@@ -27,7 +27,7 @@ using Segment = std::pair<agvd::Vec3, agvd::Vec3>;
 [[nodiscard]] double farthest_from_vertices(std::span<const agvd::Vec3> points,
                                             const agvd::TriangleMesh& mesh);
 
-//! The farthest that a vertex, edge midpoint or centroid of `mesh` lies from `surface`: 0 if every
+//! The farthest that a point of `mesh` lies from `surface`, of 28 in each triangle: 0 if every
 //! triangle lies in one of its planar faces.
 [[nodiscard]] double farthest_from_surface(const agvd::TriangleMesh& mesh,
                                            const agvd::TriangleMesh& surface);

@@ -4,6 +4,7 @@
 
 #include "agvd/diagram/arcs.h"
 #include "agvd/diagram/conic.h"
+#include "agvd/diagram/diagram.h"
 
 namespace agvd {
 

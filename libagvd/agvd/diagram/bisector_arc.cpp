@@ -1,6 +1,7 @@
-#include "agvd/diagram/bisector_arc.h"
-
+// Bisectors as arcs of conics, whose foci are images of the sites, or of the pseudo-sources that
+// paths from these bend at.
 #include "agvd/diagram/conic.h"
+#include "agvd/diagram/diagram.h"
 
 namespace agvd {
 

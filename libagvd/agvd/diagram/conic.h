@@ -5,7 +5,7 @@
 #include <array>
 #include <optional>
 
-#include "agvd/diagram/bisector_arc.h"
+#include "agvd/core/types.h"
 
 namespace agvd {
 

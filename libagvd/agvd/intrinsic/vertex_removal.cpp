@@ -147,6 +147,7 @@ private:
                 if (w != v) ring_.push_back(w);
             }
         }
+        ring_ = distinct(std::move(ring_));
         if (is_free) {
             drop(v, is_boundary);
             push_sides(Surface::face(spokes_[0]));
@@ -166,11 +167,11 @@ private:
         Index best = no_index;
         double best_quality = -1;
         for (const Index h : spokes_) {
-            if (surface_.twin[h] == no_index || !may_flip(h)) continue;
+            if (surface_.twin[h] == no_index) continue;
             const Quad quad = quad_at(surface_, h);
             if (lengths_ == Lengths::OnSurface && !quad.is_convex()) continue;
             const double quality = quality_behind(h, quad);
-            if (quality > best_quality) {
+            if (quality > best_quality && may_flip(h)) {
                 best_quality = quality;
                 best = h;
             }

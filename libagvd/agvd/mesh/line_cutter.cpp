@@ -30,12 +30,13 @@ CutFaces LineCutter::run(const EachPolygon& each_polygon) {
     std::stable_sort(pieces_.begin(), pieces_.end(),
                      [](const FacePiece& a, const FacePiece& b) { return a.face < b.face; });
     for (auto& points : on_edge_) std::sort(points.begin(), points.end());
-    auto piece = pieces_.begin();
+    const std::span<const FacePiece> pieces = pieces_;
+    std::size_t end = 0;
     for (Index f = 0; f < surface_.num_faces(); ++f) {
-        const auto begin = piece;
-        while (piece != pieces_.end() && piece->face == f) ++piece;
-        ticker_.tick(1 + static_cast<std::size_t>(piece - begin));
-        cut_face(f, {begin, piece});
+        const std::size_t begin = end;
+        while (end < pieces.size() && pieces[end].face == f) ++end;
+        ticker_.tick(1 + end - begin);
+        cut_face(f, pieces.subspan(begin, end - begin));
     }
     return std::move(result_);
 }

@@ -166,7 +166,7 @@ std::vector<InnerEdge> repeated_edges(const GluedMesh& mesh) {
 std::vector<DirectedEdge> rim_of(std::span<const Triangle> triangles) {
     std::size_t num_vertices = 0;
     for (const Triangle& t : triangles) {
-        num_vertices = std::max(num_vertices, std::size_t{*std::ranges::max_element(t)} + 1);
+        num_vertices = std::max(num_vertices, std::size_t{std::max({t[0], t[1], t[2]})} + 1);
     }
     const Groups tails(num_vertices, [&](const auto& add) {
         for (const Triangle& t : triangles) {

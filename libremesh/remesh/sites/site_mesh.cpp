@@ -88,18 +88,25 @@ struct RightTriangle {
     }
 };
 
-// \param edge       from the site whose cell has the part; the triangle lies on its left.
+// The right triangles of the two ends of an edge. They are alike but for their slopes.
+struct EdgePart {
+    double area = 0, mass = 0, spread = 0;  // Of each.
+    Vec3 along, across;         // Slopes: their sum at the tail, across - along at the head.
+
+    [[nodiscard]] RightTriangle at_tail() const { return {area, mass, spread, across + along}; }
+    [[nodiscard]] RightTriangle at_head() const { return {area, mass, spread, across - along}; }
+};
+
+// \param edge       the triangle lies on its left.
 // \param up         unit normal of the triangle.
 // \param cotangent  of the angle opposite the edge.
-RightTriangle right_triangle(const Vec3& edge, const Vec3& up, double cotangent, double density) {
-    RightTriangle result;
+inline EdgePart edge_part(const Vec3& edge, const Vec3& up, double cotangent, double density) {
     const double squared_length = edge.squaredNorm();
-    result.area = cotangent * squared_length / 8;
-    result.mass = density * result.area;
-    result.spread = squared_length * (3 + cotangent * cotangent) / 24;
-    const Vec3 along = (-2.0 / 3 * result.mass) * edge;
-    result.slope = along + 0.5 * cotangent * up.cross(along);
-    return result;
+    const double area = cotangent * squared_length / 8;
+    const double mass = density * area;
+    const Vec3 along = (-2.0 / 3 * mass) * edge;
+    return {area, mass, squared_length * (3 + cotangent * cotangent) / 24, along,
+            0.5 * cotangent * up.cross(along)};
 }
 
 // A triangle with an obtuse angle opposite its rim edge (tail, head). The apex and its mirror image
@@ -129,15 +136,16 @@ private:
     void add(std::size_t end, const Vec3& at, const Vec3& apex, double cotangent, const Vec3& up,
              double density) {
         const Vec3 side = end == 0 ? up : Vec3(-up);
-        take(end, right_triangle(apex - at, -side, cotangent, density));
-        take(2, right_triangle(at - apex, side, cotangent, density));
+        const EdgePart part_of_edge = edge_part(apex - at, -side, cotangent, density);
+        take(end, part_of_edge.at_tail());
+        take(2, part_of_edge.at_head());
         steepest = std::max(steepest, cotangent);
     }
     // Adds the apex's half of the edge to its mirror image. The angle opposite that edge, at an end
     // of the rim, is twice the given one.
     void add_apex(const Vec3& down, double cotangent_of_half, const Vec3& up, double density) {
         const double cotangent = (cotangent_of_half - 1 / cotangent_of_half) / 2;
-        take(2, right_triangle(down, -up, cotangent, density));
+        take(2, edge_part(down, -up, cotangent, density).at_tail());
     }
     void take(std::size_t i, const RightTriangle& more) {
         part[i].add(more);
@@ -215,22 +223,25 @@ void measure_energy(const SiteMesh& mesh, std::span<const Vec3> positions,
         const double density = (weight[t[0]] + weight[t[1]] + weight[t[2]]) / 3;
         // The circumcentre lies above the midpoint of each edge by half the edge times the
         // cotangent: two right triangles, one in the cell of either end.
-        std::array<RightTriangle, 3> part;
+        std::array<EdgePart, 3> half;
         double energy = 0, weighted = 0;
         double flat = flat_cotangent, steepest = 0;
         std::size_t obtuse_at_rim = 3;
         for (std::size_t k = 0; k < 3; ++k) {
             const double cotangent = -edge[(k + 1) % 3].dot(edge[(k + 2) % 3]) / doubled_area;
-            const RightTriangle at_tail = right_triangle(edge[k], up, cotangent, density);
-            part[k].add(at_tail);
-            part[(k + 1) % 3].add(right_triangle(-edge[k], -up, cotangent, density));
-            energy += 2 * at_tail.area * at_tail.spread;
-            weighted += 2 * at_tail.mass * at_tail.spread;
+            half[k] = edge_part(edge[k], up, cotangent, density);
+            energy += 2 * half[k].area * half[k].spread;
+            weighted += 2 * half[k].mass * half[k].spread;
             const bool is_rim = mesh.twin[3 * i + k] == no_index;
             if (is_rim) flat = flat_cotangent_at_rim;
             if (is_rim && cotangent < 0) obtuse_at_rim = k;
             steepest = std::max(steepest, std::abs(cotangent));
             result.cotangent[3 * i + k] = cotangent;
+        }
+        std::array<RightTriangle, 3> part;
+        for (std::size_t k = 0; k < 3; ++k) {
+            part[k] = half[k].at_tail();
+            part[k].add(half[(k + 2) % 3].at_head());
         }
         if (obtuse_at_rim < 3) {
             const std::size_t k = obtuse_at_rim;

@@ -7,6 +7,7 @@
 #include "agvd/mesh/closest_point.h"
 #include "remesh/pipeline/meet_distance.h"
 #include "remesh/pipeline/remesh.h"
+#include "support/crease_checks.h"
 #include "support/shapes.h"
 
 using agvd::Index;
@@ -17,24 +18,6 @@ using remesh::RemeshResult;
 using remesh::detail::MeasuredDistance;
 
 namespace {
-
-// The largest distance from `from` to `to` at points of a lattice in each face.
-double one_sided(const TriangleMesh& from, const TriangleMesh& to) {
-    const agvd::ClosestPointTree tree(to.view());
-    constexpr int n = 6;
-    double largest = 0;
-    for (const agvd::Triangle& t : from.triangles) {
-        for (int i = 0; i <= n; ++i) {
-            for (int j = 0; i + j <= n; ++j) {
-                const Vec3 p = (i * from.positions[t[0]] + j * from.positions[t[1]] +
-                                (n - i - j) * from.positions[t[2]]) /
-                               n;
-                largest = std::max(largest, std::sqrt(tree.query(p).distance_sq));
-            }
-        }
-    }
-    return largest;
-}
 
 RemeshResult remeshed(const TriangleMesh& mesh, double distance, int threads = 1) {
     return remesh::remesh(
@@ -62,8 +45,8 @@ TEST(MaxDistance, IsKeptBothWaysWithFewVertices) {
     for (const double limit : {0.04, 0.012, 0.005}) {
         SCOPED_TRACE(limit);
         const RemeshResult result = remeshed(input, limit);
-        EXPECT_LE(one_sided(input, result.mesh), limit);
-        EXPECT_LE(one_sided(result.mesh, input), limit);
+        EXPECT_LE(crease_checks::farthest_from_surface(input, result.mesh), limit);
+        EXPECT_LE(crease_checks::farthest_from_surface(result.mesh, input), limit);
         EXPECT_LE(result.sizing.largest_distance, limit);
         EXPECT_GT(result.sizing.largest_distance, limit / 4);
         const auto num_vertices = static_cast<Index>(result.mesh.positions.size());

@@ -7,6 +7,7 @@
 
 #include "agvd/mesh/topology.h"
 #include "remesh/quality/evaluate.h"
+#include "support/crease_checks.h"
 #include "support/movable_mesh.h"
 #include "support/shapes.h"
 
@@ -15,24 +16,6 @@ using remesh::detail::DistanceLimit;
 using remesh::detail::keep_distance;
 
 namespace {
-
-// The largest distance from `from` to `to` at points of a lattice in each face.
-double one_sided(const TriangleMesh& from, const TriangleMesh& to) {
-    const ClosestPointTree tree(to.view());
-    constexpr int n = 8;
-    double largest = 0;
-    for (const Triangle& t : from.triangles) {
-        for (int i = 0; i <= n; ++i) {
-            for (int j = 0; i + j <= n; ++j) {
-                const Vec3 p = (i * from.positions[t[0]] + j * from.positions[t[1]] +
-                                (n - i - j) * from.positions[t[2]]) /
-                               n;
-                largest = std::max(largest, std::sqrt(tree.query(p).distance_sq));
-            }
-        }
-    }
-    return largest;
-}
 
 struct Kept {
     TriangleMesh mesh;
@@ -77,12 +60,12 @@ bool keeps_topology(const TriangleMesh& mesh, const TriangleMesh& other) {
 
 TEST(KeepDistance, OnlyTheSpikeGetsVertices) {
     const TriangleMesh mesh = ball_with_spike(3), input = ball_with_spike(4);
-    ASSERT_GT(one_sided(input, mesh), 0.012);
+    ASSERT_GT(crease_checks::farthest_from_surface(input, mesh), 0.012);
     const Kept result = kept(mesh, input, 0.01);
     ASSERT_TRUE(result.distance);
     EXPECT_LE(*result.distance, 0.01);
-    EXPECT_LE(one_sided(input, result.mesh), 0.01);
-    EXPECT_LE(one_sided(result.mesh, input), 0.01);
+    EXPECT_LE(crease_checks::farthest_from_surface(input, result.mesh), 0.01);
+    EXPECT_LE(crease_checks::farthest_from_surface(result.mesh, input), 0.01);
     EXPECT_TRUE(keeps_topology(result.mesh, mesh));
     // An eighth of the ball is near the spike.
     EXPECT_LT(result.mesh.positions.size(), mesh.positions.size() * 9 / 8);
@@ -98,8 +81,8 @@ TEST(KeepDistance, VerticesThatAreNotNeededGo) {
     const TriangleMesh input = shapes::sphere(3);
     const Kept result = kept(input, input, 0.05);
     ASSERT_TRUE(result.distance);
-    EXPECT_LE(one_sided(input, result.mesh), 0.05);
-    EXPECT_LE(one_sided(result.mesh, input), 0.05);
+    EXPECT_LE(crease_checks::farthest_from_surface(input, result.mesh), 0.05);
+    EXPECT_LE(crease_checks::farthest_from_surface(result.mesh, input), 0.05);
     EXPECT_LT(result.mesh.positions.size(), input.positions.size() * 9 / 10);
     EXPECT_TRUE(keeps_topology(result.mesh, input));
     // The angle of the least quality that is accepted.
