@@ -1,7 +1,7 @@
 // In front of an edge of a line the shortest paths are parallel and make right angles with it; from
-// a vertex they fill the angle between the beams of its edges, if that is there. A sector is what
+// a vertex they fill the angle between the beams of its edges, if there is one. A sector is what
 // lies around a vertex between two edges of lines, or between one and the boundary; where it is
-// wider than pi (3/2 pi, or pi / 2 at the boundary), a fan leaves between the right angles.
+// wider than pi (pi / 2 at the boundary), a fan leaves between the right angles.
 #include <algorithm>
 #include <optional>
 
