@@ -57,7 +57,7 @@ public:
 private:
     // The nearest relay at a point over all faces that hold it.
     // \param distance  of a point where the path has turned already: relays that start there do not
-    //                  count. 0: of any point.
+    //                  count, but for the site. 0: of any point.
     [[nodiscard]] Chosen choose(const SurfacePoint& point, double distance) {
         Chosen best;
         for_each_view(surface_, point, [&](const SurfacePoint& view) {
@@ -79,7 +79,8 @@ private:
             if (relay.half_edge == entered && relay.y < 0) continue;
             const Reach r = reach(to_planar(relay, Motion()), seen[relay.half_edge % 3]);
             if (!(r.distance < best.distance)) continue;
-            if (distance > 0 && !(r.last_piece > no_piece * distance)) continue;
+            const double rounding = no_piece * distance;
+            if (r.last_piece < rounding && r.distance > rounding) continue;
             best = {view, &relay, r.from, r.distance};
         }
     }
