@@ -1,7 +1,9 @@
 // At the point, the nearest relay of its faces tells the image to go to. The line to the image is
 // followed from face to face until the image lies in one: there the next relay is asked. It is that
-// of the site, or of a vertex where the path bends. Relays with errors are asked in every face,
-// since no site or vertex need lie at their images.
+// of the site, or of a vertex where the path bends. At a vertex on the line, all faces around it are
+// asked: rounding would choose the side on which the path passes it, and the image is right on one
+// side only. Relays with errors are asked in every face, since no site or vertex need lie at their
+// images.
 #include "agvd/paths/relay_trace.h"
 
 #include <algorithm>
@@ -13,7 +15,8 @@
 namespace agvd {
 namespace {
 
-// A share of the lengths of a face: nearer to it, an image lies in it.
+// A share of the lengths of a face: nearer to it, an image lies in it, and a line that is nearer to
+// a corner passes through it.
 constexpr double image_in_face = 1e-10;
 // A share of a distance: pieces of a path that are shorter are rounding.
 constexpr double no_piece = 1e-12;
@@ -54,7 +57,7 @@ public:
 private:
     // The nearest relay at a point over all faces that hold it.
     // \param distance  of a point where the path has turned already: relays that start there do not
-    //                  count. 0: of any point.
+    //                  count, but for the site. 0: of any point.
     [[nodiscard]] Chosen choose(const SurfacePoint& point, double distance) {
         Chosen best;
         for_each_view(surface_, point, [&](const SurfacePoint& view) {
@@ -76,7 +79,8 @@ private:
             if (relay.half_edge == entered && relay.y < 0) continue;
             const Reach r = reach(to_planar(relay, Motion()), seen[relay.half_edge % 3]);
             if (!(r.distance < best.distance)) continue;
-            if (distance > 0 && !(r.last_piece > no_piece * distance)) continue;
+            const double rounding = no_piece * distance;
+            if (r.last_piece < rounding && r.distance > rounding) continue;
             best = {view, &relay, r.from, r.distance};
         }
     }
@@ -109,51 +113,51 @@ private:
         return choose(corner, chosen.relay->weight);
     }
 
-    // Out of the face, and on while the image lies beyond.
+    // Out of the face, and on while the image lies beyond and no corner on the line.
     Chosen go_across(const Chosen& chosen) {
         const Index h = chosen.relay->half_edge;
         ImageLine line{h, position_in_frame(surface_, chosen.view, h), chosen.from};
         const bool is_exact = field_.propagation.certified_error == 0;
         for (Index left = surface_.num_faces(); left > 0; --left) {
             ticker_.tick();
-            const Index inside = surface_.twin[line.half_edge];
             const double at = leave(line);
+            if (const auto corner = corner_met(line, at)) {
+                return choose(point_on(*corner, 0), chosen.distance);
+            }
+            const Index inside = surface_.twin[line.half_edge];
             if (inside == no_index) return {};
-            const SurfacePoint here = point_on(inside, 1 - at);
             const Vec2 end(surface_.length_of(inside), 0);
             line = {inside, end - Vec2(at * end.x(), 0), end - line.image};
             const std::optional<Index> beyond = side_towards(line);
-            if (!is_exact || !beyond) return choose_at(line, here, chosen);
+            if (!is_exact || !beyond) {
+                Chosen next;
+                choose_in_face(point_on(inside, 1 - at), inside, chosen.distance, next);
+                return next;
+            }
             line = seen_along(line, *beyond);
         }
         return {};
     }
-    // Where the line has come into the face of its image, or of the next relay. The image may be
-    // the corner through which it came.
-    Chosen choose_at(const ImageLine& line, const SurfacePoint& here, const Chosen& before) {
-        const Index inside = line.half_edge;
-        const double left = (line.image - line.from).norm();
-        if (left < image_in_face * surface_.length_of(inside)) {
-            const auto& b = here.barycentric;
-            const Index h = b[inside % 3] > 0.5 ? inside : Surface::next(inside);
-            if (b[h % 3] > 1 - 2 * image_in_face) {
-                go(point_on(h, 0), Surface::face(h));
-                return choose(point_on(h, 0), before.distance);
-            }
-        }
-        Chosen next;
-        choose_in_face(here, inside, before.distance, next);
-        return next;
+    // The corner at which the line leaves its face, if it does not begin there.
+    [[nodiscard]] std::optional<Index> corner_met(const ImageLine& line, double at) const {
+        if (at > 0 && at < 1) return std::nullopt;
+        const double length = surface_.length_of(line.half_edge);
+        const double way = (Vec2(at * length, 0) - line.from).norm();
+        if (!(way > image_in_face * length)) return std::nullopt;
+        return at > 0 ? Surface::next(line.half_edge) : line.half_edge;
     }
-    // Appends the point where the line leaves its face. Returns the share of the half-edge there.
+    // Appends the point where the line leaves its face. Returns the share of the half-edge there: 0
+    // or 1 at a corner.
     double leave(const ImageLine& line) {
         const double length = surface_.length_of(line.half_edge);
         const double fall = line.from.y() - line.image.y();
         const double share = fall > 0 ? line.from.y() / fall : 0;
-        const double at = line.from.x() + share * (line.image.x() - line.from.x());
-        const double clamped = std::clamp(at / length, 0.0, 1.0);
-        go(point_on(line.half_edge, clamped), Surface::face(line.half_edge));
-        return clamped;
+        const double along = line.from.x() + share * (line.image.x() - line.from.x());
+        double at = std::clamp(along / length, 0.0, 1.0);
+        if (at < image_in_face) at = 0;
+        if (at > 1 - image_in_face) at = 1;
+        go(point_on(line.half_edge, at), Surface::face(line.half_edge));
+        return at;
     }
     // The other half-edge of the face through which the line goes on; none: the image lies in it.
     [[nodiscard]] std::optional<Index> side_towards(const ImageLine& line) const {

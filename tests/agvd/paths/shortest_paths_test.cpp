@@ -2,12 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <numbers>
 
 #include "agvd/core/error.h"
 #include "agvd/intrinsic/intrinsic_triangulation.h"
 #include "agvd/mesh/surface_points.h"
 #include "agvd/paths/distances.h"
+#include "agvd/paths/isolines.h"
 #include "support/exact_field.h"
 #include "support/geodesics.h"
 #include "support/points.h"
@@ -142,6 +144,50 @@ TEST(ShortestPaths, OfManySitesHaveTheDistancesOfTheirPoints) {
             SCOPED_TRACE(i);
             EXPECT_EQ(paths[i].site, distances.point_site[i]);
             expect_shortest(surface, paths[i].path, distances.point_distance[i]);
+        }
+    }
+}
+
+// Arcs of isolines end where windows meet: from there the straight line to an image passes a vertex
+// at no distance, and rounding must not choose the side.
+TEST(ShortestPaths, OfPointsBetweenWindowsHaveTheirDistances) {
+    std::size_t num_paths = 0;
+    for (const TriangleMesh& mesh : {shapes::jitter(shapes::sphere(4), 0.05, 1),
+                                     shapes::jitter(shapes::torus(40, 20), 0.06, 2),
+                                     shapes::jitter(shapes::grid(24), 0.05, 3)}) {
+        const Surface surface = build_surface(mesh.view());
+        for (const Index num_sites : {1u, 3u}) {
+            const auto sites = points::scattered(surface, num_sites, 4);
+            const Propagation propagation = support::exact_everywhere(surface, sites);
+            const auto levels = levels_every(propagation, 0.25);
+            const auto starts =
+                draw_isolines(surface, build_isolines(surface, propagation, levels), 1).points;
+            const auto paths = paths_to_sites(surface, sites, propagation, starts);
+            const Distances distances = find_distances(surface, sites, starts, {.max_error = 0});
+            for (std::size_t i = 0; i < starts.size(); ++i) {
+                SCOPED_TRACE(i);
+                expect_shortest(surface, paths[i].path, distances.point_distance[i]);
+            }
+            num_paths += paths.size();
+        }
+    }
+    EXPECT_GT(num_paths, 10'000);
+}
+
+// Lines along edges and diagonals meet flat vertices one after the other, and the site at last.
+TEST(ShortestPaths, OverVerticesOfASquareAreStraight) {
+    const TriangleMesh mesh = shapes::grid(16);
+    const Surface surface = build_surface(mesh.view());
+    std::vector<SurfacePoint> vertices;
+    for (Index v = 0; v < surface.num_vertices(); ++v) vertices.push_back(point_at(surface, v));
+    for (const Index site : {0u, 16u, 144u, 200u}) {
+        const std::array sites{vertices[site]};
+        const auto paths =
+            paths_to_sites(surface, sites, support::exact_everywhere(surface, sites), vertices);
+        for (Index v = 0; v < vertices.size(); ++v) {
+            SCOPED_TRACE(v);
+            const double distance = (mesh.positions[v] - mesh.positions[site]).norm();
+            expect_shortest(surface, paths[v].path, distance);
         }
     }
 }
