@@ -230,6 +230,7 @@ double LineCutter::quality(Index face, const std::vector<Index>& polygon, std::s
 void LineCutter::add_triangles(Index face, std::vector<Index> polygon) {
     if (each_polygon_ != nullptr) {
         std::vector<Index> vertices;
+        vertices.reserve(polygon.size());
         for (const Index i : polygon) vertices.push_back(points_[i].vertex);
         (*each_polygon_)(vertices, static_cast<Index>(polygon.size()) - 2);
     }
