@@ -44,7 +44,9 @@ constexpr const char* diagram_footer =
     "  agvd diagram bunny.ply -n 100 --max-error 0 --chord 1e-5 -o arcs.vtp\n\n"
     "Behind a point of --sites may stand `site N`, the number of the site that it\n"
     "belongs to (several points may; on all lines or on none), and `start D`, a\n"
-    "distance that counts from there on: an additive weight.\n\n"
+    "distance that counts from there on: an additive weight. A line of the file that\n"
+    "reads `l VERTEX VERTEX ...` is a site along edges of the mesh, `r FACE FACE ...`\n"
+    "a region of faces, with distance 0 inside.\n\n"
     "Output (.gz behind the extension: compressed):\n"
     "  .vtp   VTK PolyData for ParaView: the cleaned mesh, the Voronoi edges and\n"
     "         boundary arcs as polylines, the sites as vertices; point data site and\n"
@@ -74,14 +76,31 @@ void warn_of_empty_cells(const agvd::Diagram& diagram, cli::Console& console) {
                  (count > most_named ? ", ..." : ""));
 }
 
-// A file for `agvd compare` has no room for lengths.
+// A file for `agvd compare`.
+bool is_diagram_file(const fs::path& output) {
+    const fs::path name = output.extension() == ".gz" ? output.stem() : output;
+    return name.extension() == ".agvd";
+}
+
+// It has no room for lengths.
 void check_has_positions(const cli::QueryArguments& arguments) {
     if (arguments.edge_lengths.empty()) return;
     for (const fs::path& output : arguments.outputs) {
-        const fs::path name = output.extension() == ".gz" ? output.stem() : output;
-        if (name.extension() != ".agvd") continue;
+        if (!is_diagram_file(output)) continue;
         throw agvd::InvalidOption(output.string() +
                                   ": a .agvd file has positions only; with --edge-lengths write "
+                                  ".vtp, .ply or .obj");
+    }
+}
+
+// Nor for sites that are no points.
+void check_has_points_only(const cli::QueryArguments& arguments,
+                           const std::vector<agvd::SiteShape>& shapes) {
+    if (shapes.empty()) return;
+    for (const fs::path& output : arguments.outputs) {
+        if (!is_diagram_file(output)) continue;
+        throw agvd::InvalidOption(output.string() +
+                                  ": a .agvd file has points as sites; with lines or regions write "
                                   ".vtp, .ply or .obj");
     }
 }
@@ -171,12 +190,14 @@ void run_diagram(const DiagramRun& arguments, cli::Console& console) {
         return cli::stages_of_diagram(num_faces, arguments.sampling.num_samples);
     });
     const agvd::Surface& surface = input.surface;
-    const auto [sites, roles] = cli::sites_on(input, arguments, console);
+    const auto [sites, roles, shapes] = cli::sites_on(input, arguments, console);
     if (!arguments.html.empty()) {
-        cli::require_plain_points(arguments.sites, roles, "--html draws cells of");
+        cli::require_plain_points(arguments.sites, roles, shapes.size(), "--html draws cells of");
     }
+    check_has_points_only(arguments, shapes);
     agvd::PropagationOptions propagating = arguments.propagation;
     propagating.points = roles;
+    propagating.shapes = shapes;
     propagating.num_threads = arguments.common.threads;
     const cli::BasedDiagram based = cli::naming_file(
         arguments.input,

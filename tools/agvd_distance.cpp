@@ -23,7 +23,8 @@ constexpr const char* distance_footer =
     "  agvd distance bunny.ply --sites sites.txt --targets points.txt -o table.csv\n\n"
     "FILE has a point on each line: `v VERTEX`, `f FACE B0 B1 B2` or `p X Y Z`; for\n"
     "--sites also `site N` behind it, the site that it belongs to, and `start D`, the\n"
-    "distance that it starts with.\n\n"
+    "distance that it starts with. A line `l VERTEX VERTEX ...` is a site along edges\n"
+    "of the mesh, `r FACE FACE ...` a region, with distance 0 inside.\n\n"
     "Output (.gz behind the extension: compressed):\n"
     "  .ply, .vtp, .vtk   the cleaned mesh with the vertex properties site (-1: none)\n"
     "         and distance (infinity: not reached); with --nearest also site_2,\n"
@@ -140,7 +141,7 @@ void run_distance(const DistanceArguments& arguments, Console& console) {
     const double max_error = arguments.propagation.max_error.value_or(0);
     const int threads = arguments.common.threads;
     if (arguments.nearest > 1) {
-        require_plain_points(arguments.sites, sites.roles, "--nearest takes");
+        require_plain_points(arguments.sites, sites.roles, sites.shapes.size(), "--nearest takes");
         const agvd::KNearest ranks =
             agvd::k_nearest_sites(surface, sites.points, arguments.nearest,
                                   {.max_error = max_error,
@@ -154,6 +155,7 @@ void run_distance(const DistanceArguments& arguments, Console& console) {
     const agvd::Distances distances = agvd::find_distances(
         surface, sites.points, targets,
         {.points = sites.roles,
+         .shapes = sites.shapes,
          .max_distance = arguments.radius > 0 ? arguments.radius : agvd::infinity,
          .max_error = max_error,
          .num_threads = threads,

@@ -296,7 +296,12 @@ remesh::SitesFile read_given_sites(const DiagramArguments& arguments, const agvd
 }
 
 void require_plain_points(const std::filesystem::path& path, const agvd::SitePoints& points,
-                          const char* what) {
+                          std::size_t num_shapes, const char* what) {
+    if (num_shapes > 0) {
+        throw agvd::InvalidInput(path.string() + ": " + what +
+                                 " points; remove the lines that begin with l or r, or use `agvd "
+                                 "diagram` or `agvd distance`");
+    }
     if (points.site.empty() && points.start.empty()) return;
     throw agvd::InvalidInput(path.string() + ": " + what +
                              " points without `site` and `start`; remove these words, or use "
@@ -308,7 +313,7 @@ std::vector<agvd::SurfacePoint> read_points(const std::filesystem::path& path,
     remesh::SitesFile file =
         remesh::read_sites(path, mesh, console.progress_of("read"), remesh::Repeats::Allowed);
     for (const std::string& warning : file.warnings) console.warn(warning);
-    require_plain_points(path, file.points, "targets are");
+    require_plain_points(path, file.points, file.shapes.size(), "targets are");
     return std::move(file.sites);
 }
 

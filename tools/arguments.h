@@ -122,10 +122,12 @@ enum class WithAttributes { No, Yes };
                                                  const agvd::MeshView& mesh, Console& console);
 
 //! For what takes points only.
-//! \param what  takes them, as the text begins.
-//! \throw agvd::InvalidInput  points belong to sites, or start at a distance above 0.
+//! \param num_shapes  lines and regions among the sites.
+//! \param what        takes them, as the text begins.
+//! \throw agvd::InvalidInput  points belong to sites, or start at a distance above 0, or there are
+//!                            lines or regions.
 void require_plain_points(const std::filesystem::path& path, const agvd::SitePoints& points,
-                          const char* what);
+                          std::size_t num_shapes, const char* what);
 
 //! Reads points of the mesh as it was read: a file of sites in which places may repeat.
 [[nodiscard]] std::vector<agvd::SurfacePoint> read_points(const std::filesystem::path& path,

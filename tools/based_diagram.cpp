@@ -26,6 +26,21 @@ agvd::Index most_splits(const agvd::Surface& surface) {
     return 4 * std::max(surface.num_vertices(), few_vertices);
 }
 
+// Without a base: lines run along edges of the surface.
+BasedDiagram plain_diagram(const agvd::Surface& surface,
+                           const std::vector<agvd::SurfacePoint>& sites,
+                           agvd::PropagationOptions options,
+                           const std::function<agvd::Progress(const char*)>& progress_of,
+                           std::optional<double> chord) {
+    options.progress = progress_of("propagate");
+    const agvd::Propagation propagation = agvd::propagate(surface, sites, options);
+    return {agvd::build_diagram(surface, sites, propagation,
+                                {.chord = chord,
+                                 .num_threads = options.num_threads,
+                                 .progress = progress_of("diagram")}),
+            propagation.certified_error};
+}
+
 }  // namespace
 
 agvd::IntrinsicTriangulation base_for(const agvd::Surface& surface, std::size_t num_sites,
@@ -40,6 +55,7 @@ BasedDiagram based_diagram(const agvd::Surface& surface,
                            agvd::PropagationOptions options,
                            const std::function<agvd::Progress(const char*)>& progress_of,
                            std::optional<double> chord) {
+    if (!options.shapes.empty()) return plain_diagram(surface, sites, options, progress_of, chord);
     const agvd::IntrinsicTriangulation base = base_for(surface, sites.size(), progress_of("clean"));
     const std::vector<agvd::SurfacePoint> on_base = base.to_intrinsic(sites);
     options.progress = progress_of("propagate");

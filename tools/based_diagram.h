@@ -22,6 +22,7 @@ struct BasedDiagram {
     double certified_error = 0;
 };
 
+//! With shapes there is no base, as they consist of edges and faces of the surface.
 //! \param options      for the propagation; all steps use its num_threads. Its progress is ignored.
 //! \param progress_of  a callback for each stage, by its name.
 //! \param chord        as in agvd::DiagramOptions.

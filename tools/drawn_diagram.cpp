@@ -71,13 +71,15 @@ DrawnArcs draw_arcs(const agvd::Surface& surface, const agvd::Diagram& diagram,
 
 }  // namespace
 
-DrawnDiagram draw_diagram(const agvd::MeshView& mesh,
-                          const std::vector<agvd::SurfacePoint>& given_sites,
-                          const agvd::PropagationOptions& options, const SurfaceOptions& as_surface,
-                          const StageProgress& progress_of, std::optional<double> chord) {
-    const GivenSurface given = given_surface(mesh, as_surface, options, progress_of);
+DrawnDiagram draw_diagram(const agvd::MeshView& mesh, const DrawnSites& given_sites,
+                          const agvd::PropagationOptions& given_options,
+                          const SurfaceOptions& as_surface, const StageProgress& progress_of,
+                          std::optional<double> chord) {
+    const GivenSurface given = given_surface(mesh, as_surface, given_options, progress_of);
     const agvd::Surface& surface = given.surface();
-    const std::vector<agvd::SurfacePoint> sites = given.to_surface(given_sites);
+    const std::vector<agvd::SurfacePoint> sites = given.to_surface(given_sites.points);
+    agvd::PropagationOptions options = given_options;
+    options.shapes = given.to_surface(given_sites.shapes);
     BasedDiagram based = based_diagram(surface, sites, options, progress_of, chord);
     DrawnDiagram drawn;
     drawn.diagram = std::move(based.diagram);
@@ -95,33 +97,40 @@ DrawnDiagram draw_diagram(const agvd::MeshView& mesh,
     return drawn;
 }
 
-agvd::CutCells cut_cells(const agvd::MeshView& mesh,
-                         const std::vector<agvd::SurfacePoint>& given_sites,
-                         const agvd::PropagationOptions& options, const SurfaceOptions& as_surface,
+agvd::CutCells cut_cells(const agvd::MeshView& mesh, const DrawnSites& sites,
+                         agvd::PropagationOptions options, const SurfaceOptions& as_surface,
                          const StageProgress& progress_of) {
     const GivenSurface given = given_surface(mesh, as_surface, options, progress_of);
+    options.shapes = given.to_surface(sites.shapes);
     const agvd::Diagram diagram =
-        based_diagram(given.surface(), given.to_surface(given_sites), options, progress_of).diagram;
+        based_diagram(given.surface(), given.to_surface(sites.points), options, progress_of)
+            .diagram;
     agvd::CutCells cells = agvd::cut_cells(given.surface(), diagram, progress_of("diagram"));
     for (Index& face : cells.face_origin) face = given.face_of(face);
     return cells;
 }
 
-std::vector<double> vertex_distances(const agvd::MeshView& mesh,
-                                     const std::vector<agvd::SurfacePoint>& given_sites,
+std::vector<double> vertex_distances(const agvd::MeshView& mesh, const DrawnSites& given_sites,
                                      agvd::PropagationOptions options,
                                      const SurfaceOptions& as_surface,
                                      const StageProgress& progress_of) {
     const GivenSurface given = given_surface(mesh, as_surface, options, progress_of);
-    const std::vector<agvd::SurfacePoint> sites = given.to_surface(given_sites);
+    const std::vector<agvd::SurfacePoint> sites = given.to_surface(given_sites.points);
+    const auto of_given = [&](const std::vector<double>& distances) {
+        return carry(given.vertices_of_least(distances), distances, agvd::infinity);
+    };
+    options.shapes = given.to_surface(given_sites.shapes);
+    if (!options.shapes.empty()) {  // They consist of edges and faces of the surface.
+        options.progress = progress_of("propagate");
+        return of_given(agvd::propagate(given.surface(), sites, options).vertex_distance);
+    }
     const agvd::IntrinsicTriangulation base =
         base_for(given.surface(), sites.size(), progress_of("clean"));
     options.progress = progress_of("propagate");
     const agvd::Propagation propagation =
         agvd::propagate(base.surface(), base.to_intrinsic(sites), options);
     // The base's vertices begin with those of the surface.
-    return carry(given.vertices_of_least(propagation.vertex_distance), propagation.vertex_distance,
-                 agvd::infinity);
+    return of_given(propagation.vertex_distance);
 }
 
 }  // namespace cli

@@ -11,6 +11,7 @@
 #include "agvd/diagram/cut_cells.h"
 #include "agvd/diagram/diagram.h"
 #include "agvd/propagation/propagate.h"
+#include "remesh/meshfile/diagram_file.h"
 
 namespace cli {
 
@@ -57,12 +58,17 @@ struct SurfaceOptions {
     std::vector<double> side_lengths = {};
 };
 
-//! \param sites    on the caller's faces.
-//! \param options  their progress is ignored.
+//! Sites on the caller's mesh.
+struct DrawnSites {
+    std::vector<agvd::SurfacePoint> points = {};
+    std::vector<remesh::GivenShape> shapes = {};  //!< Lines and regions.
+};
+
+//! \param options  their progress and their shapes are ignored.
 //! \param chord    as in agvd::DiagramOptions.
-//! \throw as remesh::clean_input, remesh::to_cleaned, remesh::carry_edges and agvd::propagate.
-[[nodiscard]] DrawnDiagram draw_diagram(const agvd::MeshView& mesh,
-                                        const std::vector<agvd::SurfacePoint>& sites,
+//! \throw as remesh::clean_input, remesh::to_cleaned, remesh::carry_edges, remesh::carry_shape and
+//!        agvd::propagate.
+[[nodiscard]] DrawnDiagram draw_diagram(const agvd::MeshView& mesh, const DrawnSites& sites,
                                         const agvd::PropagationOptions& options,
                                         const SurfaceOptions& as_surface,
                                         const StageProgress& progress_of,
@@ -70,8 +76,7 @@ struct SurfaceOptions {
 
 //! The mesh cut along the bisectors. Parameters and errors as above.
 //! \return its face_origin names the caller's faces.
-[[nodiscard]] agvd::CutCells cut_cells(const agvd::MeshView& mesh,
-                                       const std::vector<agvd::SurfacePoint>& sites,
+[[nodiscard]] agvd::CutCells cut_cells(const agvd::MeshView& mesh, const DrawnSites& sites,
                                        const agvd::PropagationOptions& options,
                                        const SurfaceOptions& as_surface,
                                        const StageProgress& progress_of);
@@ -79,7 +84,7 @@ struct SurfaceOptions {
 //! #V: the distance of each of the caller's vertices from the nearest site; infinity where none
 //! reaches. Parameters and errors as above.
 [[nodiscard]] std::vector<double> vertex_distances(const agvd::MeshView& mesh,
-                                                   const std::vector<agvd::SurfacePoint>& sites,
+                                                   const DrawnSites& sites,
                                                    agvd::PropagationOptions options,
                                                    const SurfaceOptions& as_surface,
                                                    const StageProgress& progress_of);

@@ -28,6 +28,16 @@ std::vector<SurfacePoint> GivenSurface::to_surface(const std::vector<SurfacePoin
     return remesh::to_cleaned(points, mesh_, clean_);
 }
 
+std::vector<agvd::SiteShape> GivenSurface::to_surface(
+    const std::vector<remesh::GivenShape>& shapes) const {
+    std::vector<agvd::SiteShape> moved;
+    for (const remesh::GivenShape& shape : shapes) {
+        moved.push_back(remesh::carry_shape(shape.edges, shape.faces, mesh_, clean_, surface_));
+        moved.back().site = shape.site;
+    }
+    return moved;
+}
+
 std::vector<SurfacePoint> GivenSurface::to_given(const std::vector<SurfacePoint>& points) const {
     if (surface_.has_own_lengths) return points;
     return remesh::to_original(points, mesh_, clean_);

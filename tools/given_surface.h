@@ -7,7 +7,9 @@
 
 #include "agvd/mesh/mesh.h"
 #include "agvd/mesh/surface.h"
+#include "agvd/propagation/propagate.h"
 #include "remesh/clean/clean_input.h"
+#include "remesh/meshfile/diagram_file.h"
 
 namespace cli {
 
@@ -31,6 +33,9 @@ public:
     [[nodiscard]] const agvd::Surface& surface() const { return surface_; }
     [[nodiscard]] std::vector<agvd::SurfacePoint> to_surface(
         const std::vector<agvd::SurfacePoint>& points) const;
+    //! \throw as remesh::carry_shape.
+    [[nodiscard]] std::vector<agvd::SiteShape> to_surface(
+        const std::vector<remesh::GivenShape>& shapes) const;
     [[nodiscard]] std::vector<agvd::SurfacePoint> to_given(
         const std::vector<agvd::SurfacePoint>& points) const;
 

@@ -50,6 +50,17 @@ std::vector<SurfacePoint> on_surface(const OpenedInput& input,
     return remesh::to_cleaned(given, input.file.mesh.view(), input.clean);
 }
 
+std::vector<agvd::SiteShape> shapes_on_surface(const OpenedInput& input,
+                                               std::span<const remesh::GivenShape> given) {
+    std::vector<agvd::SiteShape> shapes;
+    for (const remesh::GivenShape& shape : given) {
+        shapes.push_back(remesh::carry_shape(shape.edges, shape.faces, input.file.mesh.view(),
+                                             input.clean, input.surface));
+        shapes.back().site = shape.site;
+    }
+    return shapes;
+}
+
 std::vector<SurfacePoint> sample(const DiagramArguments& arguments, const agvd::Surface& surface,
                                  Console& console) {
     remesh::SamplingOptions sampling = arguments.sampling;
@@ -139,9 +150,11 @@ GivenSites sites_on(const OpenedInput& input, const DiagramArguments& arguments,
         remesh::SitesFile given = read_given_sites(arguments, mesh, console);
         sites.points = naming_file(arguments.sites, [&] { return on_surface(input, given.sites); });
         sites.roles = std::move(given.points);
+        sites.shapes =
+            naming_file(arguments.sites, [&] { return shapes_on_surface(input, given.shapes); });
     }
     const double slit = input.clean.slit_length;
-    if (slit > remesh::mean_spacing(input.surface, sites.points.size())) {
+    if (slit > remesh::mean_spacing(input.surface, sites.points.size() + sites.shapes.size())) {
         console.warn(welded_slit_text(slit));
     }
     return sites;
@@ -151,7 +164,7 @@ std::vector<SurfacePoint> plain_sites_on(const OpenedInput& input,
                                          const DiagramArguments& arguments, Console& console,
                                          const char* what) {
     GivenSites given = sites_on(input, arguments, console);
-    require_plain_points(arguments.sites, given.roles, what);
+    require_plain_points(arguments.sites, given.roles, given.shapes.size(), what);
     return std::move(given.points);
 }
 

@@ -80,10 +80,11 @@ void add_edge_lengths(CLI::App& app, DiagramArguments& arguments);
     const DiagramArguments& arguments, Console& console,
     const std::function<std::vector<ExpectedStage>(std::size_t num_faces)>& stages);
 
-//! Points on the cleaned mesh, and what they stand for.
+//! Points on the cleaned mesh, and what they stand for; lines and regions on it.
 struct GivenSites {
     std::vector<agvd::SurfacePoint> points;
     agvd::SitePoints roles;
+    std::vector<agvd::SiteShape> shapes;
 };
 
 //! The sites of --sites, or sampled ones.
@@ -92,7 +93,7 @@ struct GivenSites {
 
 //! The same for what takes points only.
 //! \param what  takes them, as the text of the error begins.
-//! \throw agvd::InvalidInput  they are sites of several points, or have starts.
+//! \throw agvd::InvalidInput  they are sites of several points, or have starts, or are no points.
 [[nodiscard]] std::vector<agvd::SurfacePoint> plain_sites_on(const OpenedInput& input,
                                                              const DiagramArguments& arguments,
                                                              Console& console, const char* what);

@@ -401,7 +401,8 @@ Input prepare(const Arguments& arguments, cli::Console& console) {
     }
     if (!arguments.sites.empty()) {
         remesh::SitesFile given = cli::read_given_sites(arguments, input.mesh.view(), console);
-        cli::require_plain_points(arguments.sites, given.points, "vertices are made of");
+        cli::require_plain_points(arguments.sites, given.points, given.shapes.size(),
+                                  "vertices are made of");
         options.sites = std::move(given.sites);
     }
     if (!arguments.feature_edges.empty()) {

@@ -61,6 +61,36 @@ TEST_F(AgvdDistance, CountsFromTheStartsOfPoints) {
               4);
 }
 
+// The lowest row of vertices, and the face at the corner opposite.
+TEST_F(AgvdDistance, SitesMayBeLinesAndRegions) {
+    std::string row = "l";
+    agvd::Index corner = 0;
+    for (std::size_t v = 0; v < square_.positions.size(); ++v) {
+        if (square_.positions[v].y() == 0) row += ' ' + std::to_string(v);
+    }
+    for (std::size_t f = 0; f < square_.triangles.size(); ++f) {
+        const agvd::Triangle& t = square_.triangles[f];
+        for (const agvd::Index v : t) {
+            if (square_.positions[v] == agvd::Vec3(1, 1, 0)) corner = static_cast<agvd::Index>(f);
+        }
+    }
+    const std::string sites = put("shapes", row + "\nr " + std::to_string(corner) + "\n");
+    const auto outcome = distance({in_, "--sites", sites, "-o", at("d.ply"), "-q"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const std::vector<double> found = column("d.ply", 0), distances = column("d.ply", 1);
+    for (std::size_t v = 0; v < square_.positions.size(); ++v) {
+        const double y = square_.positions[v].y();
+        if (found[v] == 0) {
+            EXPECT_NEAR(distances[v], y, 1e-14);
+        } else {
+            EXPECT_LE(distances[v], y);
+        }
+    }
+    for (const agvd::Index v : square_.triangles[corner]) EXPECT_EQ(distances[v], 0);
+    EXPECT_EQ(distance({in_, "--sites", sites, "--nearest", "2", "-o", at("k.ply")}).exit_code, 4);
+    EXPECT_EQ(distance({in_, "--sites", put("gap", "l 0 60\n"), "-o", at("k.ply")}).exit_code, 4);
+}
+
 // The positions are those of the square, drawn twice as wide.
 TEST_F(AgvdDistance, LengthsMayStandForPositions) {
     agvd::TriangleMesh wide = square_;

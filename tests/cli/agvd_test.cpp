@@ -91,6 +91,36 @@ TEST_F(AgvdDiagram, ASlitIsWeldedWithAWarningOrLeftOpen) {
     EXPECT_NE(outcome.err.find("a slit of length 0.5 "), std::string::npos) << outcome.err;
 }
 
+// A line along a side and a point: the border is a parabola.
+TEST_F(AgvdDiagram, SitesMayBeLines) {
+    const agvd::TriangleMesh square = shapes::grid(10);
+    std::string line = "l";
+    for (std::size_t v = 0; v < square.positions.size(); ++v) {
+        if (square.positions[v].y() == 0) line += ' ' + std::to_string(v);
+    }
+    const std::string in = put("in.off", square);
+    const std::string sites = put("s", "p .5 .5 0\n" + line + "\n");
+    const auto outcome = diagram({in, "--sites", sites, "-q", "-o", at("d.obj"), "-o", at("d.vtp"),
+                                  "--cells", at("cells.ply")});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const remesh::MeshFile cells =
+        remesh::read_mesh(at("cells.ply"), remesh::ReadOptions{.with_attributes = true});
+    double area = 0;
+    for (std::size_t f = 0; f < cells.mesh.triangles.size(); ++f) {
+        if (cells.attributes.of_faces.at(0).values.at(f) != 1) continue;
+        const agvd::Triangle& t = cells.mesh.triangles[f];
+        const auto& p = cells.mesh.positions;
+        area += (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]).norm() / 2;
+    }
+    EXPECT_NEAR(area, 1.0 / 3, 5e-4);  // Of chords.
+    for (const char* output : {"d.agvd", "d.html"}) {
+        const auto refused =
+            diagram({in, "--sites", sites, "-q", output == std::string("d.agvd") ? "-o" : "--html",
+                     at(output)});
+        EXPECT_EQ(refused.exit_code, output == std::string("d.agvd") ? 2 : 4) << refused.err;
+    }
+}
+
 // Sites 0 and 2 are one, and site 1 starts so late that its border passes at x = .6.
 TEST_F(AgvdDiagram, SitesMayHaveSeveralPointsAndStarts) {
     const std::string in = put("in.off", shapes::grid(10));

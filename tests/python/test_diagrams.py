@@ -36,6 +36,26 @@ def test_distances_in_the_plane_are_straight():
     assert (diagram.line_sites[:, 1] == -1).sum() > 0  # The square's boundary.
 
 
+def test_sites_may_be_lines_and_regions():
+    V, F = flat_square(10)
+    side = np.flatnonzero(V[:, 1] == 0)
+    side = side[np.argsort(V[side, 0])]
+    diagram = remesh.voronoi(V, F, [[0.5, 0.5, 0]], 0, lines=[side])
+    expected = np.minimum(V[:, 1], np.linalg.norm(V - [0.5, 0.5, 0], axis=1))
+    assert np.allclose(diagram.distances, expected, atol=1e-12)
+    assert diagram.cell_area == pytest.approx([2 / 3, 1 / 3], abs=1e-3)  # A parabola lies between.
+    corner = np.flatnonzero((V[F][:, :, :2] == 1).all(axis=2).any(axis=1))
+    distances = remesh.geodesic_distance(V, F, None, 0, lines=[side], regions=[corner])
+    assert (distances[F[corner]] == 0).all() and (distances <= V[:, 1] + 1e-12).all()
+    at = remesh.geodesic_distance(V, F, None, 0, lines=[side], targets=[[0.31, 0.77, 0]])
+    assert at == pytest.approx([0.77])
+    W, G, site, source = remesh.cut_cells(V, F, [[0.5, 0.5, 0]], 0, lines=[side])
+    assert set(site) == {0, 1}
+    for wrong in ([[0]], [[0, 10**6]], [[0, 60]]):
+        with pytest.raises(remesh.Error):
+            remesh.voronoi(V, F, [0], lines=wrong)
+
+
 def test_sites_may_be_vertices_points_or_places(sphere):
     V, F = sphere
     vertices = np.array([3, 77, 500])

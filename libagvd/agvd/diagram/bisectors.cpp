@@ -117,6 +117,7 @@ void sample(const Sampling& sampling, const Chord& chord, int depth) {
 
 // Distance of p through a relay, all in the frame of its half-edge; as reach() in any frame.
 Reach reach_in_frame(const Relay& r, const Vec2& p) {
+    if (is_parallel(r)) return reach_parallel(to_planar_parallel(r, {}), p);
     const double dx = p.x() - r.x;
     const double dy = p.y() - r.y;
     if (r.y < 0) {

@@ -6,6 +6,7 @@
 
 #include "agvd/diagram/face_relays.h"
 #include "agvd/diagram/stages.h"
+#include "agvd/propagation/shape_source.h"
 
 namespace agvd {
 namespace {
@@ -37,13 +38,22 @@ struct OwnPlaces {
 OwnPlaces own_places(const Surface& surface, std::span<const SurfacePoint> points,
                      const Propagation& propagation) {
     const std::vector<Index>& sites = propagation.site_of_point;
-    if (sites.empty()) {
+    if (sites.empty() && propagation.shapes.empty()) {
         OwnPlaces all{{points.begin(), points.end()}, std::vector<Index>(points.size()), 0};
         std::iota(all.sites.begin(), all.sites.end(), Index{0});
         all.num_sites = size_of(all.sites);
         return all;
     }
-    OwnPlaces own{{}, {}, *std::max_element(sites.begin(), sites.end()) + 1};
+    OwnPlaces own{{}, {}, 0};
+    for (const Index site : sites) own.num_sites = std::max(own.num_sites, site + 1);
+    for (const SiteShape& shape : propagation.shapes) {
+        own.num_sites = std::max(own.num_sites, shape.site + 1);
+        for (const Index v : shape_source(surface, shape).vertices) {
+            if (propagation.vertex_site[v].value() != shape.site) continue;
+            own.points.push_back(point_at(surface, v));
+            own.sites.push_back(shape.site);
+        }
+    }
     for (Index i = 0; i < points.size(); ++i) {
         if (label_at(surface, propagation, points[i]).site.value() != sites[i]) continue;
         own.points.push_back(points[i]);
@@ -59,6 +69,11 @@ Diagram build(const Surface& surface, std::span<const SurfacePoint> sites,
     if (options.chord && !(*options.chord > 0)) {
         throw InvalidOption("the chord is " + std::to_string(*options.chord) +
                             "; use a length above 0");
+    }
+    if (options.chord && !propagation.shapes.empty()) {
+        throw InvalidOption(
+            "arcs are made for sites that are points; leave the chord out where sites are lines or "
+            "regions");
     }
     Poller poller(options.progress);
     poller.poll();

@@ -5,9 +5,50 @@
 #include "agvd/mesh/surface_points.h"
 
 namespace agvd {
+namespace {
+
+// Of parallel paths the unit vector towards the line.
+Vec2 direction_of(const Relay& relay) {
+    return {relay.x, -std::sqrt(std::max(1 - relay.x * relay.x, 0.0))};
+}
+
+CornerDistances corner_distances_parallel(const Relay& relay, double length, const Vec2& apex) {
+    const PlanarRelay planar = to_planar_parallel(relay, {});
+    return {reach_parallel(planar, {0, 0}).distance, reach_parallel(planar, {length, 0}).distance,
+            reach_parallel(planar, apex).distance};
+}
+
+}  // namespace
 
 PlanarRelay point_relay(const Vec2& point, double weight, Index site) {
     return {point, point, point, weight, weight, weight, site, true};
+}
+
+Reach reach_parallel(const PlanarRelay& relay, const Vec2& p) {
+    const auto from_end = [&p](const Vec2& end, double weight) -> Reach {
+        const double length = (p - end).norm();
+        return {weight + length, end, length};
+    };
+    const Vec2& u = relay.image;
+    if (cross(u, p - relay.begin) < 0) return from_end(relay.begin, relay.at_begin);
+    if (cross(u, p - relay.end) > 0) return from_end(relay.end, relay.at_end);
+    const double distance = std::max(relay.weight - p.dot(u), 0.0);
+    // Far enough that the direction keeps its digits beside the line.
+    const double back = std::max(distance, (relay.end - relay.begin).norm());
+    return {distance, p + back * u, back};
+}
+
+PlanarRelay to_planar_parallel(const Relay& relay, const Motion& motion) {
+    const Vec2 u = motion(direction_of(relay)) - motion.origin;
+    return {u,
+            motion({relay.begin, 0}),
+            motion({relay.end, 0}),
+            relay.weight + u.dot(motion.origin),
+            relay.weight - relay.begin * relay.x,
+            relay.weight - relay.end * relay.x,
+            relay.site.value(),
+            false,
+            true};
 }
 
 std::array<Vec2, 3> face_corners(const Surface& surface, Index face) {
@@ -32,6 +73,7 @@ SurfacePoint to_surface(const Surface& surface, Index face, const Vec2& p) {
 CornerDistances corner_distances(const Relay& r, double length, const Vec2& apex) {
     const double cx = apex.x();
     const double cy = apex.y();
+    if (is_parallel(r)) return corner_distances_parallel(r, length, apex);
     if (r.y >= 0) {
         return {r.weight + root(r.x, r.y), r.weight + root(length - r.x, r.y),
                 r.weight + root(cx - r.x, cy - r.y)};
@@ -83,6 +125,10 @@ Nearest nearest(std::span<const PlanarRelay> relays, const Vec2& p) {
 PointLabel point_label(const Surface& surface, const Propagation& propagation,
                        const SurfacePoint& point) {
     const Index face = point.face.value();
+    for (const SiteShape& shape : propagation.shapes) {
+        if (std::find(shape.faces.begin(), shape.faces.end(), face) == shape.faces.end()) continue;
+        return {SiteId(shape.site), 0};
+    }
     const std::optional<Index> mixed = mixed_index_of(propagation, face);
     if (!mixed) return {propagation.vertex_site[surface.mesh.triangles[face][0]], {}};
     std::vector<PlanarRelay> planar;
@@ -111,13 +157,19 @@ LineRelay on_line(const PlanarRelay& relay, const Vec2& start, const Vec2& along
         line.y[source] = cross(along, d);
         line.weight[source] = weight;
     };
-    set(1, relay.image, relay.weight);
+    if (relay.is_parallel) {
+        line.x[1] = relay.image.dot(along);
+        line.y[1] = cross(along, relay.image) < 0 ? -infinity : infinity;
+        line.weight[1] = relay.weight - relay.image.dot(start);
+    } else {
+        set(1, relay.image, relay.weight);
+    }
     if (relay.sees_all) return line;
     // Out of sight beyond `begin` where behind(x) = at_start + rise * x > 0, and beyond `end` where
     // the same with the sign turned. Only one of them can apply on one side of the segment.
     const auto hide = [&](const Vec2& end, double weight, double sign) {
-        const Vec2 ray = end - relay.image;
-        const double at_start = sign * cross(ray, start - relay.image);
+        const Vec2 ray = relay.is_parallel ? Vec2(-relay.image) : Vec2(end - relay.image);
+        const double at_start = sign * cross(ray, start - (relay.is_parallel ? end : relay.image));
         const double rise = sign * cross(ray, along);
         if (rise < 0 ? at_start > 0 : rise == 0 && at_start > 0) {
             line.first = rise < 0 ? -at_start / rise : infinity;

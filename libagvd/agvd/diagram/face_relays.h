@@ -13,24 +13,29 @@ namespace agvd {
 
 //! A relay in a planar frame shared with other relays.
 struct PlanarRelay {
-    Vec2 image;
+    Vec2 image;       //!< Of parallel paths the unit vector towards the line.
     Vec2 begin, end;  //!< Ends of the visible interval, seen from the image left and right.
-    double weight;    //!< Distance from the site to the image.
+    //! Distance from the site to the image; of parallel paths from the line to the origin.
+    double weight;
     double at_begin;  //!< Distance from the site to `begin` through the image.
     double at_end;    //!< Distance from the site to `end` through the image.
     Index site;
-    bool sees_all;  //!< The image lies in the face: no interval.
+    bool sees_all;             //!< The image lies in the face: no interval.
+    bool is_parallel = false;  //!< The paths come from a line.
 };
 
 //! Distance of a point through a relay, and where the last straight piece of the path begins.
 struct Reach {
     double distance;
-    Vec2 from;
-    double last_piece;  //!< Length of that piece.
+    Vec2 from;          //!< Of parallel paths any point behind on the path.
+    double last_piece;  //!< Length of that piece; of parallel paths to `from`.
 };
 
 //! The length of a vector.
 [[nodiscard]] inline double root(double x, double y) { return std::sqrt(x * x + y * y); }
+
+//! reach() for parallel paths.
+[[nodiscard]] Reach reach_parallel(const PlanarRelay& relay, const Vec2& p);
 
 //! Straight where the interval lets the chord through, else bent at its nearer end.
 [[nodiscard]] inline Reach reach(const PlanarRelay& relay, const Vec2& p) {
@@ -39,6 +44,7 @@ struct Reach {
         return {weight + length, source, length};
     };
     if (!relay.sees_all) {
+        if (relay.is_parallel) return reach_parallel(relay, p);
         const Vec2 chord = p - relay.image;
         if (cross(relay.begin - relay.image, chord) > 0) return from(relay.begin, relay.at_begin);
         if (cross(relay.end - relay.image, chord) < 0) return from(relay.end, relay.at_end);
@@ -69,8 +75,12 @@ struct Motion {
 //! From the frame of a half-edge into the frame of its face's first half-edge.
 [[nodiscard]] Motion to_face_frame(const Surface& surface, Index half_edge);
 
+//! to_planar() for parallel paths.
+[[nodiscard]] PlanarRelay to_planar_parallel(const Relay& relay, const Motion& motion);
+
 //! A relay, moved from its half-edge's frame.
 [[nodiscard]] inline PlanarRelay to_planar(const Relay& relay, const Motion& motion) {
+    if (is_parallel(relay)) return to_planar_parallel(relay, motion);
     return {motion({relay.x, relay.y}),
             motion({relay.begin, 0}),
             motion({relay.end, 0}),
@@ -129,7 +139,9 @@ inline constexpr double shortest_interval = 1e-11;
 inline constexpr double equal_distances = 1e-11;
 
 //! Up to x = `first` paths bend at one end of the interval (source 0), from `last` on at the other
-//! end (source 2), and between they come straight from the image (source 1).
+//! end (source 2), and between they come straight from the image (source 1). Of parallel paths the
+//! image has y = infinity with the sign of its side; x is the component of the unit vector towards
+//! the line along the segment, and the weight the distance of the origin.
 struct LineRelay {
     std::array<double, 3> x, y, weight;  //!< Of the three sources.
     double first, last;
@@ -147,6 +159,7 @@ struct LineSample {
     const auto k = static_cast<std::size_t>(i);
     const double dx = x - relay.x[k];
     const double norm = std::sqrt(dx * dx + relay.y[k] * relay.y[k]);
+    if (norm == infinity) return {relay.weight[k] - x * relay.x[k], -relay.x[k], i};
     return {relay.weight[k] + norm, norm > 0 ? dx / norm : 1.0, i};
 }
 

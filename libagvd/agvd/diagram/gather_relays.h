@@ -77,6 +77,7 @@ private:
     // The relays across an edge suffice if they give the distances of its ends up to this share of
     // the edge. Errors below it are accepted for a shorter list of candidates.
     static constexpr double enough_at_ends = 1e-2;
+    static constexpr double slope_rounding = 1e-6;
     // Images nearer to an edge (share of its length) lie on it.
     static constexpr double on_edge = 1e-12;
     // A relay whose image lies across the edge, in the frame of one half-edge or the other.
@@ -85,6 +86,14 @@ private:
                                   double length) {
         const double at_begin = at_tail - r.begin;
         const double at_end = at_head - (length - r.end);
+        if (is_parallel(r) && !forward) {
+            return {{length - r.end, -r.x, length - r.begin},
+                    {0, infinity, 0},
+                    {at_end, r.weight - length * r.x, at_begin},
+                    length - r.end,
+                    length - r.begin,
+                    r.site.value()};
+        }
         if (forward) {
             return {
                 {r.begin, r.x, r.end}, {0, r.y, 0}, {at_begin, r.weight, at_end}, r.begin, r.end,
@@ -190,27 +199,46 @@ private:
         const auto relays = relays_at(half_edge);
         for (const Relay& r : relays) {
             if (!is_across(r, half_edge)) continue;
+            if (is_parallel(r)) {
+                add_parallel(edge, half_edge, r);
+                continue;
+            }
             const double begin = root(r.begin - r.x, r.y);
             const double end = root(r.end - r.x, r.y);
             const double tail = r.weight + begin + r.begin;
             const double head = r.weight + end + (length - r.end);
             // Bent paths run along the edge.
-            constexpr double rounding = 1e-6;
             double slope_tail = -1;
             double slope_head = 1;
-            if (r.begin <= 0 && begin > 0) slope_tail = std::max(-1.0, -r.x / begin - rounding);
+            if (r.begin <= 0 && begin > 0)
+                slope_tail = std::max(-1.0, -r.x / begin - slope_rounding);
             if (r.end >= length && end > 0)
-                slope_head = std::min(1.0, (length - r.x) / end + rounding);
-            if (forward) {
-                candidates_.push_back(
-                    {tail, head, slope_tail, slope_head, &r, r.site.value(), half_edge});
-            } else {
-                candidates_.push_back(
-                    {head, tail, -slope_head, -slope_tail, &r, r.site.value(), half_edge});
-            }
+                slope_head = std::min(1.0, (length - r.x) / end + slope_rounding);
+            add_across(forward,
+                       {tail, head, slope_tail, slope_head, &r, r.site.value(), half_edge});
         }
         for (const Relay& r : relays) {
             if (is_inside(r)) add_distances(edge, half_edge, r);
+        }
+    }
+
+    // Parallel paths across the edge.
+    void add_parallel(Index edge, Index half_edge, const Relay& r) {
+        const double length = surface_.length[edge];
+        const double tail = r.weight - r.begin * r.x + r.begin;
+        const double head = r.weight - r.end * r.x + (length - r.end);
+        const double slope_tail = r.begin <= 0 ? std::max(-1.0, -r.x - slope_rounding) : -1;
+        const double slope_head = r.end >= length ? std::min(1.0, -r.x + slope_rounding) : 1;
+        add_across(surface_.edge_half[edge] == half_edge,
+                   {tail, head, slope_tail, slope_head, &r, r.site.value(), half_edge});
+    }
+
+    // A candidate in the direction of a half-edge or, if it is not the edge_half, of the twin.
+    void add_across(bool forward, const Candidate& c) {
+        if (forward) {
+            candidates_.push_back(c);
+        } else {
+            candidates_.push_back({c.hi, c.lo, -c.slope_hi, -c.slope_lo, c.relay, c.site, c.base});
         }
     }
 
@@ -306,6 +334,10 @@ private:
         const bool forward = along == half_edge;
         const Motion to = to_face_frame(surface_, half_edge);
         for (const StraightPiece& won : pieces_) {
+            if (std::isinf(won.from.y())) {
+                if ((won.from.y() < 0) == forward) out.push_back(parallel_winner(won, half_edge));
+                continue;
+            }
             const Vec2 image = forward ? won.from : Vec2(length - won.from.x(), -won.from.y());
             if (image.y() > on_edge * length) continue;  // Comes from this face.
             const Vec2 begin(forward ? won.begin : length - won.end, 0);
@@ -321,6 +353,24 @@ private:
                            won.weight + (begin - image).norm(), won.weight + (end - image).norm(),
                            won.site, false});
         }
+    }
+
+    // Parallel paths that come across the half-edge of a face, in the frame of the face.
+    [[nodiscard]] PlanarRelay parallel_winner(const StraightPiece& won, Index half_edge) const {
+        const Index edge = surface_.edge[half_edge];
+        const double length = surface_.length[edge];
+        const double x = won.from.x();
+        const Relay relay =
+            surface_.edge_half[edge] == half_edge
+                ? Relay{x, -infinity, won.weight, won.begin, won.end, SiteId(won.site), half_edge}
+                : Relay{-x,
+                        -infinity,
+                        won.weight - length * x,
+                        length - won.end,
+                        length - won.begin,
+                        SiteId(won.site),
+                        half_edge};
+        return to_planar_parallel(relay, to_face_frame(surface_, half_edge));
     }
 
     void append_crossings(Index half_edge, std::vector<PlanarRelay>& out) const {

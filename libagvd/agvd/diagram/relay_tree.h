@@ -41,7 +41,9 @@ public:
             }
             for (Index j = node.begin; j < node.end; ++j) {
                 const PlanarRelay& relay = relays_[order_[j]];
-                if (relay.weight + (p - relay.image).norm() <= radius) out.push_back(order_[j]);
+                if (relay.is_parallel || relay.weight + (p - relay.image).norm() <= radius) {
+                    out.push_back(order_[j]);
+                }
             }
         }
         std::sort(out.begin(), out.end());
@@ -61,6 +63,15 @@ private:
             Vec2(infinity, infinity), Vec2(-infinity, -infinity), infinity, begin, end, no_index};
         for (Index i = begin; i < end; ++i) {
             const PlanarRelay& relay = relays_[order_[i]];
+            if (relay.is_parallel) {  // It has no image: it may be near everywhere.
+                node = {Vec2(-infinity, -infinity),
+                        Vec2(infinity, infinity),
+                        -infinity,
+                        begin,
+                        end,
+                        no_index};
+                break;
+            }
             node.low = node.low.cwiseMin(relay.image);
             node.high = node.high.cwiseMax(relay.image);
             node.least_weight = std::min(node.least_weight, relay.weight);

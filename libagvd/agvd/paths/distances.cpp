@@ -42,6 +42,7 @@ Distances distances_on(const Surface& surface, std::span<const SurfacePoint> sit
                        std::span<const Index> vertices, const DistanceOptions& options) {
     const Propagation propagation = propagate(surface, sites,
                                               {.points = options.points,
+                                               .shapes = options.shapes,
                                                .max_error = options.max_error,
                                                .max_distance = options.max_distance,
                                                .relay_faces = faces_of(places),
@@ -83,7 +84,7 @@ Distances find_distances(const Surface& surface, std::span<const SurfacePoint> s
     check_sites(surface, sites);
     std::vector<std::optional<SurfacePoint>> places(points.begin(), points.end());
     if (!(options.max_distance < infinity) || !(options.max_distance >= 0) ||
-        surface.has_own_lengths) {
+        surface.has_own_lengths || !options.shapes.empty()) {
         return distances_on(surface, sites, places, {}, options);  // Which refuses NaN.
     }
     Poller poller(options.progress);

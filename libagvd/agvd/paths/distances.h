@@ -15,7 +15,8 @@ namespace agvd {
 
 //! `{}` gives the defaults.
 struct DistanceOptions {
-    SitePoints points = {};  //!< What the points given as sites stand for.
+    SitePoints points = {};              //!< What the points given as sites stand for.
+    std::vector<SiteShape> shapes = {};  //!< Lines and regions, besides the points.
     //! Mesh units, >= 0: what is farther away is not reached.
     double max_distance = std::numeric_limits<double>::infinity();
     double max_error = default_max_error;  //!< Relative, in [0, 1); 0: exact in double.
@@ -36,8 +37,8 @@ struct Distances {
 //! Distances along the surface from the nearest site.
 //!
 //! With a radius only a patch of the surface is looked at: the faces that are near a site in space
-//! and connected to it by such faces.
-//! \param sites   as in propagate(), with options.points.
+//! and connected to it by such faces; with shapes the whole surface is.
+//! \param sites   as in propagate(), with options.points and options.shapes.
 //! \param points  where distances are wanted besides the vertices; may be empty.
 //! \throw InvalidOption  an option is out of range.
 //! \throw InvalidSites   a site or a point names a face that does not exist, or is off the face.

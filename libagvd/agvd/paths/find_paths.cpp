@@ -236,6 +236,10 @@ GeodesicPath path_to_site(const Surface& surface, const SiteDistances& distances
 GeodesicPath path_to_site(const Surface& surface, std::span<const SurfacePoint> sites,
                           const Propagation& propagation, const SurfacePoint& point,
                           const Progress& progress) {
+    if (!propagation.shapes.empty()) {
+        throw InvalidOption(
+            "paths lead to sites that are points; leave out those that are lines or regions");
+    }
     const PointLabel label = label_at(surface, propagation, point);
     if (!label.site.is_valid()) throw InvalidInput("no path: no site reaches the point");
     Poller poller(progress);

@@ -88,7 +88,8 @@ struct SiteGoal {
 //! propagation it is a shortest path, and its length is the distance up to rounding.
 //!
 //! \param sites, propagation  propagate(surface, sites).
-//! \throw InvalidInput  no site reaches the point.
+//! \throw InvalidInput   no site reaches the point.
+//! \throw InvalidOption  a site is a line or a region.
 //! Cost: along relays O(faces crossed), and O(relays) at each vertex that the path meets.
 [[nodiscard]] GeodesicPath path_to_site(const Surface& surface, std::span<const SurfacePoint> sites,
                                         const Propagation& propagation, const SurfacePoint& point,

@@ -268,6 +268,12 @@ void append_points_of_arc(const Surface& surface, const IsolineArc& arc, const V
 
 Isolines build_isolines(const Surface& surface, const Propagation& propagation,
                         std::span<const double> levels, const IsolineOptions& options) {
+    if (!propagation.shapes.empty()) {
+        throw InvalidOption(
+            "lines of equal distance are drawn around points; leave out the sites that are lines "
+            "or "
+            "regions");
+    }
     check_num_threads(options.num_threads);
     return IsolineBuilder(surface, propagation, free_levels(propagation, levels), options).run();
 }

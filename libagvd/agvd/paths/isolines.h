@@ -53,7 +53,7 @@ struct IsolineOptions {
 //! \param propagation  propagate(surface, sites) with relays in all faces that levels may cross:
 //!                     PropagationOptions::relay_faces = all_faces(surface).
 //! \param levels       mesh units, finite and above 0, in any order.
-//! \throw InvalidOption  a level is not finite and above 0.
+//! \throw InvalidOption  a level is not finite and above 0, or a site is a line or a region.
 //! \throw InvalidInput   a face that a level may cross has no relays; the text names it.
 //! \throw Cancelled      the progress callback returned false.
 //! Parallel. Cost: O(#F + k^2 log k) for the k relays that are about as near as a level in a face,

@@ -13,6 +13,7 @@
 #include "agvd/core/parallel.h"
 #include "agvd/propagation/engines.h"
 #include "agvd/propagation/layout.h"
+#include "agvd/propagation/shape_source.h"
 #include "agvd/propagation/site_placement.h"
 
 namespace agvd {
@@ -77,22 +78,33 @@ BoundsSearch::BoundsSearch(const Surface& surface, const SurfaceLayout& layout, 
       keys_(graph_.ends.size(), to_key(unreached, no_index)),
       queued_in_(keys_.size(), no_index) {}
 
+void BoundsSearch::reach(Index vertex, Index site, double distance) {
+    const Key key = to_key(static_cast<float>(distance) * length_rounding, site);
+    if (key >= keys_[vertex]) return;
+    keys_[vertex] = key;
+    queue(vertex);
+}
+
 void BoundsSearch::add(const SurfacePoint& point, Index site, double start) {
-    const auto reach = [&](Index vertex, double distance) {
-        const Key key = to_key(static_cast<float>(distance) * length_rounding, site);
-        if (key >= keys_[vertex]) return;
-        keys_[vertex] = key;
-        queue(vertex);
-    };
     if (const auto vertex = vertex_of(surface_, point)) {
-        reach(*vertex, start);
+        reach(*vertex, site, start);
         return;
     }
     for_each_side(surface_, point, [&](const SurfacePoint& p, Index) {
         for (Index h = 3 * p.face.value(); h < 3 * p.face.value() + 3; ++h) {
-            reach(surface_.tail(h), start + position_in_frame(surface_, p, h).norm());
+            reach(surface_.tail(h), site, start + position_in_frame(surface_, p, h).norm());
         }
     });
+}
+
+void BoundsSearch::add(const SiteShape& shape, Index site) {
+    const ShapeSource source = shape_source(surface_, shape);
+    for (const Index v : source.vertices) reach(v, site, 0);
+    for (const Index h : source.sides) {
+        const Vec2& apex = surface_.apex[h];
+        if (apex.x() < 0 || apex.x() > surface_.length_of(h)) continue;
+        reach(surface_.tail(Surface::previous(h)), site, apex.y());
+    }
 }
 
 void BoundsSearch::run(const Progress& progress) {
@@ -190,9 +202,12 @@ void BoundsSearch::search_slab(std::span<const Index> starts, Chunk& chunk, Tick
 
 DistanceBounds distance_bounds(const Surface& surface, const SurfaceLayout& layout,
                                std::span<const SurfacePoint> sites, int num_threads,
-                               const Progress& progress, std::span<const double> starts) {
+                               const Progress& progress, std::span<const double> starts,
+                               std::span<const SiteShape> shapes) {
     BoundsSearch search(surface, layout, num_threads);
     for (Index s = 0; s < sites.size(); ++s) search.add(sites[s], s, start_of(starts, s));
+    const auto first_shape = static_cast<Index>(sites.size());
+    for (Index s = 0; s < shapes.size(); ++s) search.add(shapes[s], first_shape + s);
     search.run(progress);
     DistanceBounds bounds;
     bounds.distance.resize(surface.num_vertices());

@@ -30,6 +30,8 @@ public:
     //! Adds a site. The next run() follows its paths.
     //! \param start  its distance from itself, >= 0.
     void add(const SurfacePoint& point, Index site, double start = 0);
+    //! Adds a line or a region as a site, or as a part of one.
+    void add(const SiteShape& shape, Index site);
     //! Cost: about that of one Dijkstra sweep over the edges where something is new.
     //! \throw Cancelled  the search is of no use any more.
     void run(const Progress& progress = {});
@@ -53,6 +55,7 @@ private:
 
     [[nodiscard]] Index steps_to(float distance) const;
     void queue(Index vertex);
+    void reach(Index vertex, Index site, double distance);
     template <bool is_shared>
     void search_slab(std::span<const Index> starts, Chunk& chunk, Ticker ticker);
 
@@ -69,9 +72,11 @@ private:
 
 //! The bounds of given sites. Parameters as above.
 //! \param starts  of the sites; empty: 0.
+//! \param shapes  sites behind those that are points.
 [[nodiscard]] DistanceBounds distance_bounds(const Surface& surface, const SurfaceLayout& layout,
                                              std::span<const SurfacePoint> sites, int num_threads,
                                              const Progress& progress = {},
-                                             std::span<const double> starts = {});
+                                             std::span<const double> starts = {},
+                                             std::span<const SiteShape> shapes = {});
 
 }  // namespace agvd

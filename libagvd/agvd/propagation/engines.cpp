@@ -9,6 +9,7 @@
 #include "agvd/core/error.h"
 #include "agvd/core/number_text.h"
 #include "agvd/mesh/surface_points.h"
+#include "agvd/propagation/shape_source.h"
 #include "agvd/propagation/steiner/steiner_nodes.h"
 
 namespace agvd {
@@ -23,6 +24,11 @@ void check_steiner_options(const Surface& surface, const PropagationOptions& opt
     if (!(options.lambda > 0)) {
         throw InvalidOption("lambda is " + std::to_string(options.lambda) +
                             "; use a number above 0");
+    }
+    if (options.max_error && !options.shapes.empty()) {
+        throw InvalidOption(
+            "the Steiner engine certifies no error for lines and regions, which it takes for "
+            "points; use the window engine or leave the maximal error out");
     }
     if (options.max_error && *options.max_error == 0) {
         throw InvalidOption(
@@ -60,6 +66,25 @@ void check_options(const Surface& surface, const PropagationOptions& options) {
     if (options.engine == Engine::Steiner) check_steiner_options(surface, options);
 }
 
+// Sites are numbered over the points and the shapes.
+void check_numbers(const SitePoints& points, std::size_t num_points,
+                   const std::vector<SiteShape>& shapes) {
+    if (points.site.empty() && shapes.empty()) return;
+    std::vector<Index> sites;
+    for (Index i = 0; i < num_points; ++i) sites.push_back(points.site_of(i));
+    for (const SiteShape& shape : shapes) sites.push_back(shape.site);
+    std::sort(sites.begin(), sites.end());
+    Index next = 0;
+    for (const Index site : sites) {
+        if (site > next) {
+            throw InvalidSites("site " + std::to_string(next) + " has no point, but site " +
+                               std::to_string(sites.back()) +
+                               " has; number the sites from 0 without gaps");
+        }
+        next = site + 1;
+    }
+}
+
 void check_points(const SitePoints& points, std::size_t num_points) {
     for (const std::size_t size : {points.site.size(), points.start.size()}) {
         if (size == 0 || size == num_points) continue;
@@ -74,27 +99,23 @@ void check_points(const SitePoints& points, std::size_t num_points) {
                            "; use a number of 0 or more: adding one number to all starts changes "
                            "no cell");
     }
-    if (points.site.empty()) return;
-    std::vector<bool> has_point(num_points, false);
-    for (const Index site : points.site) {
-        if (site < num_points) has_point[site] = true;
-    }
-    const Index num_sites = *std::max_element(points.site.begin(), points.site.end()) + 1;
-    const auto first = std::find(has_point.begin(), has_point.end(), false);
-    const auto missing = static_cast<Index>(first - has_point.begin());
-    if (missing >= num_sites && num_sites != 0) return;
-    throw InvalidSites("site " + std::to_string(missing) + " has no point, but site " +
-                       std::to_string(num_sites - 1) +
-                       " has; number the sites from 0 without gaps");
 }
 
 // The points that are propagated: of those at one place the one with the least start, then of the
 // lowest site. In the order of their sites, so that ties between points are those between sites.
+// None on a shape: that is as near there, and owns the place.
 std::vector<Index> points_that_count(const Surface& surface, std::span<const SurfacePoint> points,
-                                     const SitePoints& roles) {
-    if (roles.site.empty() && roles.start.empty()) return distinct_points(surface, points);
-    std::vector<Index> order(points.size());
-    std::iota(order.begin(), order.end(), Index{0});
+                                     const PropagationOptions& options) {
+    const SitePoints& roles = options.points;
+    std::vector<Index> order;
+    if (!options.shapes.empty()) {
+        order = points_off_shapes(surface, points, options.shapes);
+    } else if (roles.site.empty() && roles.start.empty()) {
+        return distinct_points(surface, points);
+    } else {
+        order.resize(points.size());
+        std::iota(order.begin(), order.end(), Index{0});
+    }
     std::sort(order.begin(), order.end(), [&](Index a, Index b) {
         return std::tuple(start_of(roles.start, a), roles.site_of(a), a) <
                std::tuple(start_of(roles.start, b), roles.site_of(b), b);
@@ -140,26 +161,35 @@ Propagation propagate_distinct(const Surface& surface, std::span<const SurfacePo
     check_sites(surface, sites);
     const SitePoints& roles = options.points;
     check_points(roles, sites.size());
+    check_shapes(surface, options.shapes);
+    check_numbers(roles, sites.size(), options.shapes);
     const auto run = [&](std::span<const SurfacePoint> points, const PropagationOptions& own) {
         if (own.engine == Engine::Steiner) return propagate_steiner(surface, points, own);
         return run_windows(points, own);
     };
-    const std::vector<Index> kept = points_that_count(surface, sites, roles);
-    const bool are_plain = roles.site.empty() && roles.start.empty();
+    const std::vector<Index> kept = points_that_count(surface, sites, options);
+    const bool are_plain = roles.site.empty() && roles.start.empty() && options.shapes.empty();
     if (are_plain && kept.size() == sites.size()) return run(sites, options);
     PropagationOptions own = options;
     own.points = {};
     for (const Index point : kept) {
         if (!roles.start.empty()) own.points.start.push_back(roles.start[point]);
     }
+    if (!roles.start.empty()) own.points.start.resize(kept.size() + options.shapes.size(), 0);
     Propagation result = run(take(sites, kept), own);
     const auto rename = [&](SiteId& site) {
-        if (site.is_valid()) site = SiteId(roles.site_of(kept[site.value()]));
+        if (!site.is_valid()) return;
+        const Index i = site.value();
+        site =
+            SiteId(i < kept.size() ? roles.site_of(kept[i]) : options.shapes[i - kept.size()].site);
     };
     for (SiteId& site : result.vertex_site) rename(site);
     for (Relay& relay : result.relays) rename(relay.site);
     if (are_plain) return result;
-    if (!roles.site.empty()) drop_faces_of_one_site(surface, options.relay_faces, result);
+    if (!roles.site.empty() || !options.shapes.empty()) {
+        drop_faces_of_one_site(surface, options.relay_faces, result);
+    }
+    result.shapes = options.shapes;
     for (Index i = 0; i < sites.size(); ++i) result.site_of_point.push_back(roles.site_of(i));
     return result;
 }

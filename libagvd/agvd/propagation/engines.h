@@ -1,6 +1,7 @@
 //! \file
 //! The two engines, which propagate() calls with checked options. To them every point is a site of
-//! its own: of PropagationOptions::points they read `start` only.
+//! its own, and every shape one behind the points: of PropagationOptions::points they read `start`
+//! only, which has an entry for each of them, and of a shape not its site.
 #pragma once
 
 #include <cmath>

@@ -1,5 +1,6 @@
 #include "agvd/propagation/layout.h"
 
+#include <algorithm>
 #include <atomic>
 #include <numeric>
 
@@ -72,6 +73,16 @@ Corners::Corners(const Surface& surface, int num_threads, const Progress& progre
         poller);
     const double sum = std::accumulate(sums.begin(), sums.end(), 0.0);
     mean_length_ = sum / static_cast<double>(std::max<std::size_t>(num_half_edges_, 1));
+}
+
+Corners Corners::cut_along(std::span<const Index> cut) const {
+    Corners result;
+    result.num_half_edges_ = num_half_edges_;
+    result.mean_length_ = mean_length_;
+    result.corners_ = std::make_unique_for_overwrite<Corner[]>(num_half_edges_);
+    std::copy_n(corners_.get(), num_half_edges_, result.corners_.get());
+    for (const Index h : cut) result.corners_[h].twin = no_index;
+    return result;
 }
 
 ArcGraph::ArcGraph(const Surface& surface, const Corners& corners, int num_threads,

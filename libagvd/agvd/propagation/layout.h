@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "agvd/core/progress.h"
@@ -24,6 +25,10 @@ class Corners {
 public:
     //! Cost: O(#H) time and space.
     Corners(const Surface& surface, int num_threads, const Progress& progress = {});
+
+    //! The same with cuts, which nothing crosses.
+    //! \param cut  half-edges; both sides of an edge are to be named.
+    [[nodiscard]] Corners cut_along(std::span<const Index> cut) const;
 
     [[nodiscard]] const Corner& operator[](Index h) const { return corners_[h]; }
     [[nodiscard]] Index tail(Index h) const { return corners_[h].tail; }
@@ -46,7 +51,9 @@ public:
     [[nodiscard]] std::size_t bytes() const { return num_half_edges_ * sizeof(Corner); }
 
 private:
-    std::size_t num_half_edges_;
+    Corners() = default;
+
+    std::size_t num_half_edges_ = 0;
     double mean_length_ = 0;
     std::unique_ptr<Corner[]> corners_;  // A vector would write everything twice.
 };

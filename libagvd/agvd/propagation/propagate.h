@@ -40,15 +40,30 @@ struct SitePoints {
     friend bool operator==(const SitePoints&, const SitePoints&) = default;
 };
 
+//! A line or a region as a site, or as a part of one: all of its points are at distance 0.
+struct SiteShape {
+    //! Edges of the surface, in any order: an open or closed line, or several, which may branch.
+    std::vector<Index> edges = {};
+    //! Faces of the surface, in any order: a region with all that lies inside.
+    std::vector<Index> faces = {};
+    //! The site that it belongs to, numbered as in SitePoints::site: points and shapes of the same
+    //! number are one site.
+    Index site = 0;
+
+    //! Whether both say the same in the same words.
+    friend bool operator==(const SiteShape&, const SiteShape&) = default;
+};
+
 //! `{}` gives the defaults.
 struct PropagationOptions {
-    SitePoints points = {};          //!< What the points given as sites stand for.
-    Engine engine = Engine::Window;  //!< How distances are computed.
+    SitePoints points = {};              //!< What the points given as sites stand for.
+    std::vector<SiteShape> shapes = {};  //!< Lines and regions, besides the points.
+    Engine engine = Engine::Window;      //!< How distances are computed.
     //! Relative distance error, in [0, 1); 0: exact in double. Certified: see
     //! Propagation::certified_error. Unset: the window engine takes default_max_error, the Steiner
     //! engine certifies nothing. If set, the Steiner engine inserts points where they are needed
     //! until the bound holds at every vertex, up to 1000 on an edge; it cannot be exact, and 0 is
-    //! an error.
+    //! an error, as is any with shapes.
     std::optional<double> max_error = {};
     //! Steiner engine, m: Steiner points on each edge, in [0, 1000]; the first ones with max_error.
     int steiner_points = 8;
@@ -73,12 +88,16 @@ inline constexpr double default_max_error = 1e-4;
 //! in the frame of `half_edge` of that face. With y < 0 the image lies across that edge: only
 //! chords through [begin, end] of the edge
 //! are straight, others bend at the nearer end of the interval. With y >= 0 the image lies in the
-//! (convex) face itself and sees all of it.
+//! (convex) face itself and sees all of it. With y = -infinity the site is a line, or the border of
+//! a region, and the paths are parallel: see is_parallel().
 struct Relay {
-    double x = 0;  //!< Of the image, along the half-edge, mesh units.
+    //! Of the image, along the half-edge, mesh units. Of parallel paths the component of the unit
+    //! vector towards the site along the half-edge.
+    double x = 0;
     double y = 0;  //!< Of the image, to the left of the half-edge.
     //! Distance from the site to the image. An image that stands for several may lie farther off
-    //! than the site, with a weight below 0.
+    //! than the site, with a weight below 0. Of parallel paths the distance at the half-edge's
+    //! tail.
     double weight = 0;
     //! Visible interval on the half-edge, 0 <= begin <= end <= length.
     double begin = 0;
@@ -86,6 +105,10 @@ struct Relay {
     SiteId site;                 //!< Whose image it is.
     Index half_edge = no_index;  //!< In whose frame the image lies.
 };
+
+//! Whether a relay stands for parallel paths from a line: with the unit vector u = (x, -sqrt(1 -
+//! x^2)) towards the line, a point p has distance weight - p u, as from an image at infinity.
+[[nodiscard]] inline bool is_parallel(const Relay& relay) { return relay.y == -infinity; }
 
 //! [begin, end) of Propagation::relays.
 struct RelayRange {
@@ -116,6 +139,8 @@ struct Propagation {
 
     //! #points, as SitePoints::site; empty: point i is site i, and starts at 0.
     std::vector<Index> site_of_point;
+
+    std::vector<SiteShape> shapes;  //!< Those of the options: lines and regions among the sites.
 
     //! Ascending: vertices that a site reaches, but no window. Their distance is the length of a
     //! path along edges and across pairs of faces, rounded up. Windows with errors leave such gaps;
@@ -180,10 +205,13 @@ private:
 //! Propagates distances from all sites at once.
 //!
 //! \param sites  surface points, each a site if options.points says nothing else; several may share
-//!               a face or even a position (the least start, then the lower index owns it).
+//!               a face or even a position (the least start, then the lower index owns it). A point
+//!               on a line or in a region of options.shapes owns nothing. May be empty if there
+//!               are shapes.
 //! \throw InvalidOption    an option is out of range, or the engine cannot do what it asks.
 //! \throw InvalidSites     a site names a face that does not exist or has coordinates off the face,
-//!                         has no point, or starts at a distance that is out of range.
+//!                         has no point, or starts at a distance that is out of range; a shape is
+//!                         empty, or names an edge or a face that does not exist.
 //! \throw ConstraintUnmet  the Steiner engine cannot meet max_error.
 //! \throw Cancelled        the progress callback returned false.
 //! Re-entrant.

@@ -156,10 +156,12 @@ std::vector<SurfacePoint> to_original(const std::vector<SurfacePoint>& sites, co
     return carried;
 }
 
-std::vector<std::uint8_t> carry_edges(std::span<const std::array<Index, 2>> edges,
-                                      const MeshView& mesh, const CleanedView& clean,
-                                      const Surface& surface) {
-    std::vector<std::uint8_t> is_carried(surface.num_edges(), 0);
+namespace {
+
+// The edges of the surface that given ones have become, in no order; no_index for those whose faces
+// were split elsewhere. Of equal given ones one counts.
+std::vector<Index> carried_edges(std::span<const std::array<Index, 2>> edges, const MeshView& mesh,
+                                 const CleanedView& clean, const Surface& surface) {
     std::map<std::pair<Index, Index>, EdgeMiddle> middle_of;
     for (const auto& [u, v] : edges) middle_of[std::minmax(u, v)];
     // Of the faces at an edge the largest counts, and of equal ones the first: cleaning removes
@@ -184,11 +186,56 @@ std::vector<std::uint8_t> carry_edges(std::span<const std::array<Index, 2>> edge
         }
         if (face.area > 0) middles.push_back(face.middle);
     }
-    for (const SurfacePoint& middle : to_cleaned(middles, mesh, clean)) {
+    std::vector<Index> carried;
+    for (const SurfacePoint& middle :
+         clean.face_origin.empty() ? middles : to_cleaned(middles, mesh, clean)) {
         const auto half_edge = half_edge_of(middle);
-        if (half_edge) is_carried[surface.edge[*half_edge]] = 1;
+        carried.push_back(half_edge ? surface.edge[*half_edge] : no_index);
+    }
+    return carried;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> carry_edges(std::span<const std::array<Index, 2>> edges,
+                                      const MeshView& mesh, const CleanedView& clean,
+                                      const Surface& surface) {
+    std::vector<std::uint8_t> is_carried(surface.num_edges(), 0);
+    for (const Index edge : carried_edges(edges, mesh, clean, surface)) {
+        if (edge != no_index) is_carried[edge] = 1;
     }
     return is_carried;
+}
+
+agvd::SiteShape carry_shape(std::span<const std::array<Index, 2>> edges,
+                            std::span<const Index> faces, const MeshView& mesh,
+                            const CleanedView& clean, const Surface& surface) {
+    agvd::SiteShape shape;
+    if (!edges.empty()) shape.edges = carried_edges(edges, mesh, clean, surface);
+    if (std::find(shape.edges.begin(), shape.edges.end(), no_index) != shape.edges.end()) {
+        throw InvalidSites(
+            "cleaning split an edge of a line of the sites; draw the line on the cleaned mesh");
+    }
+    if (faces.empty()) return shape;
+    std::vector<bool> is_inside(mesh.triangles.size(), false);
+    for (const Index face : faces) {
+        if (face >= is_inside.size()) {
+            throw InvalidSites("a region of the sites names face " + std::to_string(face) +
+                               ", but the mesh has only " + std::to_string(is_inside.size()) +
+                               " faces, counted from 0; correct it");
+        }
+        is_inside[face] = true;
+    }
+    for (Index f = 0; f < surface.num_faces(); ++f) {
+        if (is_inside[clean.face_origin.empty() ? f : clean.face_origin[f]]) {
+            shape.faces.push_back(f);
+        }
+    }
+    if (shape.faces.empty()) {
+        throw InvalidSites("cleaning dropped all faces of the region with face " +
+                           std::to_string(faces[0]) + "; use others");
+    }
+    return shape;
 }
 
 std::vector<std::uint8_t> find_label_borders(std::span<const Index> face_labels,

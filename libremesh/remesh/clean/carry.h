@@ -7,6 +7,7 @@
 
 #include "agvd/mesh/mesh.h"
 #include "agvd/mesh/surface.h"
+#include "agvd/propagation/propagate.h"
 #include "remesh/clean/clean_input.h"
 
 namespace remesh {
@@ -36,6 +37,19 @@ namespace remesh {
 [[nodiscard]] std::vector<std::uint8_t> carry_edges(std::span<const std::array<Index, 2>> edges,
                                                     const MeshView& mesh, const CleanedView& clean,
                                                     const Surface& surface);
+
+//! A line along edges, or a region of faces, as a shape of sites.
+//! \param edges    pairs of vertices of `mesh`.
+//! \param faces    of `mesh`.
+//! \param clean    of clean_input(mesh); without face_origin the surface is that of the mesh itself.
+//! \param surface  of clean.mesh; it may have been cut along edges.
+//! \throw InvalidInput  a pair is not an edge of the mesh; the text names it.
+//! \throw InvalidSites  there is no such face, or cleaning split an edge of the line or dropped the
+//!                      whole region; the text names it.
+//! Cost: O(#F log #edges).
+[[nodiscard]] agvd::SiteShape carry_shape(std::span<const std::array<Index, 2>> edges,
+                                          std::span<const Index> faces, const MeshView& mesh,
+                                          const CleanedView& clean, const Surface& surface);
 
 //! Finds edges between faces of different labels.
 //! \param face_labels  of the faces of the mesh that clean_input() got.

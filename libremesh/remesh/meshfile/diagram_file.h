@@ -3,6 +3,7 @@
 //! Held by ReadSites and WriteDiagram in tests/remesh/meshfile.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
 
@@ -13,10 +14,18 @@
 
 namespace remesh {
 
+//! A line along edges, or a region of faces, as a site or a part of one.
+struct GivenShape {
+    std::vector<std::array<Index, 2>> edges = {};  //!< Pairs of vertices of the mesh.
+    std::vector<Index> faces = {};                 //!< Of the mesh.
+    Index site = 0;                                //!< The site that it belongs to.
+};
+
 //! What was read from a file of sites.
 struct SitesFile {
     std::vector<SurfacePoint> sites;    //!< In the file's order.
     SitePoints points;                  //!< Sites of the points, and their starts.
+    std::vector<GivenShape> shapes;     //!< Likewise.
     std::vector<std::string> warnings;  //!< With the file's name and the line.
 };
 
@@ -30,9 +39,12 @@ enum class Repeats { Told, Allowed };
 //!     v INDEX             a vertex
 //!     f FACE B0 B1 B2     a point of a triangle by its barycentric coordinates
 //!     p X Y Z             the nearest point of the mesh (the lowest face, if several are as near)
+//!     l INDEX INDEX ...   a line along edges: vertices, each joined to the next one by an edge
+//!     r FACE FACE ...     a region: triangles
 //!
-//! Behind a point may stand `site N`, the site that it belongs to (on all lines, or on none: then
-//! each line is a site), and `start D`, the distance that it starts with (0 where it is missing).
+//! Behind each may stand `site N`, the site that it belongs to (on all lines, or on none: then
+//! each line is a site), and behind a point `start D`, the distance that it starts with (0 where it
+//! is missing). Whether vertices of a line are joined is not checked.
 //!
 //! FACE is a triangle of read_mesh's result: where a file has larger polygons, each of them counts
 //! as many triangles as it was split into (see MeshFile::face_polygon). A vertex site lies in the

@@ -68,12 +68,22 @@ public:
         SitesFile result;
         read_lines(
             file_,
-            "the file holds no site; write lines \"v INDEX\", \"f FACE B0 B1 B2\" or \"p X Y Z\"",
+            "the file holds no site; write lines \"v INDEX\", \"f FACE B0 B1 B2\", \"p X Y Z\", "
+            "\"l "
+            "INDEX INDEX ...\" or \"r FACE ...\"",
             [&](TextScanner& scan) {
                 start_ = scan.offset();
+                const std::string_view kind = scan.word();
+                if (kind == "l" || kind == "r") {
+                    result.shapes.push_back(kind == "l" ? read_line(scan) : read_region(scan));
+                    result.shapes.back().site = read_role(scan, Kind::Shape).site;
+                    return;
+                }
                 starts_.push_back(start_);
-                result.sites.push_back(read_site(scan));
-                read_role(scan, result.points);
+                result.sites.push_back(read_site(kind, scan));
+                const Role role = read_role(scan, Kind::Point);
+                result.points.site.push_back(role.site);
+                result.points.start.push_back(role.start);
             });
         finish_roles(result);
         judge_distances(result);
@@ -134,8 +144,44 @@ private:
                                   detail::counted(count, "such site") + "; give each place once");
     }
 
-    SurfacePoint read_site(TextScanner& scan) {
-        const std::string_view kind = scan.word();
+    // Numbers up to the next word.
+    std::vector<Index> read_indices(TextScanner& scan, const char* what, const char* plural,
+                                    std::size_t count) {
+        std::vector<Index> indices;
+        while (scan.has_word()) {
+            const std::size_t at = scan.offset();
+            const bool is_number = as_whole<std::int64_t>(scan.word()).has_value();
+            scan.go_to(at);
+            if (!is_number) break;
+            indices.push_back(index(scan, what, plural, count));
+        }
+        return indices;
+    }
+
+    GivenShape read_line(TextScanner& scan) {
+        const std::vector<Index> vertices =
+            read_indices(scan, "vertex", "vertices", mesh_.positions.size());
+        if (vertices.size() < 2) {
+            file_.fail_malformed(start_,
+                                 "a line has two vertices or more; correct it, or write "
+                                 "\"v INDEX\" for one");
+        }
+        GivenShape line;
+        for (std::size_t i = 1; i < vertices.size(); ++i) {
+            line.edges.push_back({vertices[i - 1], vertices[i]});
+        }
+        return line;
+    }
+
+    GivenShape read_region(TextScanner& scan) {
+        GivenShape region{.faces = read_indices(scan, "face", "faces", mesh_.triangles.size())};
+        if (region.faces.empty()) {
+            file_.fail_malformed(start_, "a region has one face or more; add its faces");
+        }
+        return region;
+    }
+
+    SurfacePoint read_site(std::string_view kind, TextScanner& scan) {
         if (kind == "v") return vertex_site(scan);
         if (kind == "f") return face_site(scan);
         if (kind == "p") {
@@ -145,12 +191,18 @@ private:
             shifts_.push_back({std::sqrt(nearest.distance_sq), start_});
             return nearest.point;
         }
-        file_.fail_malformed(start_, "a site begins with v, f or p, not with ", in_quotes(kind),
-                             "; correct the line or begin it with #");
+        file_.fail_malformed(start_, "a site begins with v, f, p, l or r, not with ",
+                             in_quotes(kind), "; correct the line or begin it with #");
     }
 
-    // The site that a point belongs to, and its start.
-    void read_role(TextScanner& scan, SitePoints& points) {
+    enum class Kind { Point, Shape };
+    struct Role {
+        Index site;
+        double start;
+    };
+
+    // The site that a line of the file belongs to, and the start of a point.
+    Role read_role(TextScanner& scan, Kind kind) {
         std::optional<Index> site;
         double start = 0;
         while (scan.has_word()) {
@@ -163,7 +215,7 @@ private:
                                          "; number the sites from 0");
                 }
                 site = static_cast<Index>(value);
-            } else if (key == "start") {
+            } else if (key == "start" && kind == Kind::Point) {
                 start = scan.number("a distance");
                 if (!(start >= 0 && std::isfinite(start))) {
                     file_.fail_unusable(at,
@@ -175,24 +227,27 @@ private:
                 break;
             }
         }
-        if (points.site.empty() != !site.has_value() && starts_.size() > 1) {
+        if (num_roles_ > 0 && has_numbers_ != site.has_value()) {
             file_.fail_malformed(start_,
                                  "only some lines say which site their point belongs to; add "
                                  "`site N` to all, or to none");
         }
-        if (site) points.site.push_back(*site);
-        points.start.push_back(start);
+        has_numbers_ = site.has_value();
+        const Index number = num_roles_++;
+        return {site.value_or(number), start};
     }
 
     // Each site must have a point. What all lines leave out stays empty.
     void finish_roles(SitesFile& result) const {
         SitePoints& points = result.points;
+        if (!has_numbers_ && result.shapes.empty()) points.site.clear();
         if (std::all_of(points.start.begin(), points.start.end(),
                         [](double start) { return start == 0; })) {
             points.start.clear();
         }
-        if (points.site.empty()) return;
+        if (!has_numbers_) return;
         std::vector<Index> sites = points.site;
+        for (const GivenShape& shape : result.shapes) sites.push_back(shape.site);
         std::sort(sites.begin(), sites.end());
         Index next = 0;
         for (const Index site : sites) {
@@ -239,6 +294,8 @@ private:
     const MeshView& mesh_;
     const Progress& progress_;
     std::size_t start_ = 0;                 // Of the current line's first word.
+    Index num_roles_ = 0;                   // Lines with a site so far.
+    bool has_numbers_ = false;              // They say which.
     std::vector<std::size_t> starts_;       // Of all sites' lines.
     std::vector<Shift> shifts_;             // Of all `p`.
     std::vector<Index> lowest_corner_;      // #V, made for the first `v`.

@@ -91,7 +91,7 @@ struct RightTriangle {
 // The right triangles of the two ends of an edge. They are alike but for their slopes.
 struct EdgePart {
     double area = 0, mass = 0, spread = 0;  // Of each.
-    Vec3 along, across;         // Slopes: their sum at the tail, across - along at the head.
+    Vec3 along, across;  // Slopes: their sum at the tail, across - along at the head.
 
     [[nodiscard]] RightTriangle at_tail() const { return {area, mass, spread, across + along}; }
     [[nodiscard]] RightTriangle at_head() const { return {area, mass, spread, across - along}; }

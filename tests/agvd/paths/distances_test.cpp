@@ -7,6 +7,7 @@
 #include "agvd/core/error.h"
 #include "agvd/mesh/patch.h"
 #include "agvd/mesh/surface_points.h"
+#include "support/line_sites.h"
 #include "support/points.h"
 #include "support/shapes.h"
 
@@ -146,4 +147,43 @@ TEST(Distances, RefuseWhatIsNoRadiusAndNoPoint) {
                  InvalidOption);
     EXPECT_THROW((void)propagate(surface, sites, {.relay_faces = {3, 2}}), InvalidOption);
     EXPECT_THROW((void)propagate(surface, sites, {.relay_faces = {12}}), InvalidOption);
+}
+
+// Of a line along the lower side, and a face in the middle.
+TEST(Distances, OfPointsFromLinesAndRegions) {
+    const Surface surface = flat_square(12);
+    const MeshView mesh = surface.mesh.view();
+    SiteShape side{.site = 0}, region{.faces = {141, 142}, .site = 1};
+    for (Index e = 0; e < surface.num_edges(); ++e) {
+        const Index h = surface.edge_half[e];
+        if (mesh.positions[surface.tail(h)].y() + mesh.positions[surface.head(h)].y() == 0) {
+            side.edges.push_back(e);
+        }
+    }
+    ASSERT_EQ(side.edges.size(), 12u);
+    const auto targets = points::scattered(surface, 300, 7);
+    for (const double radius : {infinity, 0.2}) {
+        const Distances found =
+            find_distances(surface, {}, targets,
+                           {.shapes = {side, region}, .max_distance = radius, .max_error = 0});
+        int num_inside = 0;
+        for (std::size_t i = 0; i < targets.size(); ++i) {
+            const Vec3 p = position(mesh, targets[i]);
+            const double expected = std::min(p.y(), line_sites::in_plane(surface, region, p));
+            const bool is_reached = expected <= radius;
+            EXPECT_EQ(found.point_site[i].is_valid(), is_reached) << i;
+            if (is_reached) {
+                EXPECT_NEAR(found.point_distance[i], expected, 1e-12) << i;
+            }
+        }
+        for (const Index face : region.faces) {
+            const SurfacePoint middle{FaceId(face), {0.25, 0.5, 0.25}};
+            const Distances at =
+                find_distances(surface, {}, {{middle}}, {.shapes = {side, region}, .max_error = 0});
+            EXPECT_EQ(at.point_distance[0], 0);
+            EXPECT_EQ(at.point_site[0].value(), 1);
+            ++num_inside;
+        }
+        EXPECT_EQ(num_inside, 2);
+    }
 }

@@ -133,10 +133,14 @@ TEST(BucketRing, MemoryOfEmptyBucketsIsUsedAgain) {
 }
 
 TEST(FrontItem, KnowsItsKindAndRecord) {
-    for (const Index record : {0U, 1U, 77U, (1U << 31) - 1}) {
-        EXPECT_FALSE(FrontItem::half_edge(record).is_pseudo_source());
-        EXPECT_TRUE(FrontItem::pseudo_source(record).is_pseudo_source());
+    for (const Index record : {0U, 1U, 77U, (1U << 30) - 1}) {
+        EXPECT_TRUE(FrontItem::half_edge(record).is_half_edge());
+        EXPECT_FALSE(FrontItem::pseudo_source(record).is_half_edge());
+        EXPECT_FALSE(FrontItem::beam(record).is_half_edge());
+        EXPECT_FALSE(FrontItem::pseudo_source(record).is_beam());
+        EXPECT_TRUE(FrontItem::beam(record).is_beam());
         EXPECT_EQ(FrontItem::half_edge(record).record(), record);
         EXPECT_EQ(FrontItem::pseudo_source(record).record(), record);
+        EXPECT_EQ(FrontItem::beam(record).record(), record);
     }
 }

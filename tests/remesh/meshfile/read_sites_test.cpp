@@ -85,9 +85,35 @@ TEST_F(ReadSites, PointsMayBelongToSitesAndStartAtDistances) {
     expect_error<agvd::InvalidInput>("v 0 site 0\nv 1 site 2\n", "no point belongs to site 1");
 }
 
+TEST_F(ReadSites, LinesAndRegionsAreSites) {
+    const auto read_all = [&](const std::string& text) {
+        (void)read(text);
+        return read_sites(path_, mesh_.view());
+    };
+    const remesh::SitesFile file = read_all("l 0 1 2 # a line\nv 8\nr 6 7\n");
+    ASSERT_EQ(file.shapes.size(), 2u);
+    using Edges = std::vector<std::array<agvd::Index, 2>>;
+    EXPECT_EQ(file.shapes[0].edges, (Edges{{0, 1}, {1, 2}}));
+    EXPECT_EQ(file.shapes[0].site, 0u);
+    EXPECT_EQ(file.shapes[1].faces, (std::vector<agvd::Index>{6, 7}));
+    EXPECT_EQ(file.shapes[1].site, 2u);
+    EXPECT_EQ(file.sites.size(), 1u);
+    EXPECT_EQ(file.points.site, (std::vector<agvd::Index>{1}));
+    const remesh::SitesFile one = read_all("r 3 site 0\nl 0 1 site 0\nv 8 site 1 start 2\n");
+    EXPECT_EQ(one.shapes[1].site, 0u);
+    EXPECT_EQ(one.points.start, (std::vector<double>{2}));
+    expect_error<agvd::IoError>("l 1\n", "a line has two vertices");
+    expect_error<agvd::IoError>("r\n", "a region has one face");
+    expect_error<agvd::IoError>("l 0 1 start 2\n", "expected the end of the line");
+    expect_error<agvd::IoError>("l 0 1 site 0\nv 1\n", "only some lines say");
+    expect_error<agvd::InvalidInput>("l 0 1 site 1\n", "no point belongs to site 0");
+    expect_error<agvd::InvalidInput>("l 0 9\n", "vertex 9");
+    expect_error<agvd::InvalidInput>("r 8\n", "face 8");
+}
+
 TEST_F(ReadSites, NamesFileAndLineOfASyntaxError) {
-    expect_error<agvd::IoError>("v 1\nw 2\n", "line 2: a site begins with v, f or p");
-    expect_error<agvd::IoError>("\n\nvertex 2\n", "line 3: a site begins with v, f or p");
+    expect_error<agvd::IoError>("v 1\nw 2\n", "line 2: a site begins with v, f, p, l or r");
+    expect_error<agvd::IoError>("\n\nvertex 2\n", "line 3: a site begins with v, f, p, l or r");
     expect_error<agvd::IoError>("v 1 2\n", "expected the end of the line");
     expect_error<agvd::IoError>("v\nv 1\n", "line 1: expected a vertex index");
     expect_error<agvd::IoError>("f 1 0.5 0.5\n", "expected a barycentric coordinate");

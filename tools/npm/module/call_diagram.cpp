@@ -46,7 +46,7 @@ Answer call_voronoi(const Request& request) {
     Run run({{"sample", 1}, {"clean", 1}, {"propagate", 4}, {"diagram", 3}, {"dual", 1}});
     const auto sites = sites_of(request, "sites", mesh, run);
     cli::DrawnDiagram drawn =
-        cli::draw_diagram(mesh, sites, query.propagation, {query.keep_slits, {}},
+        cli::draw_diagram(mesh, {sites}, query.propagation, {query.keep_slits, {}},
                           [&](const char* stage) { return run.of(stage); });
     std::vector<agvd::SiteId> sides;
     for (const agvd::VoronoiEdge& edge : drawn.diagram.edges) {
@@ -76,9 +76,9 @@ Answer call_distances(const Request& request) {
     Run run({{"sample", 1}, {"clean", 1}, {"propagate", 4}});
     const auto sites = sites_of(request, "sites", mesh, run);
     Answer answer;
-    answer.add<double>("distances",
-                       cli::vertex_distances(mesh, sites, query.propagation, {query.keep_slits, {}},
-                                             [&](const char* stage) { return run.of(stage); }));
+    answer.add<double>(
+        "distances", cli::vertex_distances(mesh, {sites}, query.propagation, {query.keep_slits, {}},
+                                           [&](const char* stage) { return run.of(stage); }));
     return answer;
 }
 

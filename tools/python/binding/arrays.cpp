@@ -34,6 +34,22 @@ std::vector<agvd::SurfacePoint> points_of(const Indices& faces, const Doubles& b
     return points;
 }
 
+std::vector<remesh::GivenShape> shapes_of(const std::vector<Indices>& lines,
+                                          const std::vector<Indices>& regions, agvd::Index first) {
+    std::vector<remesh::GivenShape> shapes;
+    for (const Indices& line : lines) {
+        remesh::GivenShape shape{.site = first++};
+        for (py::ssize_t i = 1; i < line.size(); ++i) {
+            shape.edges.push_back({line.data()[i - 1], line.data()[i]});
+        }
+        shapes.push_back(std::move(shape));
+    }
+    for (const Indices& region : regions) {
+        shapes.push_back({.faces = vector_of(region), .site = first++});
+    }
+    return shapes;
+}
+
 std::vector<std::array<agvd::Index, 2>> edges_of(const Indices& edges) {
     require(edges.size() == 0 || (edges.ndim() == 2 && edges.shape(1) == 2),
             "edges must have two columns");

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "agvd/mesh/mesh.h"
+#include "remesh/meshfile/diagram_file.h"
 #include "remesh/meshfile/mesh_file.h"
 
 namespace python {
@@ -40,6 +41,13 @@ template <typename Scalar>
 //! \throw py::value_error  another shape.
 [[nodiscard]] std::vector<agvd::SurfacePoint> points_of(const Indices& faces,
                                                         const Doubles& barycentric);
+
+//! \param lines    chains of vertices: edges between each and the next one.
+//! \param regions  sets of faces.
+//! \param first    the number of the first line; then come the other lines, then the regions.
+[[nodiscard]] std::vector<remesh::GivenShape> shapes_of(const std::vector<Indices>& lines,
+                                                        const std::vector<Indices>& regions,
+                                                        agvd::Index first);
 
 //! The array's own memory.
 //! \param values  #F x 3 x 2, or none

@@ -1,6 +1,8 @@
 // Geodesic Voronoi diagrams and distances on arrays.
 #include <pybind11/stl.h>
 
+#include <algorithm>
+
 #include "agvd/diagram/diagram.h"
 #include "agvd/propagation/propagate.h"
 #include "binding/arrays.h"
@@ -21,6 +23,18 @@ agvd::PropagationOptions propagation_options(const Indices& groups, const Double
             .engine = cli::engine_of(engine),
             .max_error = max_error,
             .num_threads = num_threads};
+}
+
+// Points, then lines, then regions; with groups lines and regions come behind these.
+cli::DrawnSites sites_of(const Indices& faces, const Doubles& barycentric, const Indices& groups,
+                         const std::vector<Indices>& lines, const std::vector<Indices>& regions) {
+    cli::DrawnSites sites{points_of(faces, barycentric), {}};
+    auto first = static_cast<Index>(sites.points.size());
+    if (groups.size() > 0) {
+        first = *std::max_element(groups.data(), groups.data() + groups.size()) + 1;
+    }
+    sites.shapes = shapes_of(lines, regions, first);
+    return sites;
 }
 
 py::array_t<std::int64_t> sides_of(const std::vector<agvd::VoronoiEdge>& edges) {
@@ -53,6 +67,7 @@ py::dict to_dict(cli::DrawnArcs arcs) {
 
 py::dict run_voronoi(const Doubles& positions, const Indices& triangles, const Indices& faces,
                      const Doubles& barycentric, const Indices& groups, const Doubles& weights,
+                     const std::vector<Indices>& lines, const std::vector<Indices>& regions,
                      const Indices& barriers, const Doubles& side_lengths,
                      const std::string& engine, std::optional<double> max_error,
                      std::optional<double> chord, bool keep_slits, int num_threads,
@@ -60,7 +75,7 @@ py::dict run_voronoi(const Doubles& positions, const Indices& triangles, const I
     const agvd::MeshView mesh = view_of(positions, triangles);
     const agvd::PropagationOptions options =
         propagation_options(groups, weights, engine, max_error, num_threads);
-    const std::vector<agvd::SurfacePoint> sites = points_of(faces, barycentric);
+    const cli::DrawnSites sites = sites_of(faces, barycentric, groups, lines, regions);
     const cli::SurfaceOptions as_surface{keep_slits, edges_of(barriers), vector_of(side_lengths)};
     PythonProgress progress(function,
                             {{"clean", 1}, {"propagate", 1}, {"diagram", 1}, {"dual", 1}});
@@ -89,14 +104,15 @@ py::dict run_voronoi(const Doubles& positions, const Indices& triangles, const I
 
 py::array_t<double> run_distances(const Doubles& positions, const Indices& triangles,
                                   const Indices& faces, const Doubles& barycentric,
-                                  const Doubles& weights, const Indices& barriers,
+                                  const Doubles& weights, const std::vector<Indices>& lines,
+                                  const std::vector<Indices>& regions, const Indices& barriers,
                                   const Doubles& side_lengths, const std::string& engine,
                                   std::optional<double> max_error, bool keep_slits, int num_threads,
                                   const py::object& function) {
     const agvd::MeshView mesh = view_of(positions, triangles);
     const agvd::PropagationOptions options =
         propagation_options({}, weights, engine, max_error, num_threads);
-    const std::vector<agvd::SurfacePoint> sites = points_of(faces, barycentric);
+    const cli::DrawnSites sites = sites_of(faces, barycentric, {}, lines, regions);
     const cli::SurfaceOptions as_surface{keep_slits, edges_of(barriers), vector_of(side_lengths)};
     PythonProgress progress(function, {{"clean", 1}, {"propagate", 1}});
     return to_array<double>(progress.run([&] {
@@ -107,13 +123,14 @@ py::array_t<double> run_distances(const Doubles& positions, const Indices& trian
 
 py::tuple run_cut_cells(const Doubles& positions, const Indices& triangles, const Indices& faces,
                         const Doubles& barycentric, const Indices& groups, const Doubles& weights,
+                        const std::vector<Indices>& lines, const std::vector<Indices>& regions,
                         const Indices& barriers, const Doubles& side_lengths,
                         const std::string& engine, std::optional<double> max_error, bool keep_slits,
                         int num_threads, const py::object& function) {
     const agvd::MeshView mesh = view_of(positions, triangles);
     const agvd::PropagationOptions options =
         propagation_options(groups, weights, engine, max_error, num_threads);
-    const std::vector<agvd::SurfacePoint> sites = points_of(faces, barycentric);
+    const cli::DrawnSites sites = sites_of(faces, barycentric, groups, lines, regions);
     const cli::SurfaceOptions as_surface{keep_slits, edges_of(barriers), vector_of(side_lengths)};
     PythonProgress progress(function, {{"clean", 1}, {"propagate", 1}, {"diagram", 2}});
     agvd::CutCells cells = progress.run([&] {
@@ -131,22 +148,23 @@ void bind_diagram(py::module_& module) {
     module.def("voronoi", &run_voronoi, py::arg("positions").noconvert(),
                py::arg("triangles").noconvert(), py::arg("faces").noconvert(),
                py::arg("barycentric").noconvert(), py::arg("groups").noconvert(),
-               py::arg("weights").noconvert(), py::arg("barriers").noconvert(),
-               py::arg("side_lengths").noconvert(), py::arg("engine"), py::arg("max_error"),
-               py::arg("chord"), py::arg("keep_slits"), py::arg("num_threads"),
-               py::arg("progress"));
+               py::arg("weights").noconvert(), py::arg("lines"), py::arg("regions"),
+               py::arg("barriers").noconvert(), py::arg("side_lengths").noconvert(),
+               py::arg("engine"), py::arg("max_error"), py::arg("chord"), py::arg("keep_slits"),
+               py::arg("num_threads"), py::arg("progress"));
     module.def("cut_cells", &run_cut_cells, py::arg("positions").noconvert(),
                py::arg("triangles").noconvert(), py::arg("faces").noconvert(),
                py::arg("barycentric").noconvert(), py::arg("groups").noconvert(),
-               py::arg("weights").noconvert(), py::arg("barriers").noconvert(),
-               py::arg("side_lengths").noconvert(), py::arg("engine"), py::arg("max_error"),
-               py::arg("keep_slits"), py::arg("num_threads"), py::arg("progress"));
-    module.def("geodesic_distance", &run_distances, py::arg("positions").noconvert(),
-               py::arg("triangles").noconvert(), py::arg("faces").noconvert(),
-               py::arg("barycentric").noconvert(), py::arg("weights").noconvert(),
+               py::arg("weights").noconvert(), py::arg("lines"), py::arg("regions"),
                py::arg("barriers").noconvert(), py::arg("side_lengths").noconvert(),
                py::arg("engine"), py::arg("max_error"), py::arg("keep_slits"),
                py::arg("num_threads"), py::arg("progress"));
+    module.def("geodesic_distance", &run_distances, py::arg("positions").noconvert(),
+               py::arg("triangles").noconvert(), py::arg("faces").noconvert(),
+               py::arg("barycentric").noconvert(), py::arg("weights").noconvert(), py::arg("lines"),
+               py::arg("regions"), py::arg("barriers").noconvert(),
+               py::arg("side_lengths").noconvert(), py::arg("engine"), py::arg("max_error"),
+               py::arg("keep_slits"), py::arg("num_threads"), py::arg("progress"));
 }
 
 }  // namespace python

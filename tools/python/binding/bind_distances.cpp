@@ -30,13 +30,15 @@ std::vector<double> of_given_vertices(const cli::GivenSurface& given,
 
 py::array_t<double> run_distances_at(const Doubles& positions, const Indices& triangles,
                                      const Indices& faces, const Doubles& barycentric,
-                                     const Doubles& weights, const Indices& barriers,
+                                     const Doubles& weights, const std::vector<Indices>& lines,
+                                     const std::vector<Indices>& regions, const Indices& barriers,
                                      const Doubles& side_lengths, const Indices& target_faces,
                                      const Doubles& target_barycentric, bool has_targets,
                                      double radius, double max_error, bool keep_slits,
                                      int num_threads, const py::object& function) {
     const agvd::MeshView mesh = view_of(positions, triangles);
     const std::vector<SurfacePoint> sites = points_of(faces, barycentric);
+    const auto shapes = shapes_of(lines, regions, static_cast<Index>(sites.size()));
     const std::vector<double> starts = vector_of(weights);
     const auto cut = edges_of(barriers);
     const std::vector<double> lengths = vector_of(side_lengths);
@@ -52,6 +54,7 @@ py::array_t<double> run_distances_at(const Doubles& positions, const Indices& tr
         const agvd::Distances found = agvd::find_distances(given.surface(), given.to_surface(sites),
                                                            given.to_surface(targets),
                                                            {.points = {.start = starts},
+                                                            .shapes = given.to_surface(shapes),
                                                             .max_distance = radius,
                                                             .max_error = max_error,
                                                             .num_threads = num_threads,
@@ -108,11 +111,12 @@ py::tuple run_nearest_sites(const Doubles& positions, const Indices& triangles,
 void bind_distances(py::module_& module) {
     module.def("distances_at", &run_distances_at, py::arg("positions").noconvert(),
                py::arg("triangles").noconvert(), py::arg("faces").noconvert(),
-               py::arg("barycentric").noconvert(), py::arg("weights").noconvert(),
-               py::arg("barriers").noconvert(), py::arg("side_lengths").noconvert(),
-               py::arg("target_faces").noconvert(), py::arg("target_barycentric").noconvert(),
-               py::arg("has_targets"), py::arg("radius"), py::arg("max_error"),
-               py::arg("keep_slits"), py::arg("num_threads"), py::arg("progress"));
+               py::arg("barycentric").noconvert(), py::arg("weights").noconvert(), py::arg("lines"),
+               py::arg("regions"), py::arg("barriers").noconvert(),
+               py::arg("side_lengths").noconvert(), py::arg("target_faces").noconvert(),
+               py::arg("target_barycentric").noconvert(), py::arg("has_targets"), py::arg("radius"),
+               py::arg("max_error"), py::arg("keep_slits"), py::arg("num_threads"),
+               py::arg("progress"));
     module.def("nearest_sites", &run_nearest_sites, py::arg("positions").noconvert(),
                py::arg("triangles").noconvert(), py::arg("faces").noconvert(),
                py::arg("barycentric").noconvert(), py::arg("k"), py::arg("max_error"),

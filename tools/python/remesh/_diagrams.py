@@ -58,7 +58,7 @@ class Voronoi:
     labels: NDArray[np.int64]
     #: #V: its distance along the surface; infinity: no site reaches it.
     distances: NDArray[np.float64]
-    #: k x 3; with groups the points given.
+    #: k x 3; with groups, lines or regions the points given.
     site_positions: NDArray[np.float64]
     #: k: area of each cell; 0 for a site that owns nothing, such as one of two at one place, or one
     #: whose weight exceeds the distance from another.
@@ -129,6 +129,34 @@ def _groups(groups: Any, count: int) -> _arrays.Indices:
     return _arrays.to_indices(given)
 
 
+def _shapes(mesh: _kinds.Given, lines: Any, regions: Any
+            ) -> tuple[list[_arrays.Indices], list[_arrays.Indices]]:
+    """Chains of vertices and sets of faces."""
+    def take(given: Any, name: str, least: int, count: int, many: str) -> list[_arrays.Indices]:
+        taken = []
+        for i, shape in enumerate([] if given is None else given):
+            numbers = _arrays.integers(shape, f"{name}[{i}]")
+            if numbers.ndim != 1 or len(numbers) < least:
+                raise InvalidSites(f"{name}[{i}] has the shape {numbers.shape}; give {least} or "
+                                   f"more {many}")
+            wrong = _arrays.first_outside(numbers, count)
+            if wrong is not None:
+                raise InvalidSites(f"{name}[{i}] names {numbers[wrong]}, but the mesh has only "
+                                   f"{count} {many}, counted from 0; correct it")
+            taken.append(_arrays.to_indices(numbers))
+        return taken
+    return (take(lines, "lines", 2, len(mesh.V), "vertices"),
+            take(regions, "regions", 1, len(mesh.F), "faces"))
+
+
+def _points(mesh: _kinds.Given, sites: Any, shapes: tuple[list[_arrays.Indices], ...]
+            ) -> tuple[_arrays.Indices, _arrays.Floats]:
+    """Sites that are points; with lines or regions there may be none."""
+    if sites is None and any(shapes):
+        return np.empty(0, np.uint32), np.empty((0, 3))
+    return take_sites(mesh, sites)
+
+
 def _barriers(barriers: Any, mesh: _kinds.Given) -> _arrays.Indices:
     given = _arrays.integers([] if barriers is None else barriers, "barriers")
     if given.size == 0:
@@ -157,7 +185,8 @@ def _lengths(edge_lengths: Any, barriers: Any, mesh: _kinds.Given) -> _arrays.Fl
 
 
 def voronoi(V: Any, F: Any = None, sites: Any = None, max_error: float | None = None, *,
-            groups: Any = None, weights: Any = None, barriers: Any = None, edge_lengths: Any = None, engine: str = "window",
+            groups: Any = None, weights: Any = None, lines: Any = None, regions: Any = None,
+            barriers: Any = None, edge_lengths: Any = None, engine: str = "window",
             chord: float | None = None, keep_slits: bool = False, threads: int = 0,
             progress: Progress | None = None) -> Voronoi:
     """The geodesic Voronoi diagram of sites on a surface.
@@ -169,6 +198,9 @@ def voronoi(V: Any, F: Any = None, sites: Any = None, max_error: float | None = 
     each point is a site. A site's distance is the least from its points.
     weights: numbers of 0 or more that are added to the distances from each point. A site that is
     farther from its own place than another one owns nothing: its ``cell_area`` is 0.
+    lines: sites that are lines along edges: of each its vertices, every one joined to the next by an
+    edge. Their numbers follow those of the points; sites may then be None.
+    regions: sites that are regions, at distance 0 inside: of each its faces. Their numbers follow.
     barriers: edges that no path crosses (m x 2 vertices). The mesh is cut along them; of a vertex
     on them the nearest side counts, and a site there is on the side of its face.
     edge_lengths: in place of those between the positions, which then are for drawing only (#F x 3
@@ -186,16 +218,20 @@ def voronoi(V: Any, F: Any = None, sites: Any = None, max_error: float | None = 
     True
     >>> len(diagram.bisectors), diagram.neighbours_of(0)
     (1, array([1]))
+    >>> line = remesh.voronoi(V, F, [0], lines=[F[100][:2]], regions=[[200, 201]])
+    >>> line.labels[F[100][0]], line.labels[F[200]].tolist(), line.cell_area.shape
+    (1, [2, 2, 2], (3,))
     >>> pairs = remesh.voronoi(V, F, [0, 1, 2, 3], groups=[0, 0, 1, 1])
     >>> pairs.cell_area.shape, sorted(set(pairs.labels.tolist()))
     ((2,), [0, 1])
     """
     mesh = _kinds.take(V, F)
-    faces, barycentric = take_sites(mesh, sites)
+    shapes = _shapes(mesh, lines, regions)
+    faces, barycentric = _points(mesh, sites, shapes)
     name, error, slits, num_threads = _common(engine, max_error, keep_slits, threads)
     found = _remesh.voronoi(
         mesh.V, mesh.F, faces, barycentric, _groups(groups, len(faces)),
-        _weights(weights, len(faces)), _barriers(barriers, mesh),
+        _weights(weights, len(faces)), *shapes, _barriers(barriers, mesh),
         _lengths(edge_lengths, barriers, mesh), name, error,
         None if chord is None else _arrays.number(chord, "chord"), slits, num_threads, progress)
     arcs = found.pop("arcs", None)
@@ -203,8 +239,8 @@ def voronoi(V: Any, F: Any = None, sites: Any = None, max_error: float | None = 
 
 
 def cut_cells(V: Any, F: Any = None, sites: Any = None, max_error: float | None = None, *,
-              groups: Any = None, weights: Any = None, barriers: Any = None,
-              edge_lengths: Any = None, engine: str = "window", keep_slits: bool = False,
+              groups: Any = None, weights: Any = None, lines: Any = None, regions: Any = None,
+              barriers: Any = None, edge_lengths: Any = None, engine: str = "window", keep_slits: bool = False,
               threads: int = 0, progress: Progress | None = None
               ) -> tuple[NDArray[np.float64], NDArray[np.uint32], NDArray[np.int64],
                          NDArray[np.int64]]:
@@ -220,21 +256,23 @@ def cut_cells(V: Any, F: Any = None, sites: Any = None, max_error: float | None 
     (True, [0, 1], True)
     """
     mesh = _kinds.take(V, F)
-    faces, barycentric = take_sites(mesh, sites)
+    shapes = _shapes(mesh, lines, regions)
+    faces, barycentric = _points(mesh, sites, shapes)
     return _remesh.cut_cells(mesh.V, mesh.F, faces, barycentric, _groups(groups, len(faces)),
-                             _weights(weights, len(faces)), _barriers(barriers, mesh),
+                             _weights(weights, len(faces)), *shapes, _barriers(barriers, mesh),
                              _lengths(edge_lengths, barriers, mesh),
                              *_common(engine, max_error, keep_slits, threads), progress)
 
 
 def geodesic_distance(V: Any, F: Any = None, sources: Any = None, max_error: float | None = None, *,
                       targets: Any = None, radius: float | None = None, weights: Any = None,
+                      lines: Any = None, regions: Any = None,
                       barriers: Any = None, edge_lengths: Any = None, engine: str = "window", keep_slits: bool = False, threads: int = 0,
                       progress: Progress | None = None) -> NDArray[np.float64]:
     """#V: the distance along the surface of each vertex from the nearest of the sources; infinity
     where there is none on the same component.
 
-    sources: as ``sites`` of voronoi(). max_error, weights, barriers, edge_lengths, engine,
+    sources: as ``sites`` of voronoi(). max_error, weights, lines, regions, barriers, edge_lengths, engine,
     keep_slits: likewise.
     targets: points given in the same ways; the result is their distances, one for each.
     radius: what is farther away gets infinity; only faces so near to a source are looked at.
@@ -246,19 +284,21 @@ def geodesic_distance(V: Any, F: Any = None, sources: Any = None, max_error: flo
     True
     """
     mesh = _kinds.take(V, F)
-    faces, barycentric = take_sites(mesh, sources)
+    shapes = _shapes(mesh, lines, regions)
+    faces, barycentric = _points(mesh, sources, shapes)
     if targets is not None or radius is not None:
         if engine != "window":
             raise InvalidOption(f"targets and radius need engine='window', not {engine!r}")
         _, error, slits, num_threads = _common(engine, max_error, keep_slits, threads)
         to = (faces, barycentric) if targets is None else take_sites(mesh, targets)
         return _remesh.distances_at(
-            mesh.V, mesh.F, faces, barycentric, _weights(weights, len(faces)),
+            mesh.V, mesh.F, faces, barycentric, _weights(weights, len(faces)), *shapes,
             _barriers(barriers, mesh), _lengths(edge_lengths, barriers, mesh), *to, targets is not None,
             float("inf") if radius is None else _arrays.number(radius, "radius"),
             1e-4 if error is None else error, slits, num_threads, progress)
     return _remesh.geodesic_distance(mesh.V, mesh.F, faces, barycentric,
-                                     _weights(weights, len(faces)), _barriers(barriers, mesh), _lengths(edge_lengths, barriers, mesh),
+                                     _weights(weights, len(faces)), *shapes,
+                                     _barriers(barriers, mesh), _lengths(edge_lengths, barriers, mesh),
                                      *_common(engine, max_error, keep_slits, threads), progress)
 
 

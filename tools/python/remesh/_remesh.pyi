@@ -75,16 +75,17 @@ def page(positions: _Floats, triangles: _Indices, result_positions: _Floats,
          progress: _Progress) -> str: ...
 def has_viewer() -> bool: ...
 def voronoi(positions: _Floats, triangles: _Indices, faces: _Indices, barycentric: _Floats,
-            groups: _Indices, weights: _Floats, barriers: _Indices,
-            side_lengths: _Floats, engine: str, max_error: float | None, chord: float | None,
+            groups: _Indices, weights: _Floats, lines: list[_Indices], regions: list[_Indices],
+            barriers: _Indices, side_lengths: _Floats, engine: str, max_error: float | None, chord: float | None,
             keep_slits: bool, num_threads: int, progress: _Progress) -> dict[str, Any]: ...
 def cut_cells(positions: _Floats, triangles: _Indices, faces: _Indices, barycentric: _Floats,
-              groups: _Indices, weights: _Floats, barriers: _Indices, side_lengths: _Floats,
+              groups: _Indices, weights: _Floats, lines: list[_Indices], regions: list[_Indices],
+              barriers: _Indices, side_lengths: _Floats,
               engine: str, max_error: float | None, keep_slits: bool, num_threads: int,
               progress: _Progress) -> tuple[_Floats, _Indices, _Numbers, _Numbers]: ...
 def geodesic_distance(positions: _Floats, triangles: _Indices, faces: _Indices,
-                      barycentric: _Floats, weights: _Floats, barriers: _Indices,
-            side_lengths: _Floats, engine: str, max_error: float | None,
+                      barycentric: _Floats, weights: _Floats, lines: list[_Indices],
+                      regions: list[_Indices], barriers: _Indices, side_lengths: _Floats, engine: str, max_error: float | None,
                       keep_slits: bool, num_threads: int, progress: _Progress) -> _Floats: ...
 def paths_to_sites(positions: _Floats, triangles: _Indices, faces: _Indices,
                    barycentric: _Floats, site_faces: _Indices, site_barycentric: _Floats,
@@ -94,8 +95,8 @@ def paths_between(positions: _Floats, triangles: _Indices, faces: _Indices, bary
                   end_faces: _Indices, end_barycentric: _Floats, max_error: float,
                   keep_slits: bool, num_threads: int, progress: _Progress) -> dict[str, Any]: ...
 def distances_at(positions: _Floats, triangles: _Indices, faces: _Indices, barycentric: _Floats,
-                 weights: _Floats, barriers: _Indices,
-            side_lengths: _Floats, target_faces: _Indices, target_barycentric: _Floats, has_targets: bool,
+                 weights: _Floats, lines: list[_Indices], regions: list[_Indices],
+                 barriers: _Indices, side_lengths: _Floats, target_faces: _Indices, target_barycentric: _Floats, has_targets: bool,
                  radius: float, max_error: float, keep_slits: bool, num_threads: int,
                  progress: _Progress) -> _Floats: ...
 def nearest_sites(positions: _Floats, triangles: _Indices, faces: _Indices, barycentric: _Floats,

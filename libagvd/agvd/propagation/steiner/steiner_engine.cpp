@@ -7,9 +7,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "agvd/core/number_text.h"
 #include "agvd/mesh/surface.h"
+#include "agvd/mesh/surface_points.h"
 #include "agvd/propagation/steiner/steiner_front.h"
 
 namespace agvd {
@@ -183,7 +185,7 @@ Propagation propagate_steiner_within(const Surface& surface, std::span<const Sur
         surface.num_vertices() * (sizeof(exact.vertex_distance[0]) + sizeof(exact.vertex_site[0]));
     for (int round = 1;; ++round) {
         const SteinerCounts counts(insertion.points());
-        SteinerFront front(surface, sites, options.points.start, counts);
+        SteinerFront front(surface, sites, {}, options.points.start, counts);
         const double next = done + (1 - done) / 3;
         front.run(infinity, within(options.progress, done, next));
         done = next;
@@ -217,6 +219,35 @@ Propagation propagate_steiner_within(const Surface& surface, std::span<const Sur
     }
 }
 
+struct NumberedPoints {
+    std::vector<SurfacePoint> points;
+    std::vector<Index> site;
+};
+
+// A line is its vertices and the Steiner points on its edges; a region those of all its faces.
+NumberedPoints with_shapes(const Surface& surface, std::span<const SurfacePoint> sites,
+                           const PropagationOptions& options) {
+    NumberedPoints all{{sites.begin(), sites.end()}, std::vector<Index>(sites.size())};
+    std::iota(all.site.begin(), all.site.end(), Index{0});
+    const double step = 1.0 / (options.steiner_points + 1);
+    auto number = static_cast<Index>(sites.size());
+    for (const SiteShape& shape : options.shapes) {
+        std::vector<Index> edges = shape.edges;
+        for (const Index face : shape.faces) {
+            for (Index h = 3 * face; h < 3 * face + 3; ++h) edges.push_back(surface.edge[h]);
+        }
+        std::sort(edges.begin(), edges.end());
+        edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+        for (const Index edge : edges) {
+            for (int i = 0; i <= options.steiner_points + 1; ++i) {
+                all.points.push_back(point_on(surface.edge_half[edge], std::min(i * step, 1.0)));
+            }
+        }
+        all.site.resize(all.points.size(), number++);
+    }
+    return all;
+}
+
 }  // namespace
 
 Propagation propagate_steiner(const Surface& surface, std::span<const SurfacePoint> sites,
@@ -224,7 +255,8 @@ Propagation propagate_steiner(const Surface& surface, std::span<const SurfacePoi
     if (options.max_error) return propagate_steiner_within(surface, sites, options);
     const auto m = static_cast<std::uint16_t>(options.steiner_points);
     const SteinerCounts counts(std::vector<std::uint16_t>(surface.num_edges(), m));
-    SteinerFront front(surface, sites, options.points.start, counts);
+    const NumberedPoints all = with_shapes(surface, sites, options);
+    SteinerFront front(surface, all.points, all.site, options.points.start, counts);
     front.run(std::max(1.0, options.lambda * surface.num_faces()), options.progress);
     return front.finish();
 }

@@ -46,12 +46,14 @@ bool settle(SteinerNode& node, const FrontEntry& entry) {
 }  // namespace
 
 SteinerFront::SteinerFront(const Surface& surface, std::span<const SurfacePoint> sites,
-                           std::span<const double> starts, const SteinerCounts& counts)
+                           std::span<const Index> site_of_point, std::span<const double> starts,
+                           const SteinerCounts& counts)
     : surface_(surface),
       sites_(sites),
+      site_of_point_(site_of_point),
       starts_(starts),
       counts_(counts),
-      placement_(surface, sites),
+      placement_(surface, sites, site_of_point),
       numbers_(surface, counts.most()),
       vertices_(surface.num_vertices()),
       pool_(surface.num_edges(), counts),
@@ -62,7 +64,9 @@ void SteinerFront::run(double retirement_interval, const Progress& progress) {
     Poller poller(progress);
     poller.tell(0);
     ticker_ = Ticker(poller);
-    for (Index s = 0; s < sites_.size(); ++s) start(s);
+    for (Index s = 0; s < sites_.size(); ++s) {
+        start(sites_[s], site_of_point_.empty() ? s : site_of_point_[s]);
+    }
     double next_retirement = retirement_interval;
     const double all_nodes = static_cast<double>(surface_.num_vertices()) + counts_.total();
     while (refill()) {
@@ -192,14 +196,13 @@ void SteinerFront::relax_side(Index from, const Vec2& source, double base, Index
                  source, base, site, slot);
 }
 
-void SteinerFront::start(Index s) {
-    const SurfacePoint& site = sites_[s];
+void SteinerFront::start(const SurfacePoint& place, Index s) {
     const double base = start_of(starts_, s);
-    if (const auto vertex = vertex_of(surface_, site)) {
+    if (const auto vertex = vertex_of(surface_, place)) {
         relax(vertices_[*vertex], *vertex, base, s, no_index, FaceRing::site_slot);
         return;
     }
-    for_each_side(surface_, site, [&](const SurfacePoint& point, Index) {
+    for_each_side(surface_, place, [&](const SurfacePoint& point, Index) {
         const Index face = point.face.value();
         for (Index h = 3 * face; h < 3 * face + 3; ++h) {
             const Vec2 source = position_in_frame(surface_, point, h);
@@ -268,7 +271,8 @@ Vec2 SteinerFront::slot_position(const SteinerNode& node, const Vec2& here) cons
     if (node.parent_slot != FaceRing::site_slot) {
         return FaceRing::position(surface_, counts_, node.from, node.parent_slot);
     }
-    // There are two names of a site on an edge along which the face is glued to itself.
+    // The nearest of the points of a line; and there are two names of a site on an edge along which
+    // the face is glued to itself.
     Vec2 nearest(infinity, infinity);
     for (const PlacedSite& placed : placement_.in_face(Surface::face(node.from))) {
         if (placed.site != node.site) continue;

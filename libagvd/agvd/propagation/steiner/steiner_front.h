@@ -135,10 +135,13 @@ private:
 //! faces that have not retired can be read.
 class SteinerFront {
 public:
-    //! \param starts  distances of the sites from themselves; empty: 0.
+    //! \param site_of_point  #sites: the numbers of the sites; those with the same number start at the
+    //!                       same distance. Empty: their own.
+    //! \param starts  by number: distances of the sites from themselves; empty: 0.
     //! \param counts  outlives the front, as the others do; NodeNumbers must suffice for it.
     SteinerFront(const Surface& surface, std::span<const SurfacePoint> sites,
-                 std::span<const double> starts, const SteinerCounts& counts);
+                 std::span<const Index> site_of_point, std::span<const double> starts,
+                 const SteinerCounts& counts);
 
     //! Settles all nodes.
     //! \param retirement_interval  pops from one retirement to the next, > 0; infinity keeps all
@@ -162,7 +165,7 @@ private:
     void relax_points(Index from, Index begin, Index end, const Vec2& tail, const Vec2& along,
                       const Vec2& source, double base, Index site, Index slot);
     void relax_side(Index from, const Vec2& source, double base, Index site, Index slot);
-    void start(Index s);
+    void start(const SurfacePoint& point, Index site);
     void serve_one_ring(Index vertex);
     void serve_onward(Index edge, Index point);
     [[nodiscard]] Vec2 slot_position(const SteinerNode& node, const Vec2& here) const;
@@ -187,6 +190,7 @@ private:
 
     const Surface& surface_;
     std::span<const SurfacePoint> sites_;
+    std::span<const Index> site_of_point_;
     std::span<const double> starts_;
     const SteinerCounts& counts_;
     SitePlacement placement_;

@@ -13,6 +13,7 @@
 #include "agvd/propagation/engines.h"
 #include "agvd/propagation/propagate.h"
 #include "agvd/propagation/site_placement.h"
+#include "agvd/propagation/window/beam.h"
 #include "agvd/propagation/window/window.h"
 
 namespace agvd {
@@ -21,6 +22,11 @@ namespace agvd {
 [[nodiscard]] inline Relay to_relay(const Window& window, Index site, Index half_edge) {
     return {window.x,     window.y, window.weight + window.error, window.begin, window.end,
             SiteId(site), half_edge};
+}
+
+//! See is_parallel().
+[[nodiscard]] inline Relay to_relay(const Beam& beam, Index site) {
+    return {beam.x, -infinity, beam.weight, beam.begin, beam.end, SiteId(site), beam.half_edge};
 }
 
 //! Relays in the order in which they came, apart for each range of faces: small enough that what is

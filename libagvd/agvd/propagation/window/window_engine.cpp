@@ -114,10 +114,12 @@ class WindowEngine {
 public:
     WindowEngine(const Surface& surface, std::shared_ptr<const Corners> corners,
                  DistanceBounds bounds, std::span<const SurfacePoint> sites,
-                 const PropagationOptions& options, Index work_cap)
+                 std::span<const ShapeSource> shapes, const PropagationOptions& options,
+                 Index work_cap)
         : surface_(surface),
           corners_(std::move(corners)),
           sites_(sites),
+          shapes_(shapes),
           options_(options),
           work_cap_(work_cap),
           bounds_(std::move(bounds)) {
@@ -157,14 +159,20 @@ private:
 
     // The order in which sites run and their relays are stored: neighbours share the cache.
     [[nodiscard]] bool comes_before(Index a, Index b) const {
-        return std::tie(sites_[a].face, a) < std::tie(sites_[b].face, b);
+        return std::pair(face_of(a), a) < std::pair(face_of(b), b);
+    }
+    // A face where a site begins.
+    [[nodiscard]] FaceId face_of(Index site) const {
+        if (site < sites_.size()) return sites_[site].face;
+        const ShapeSource& shape = shapes_[site - sites_.size()];
+        return FaceId(shape.sides.empty() ? 0 : Surface::face(shape.sides.front()));
     }
     void sort_by_face(std::vector<Index>& sites) const {
         std::sort(sites.begin(), sites.end(), [&](Index a, Index b) { return comes_before(a, b); });
     }
 
     void propagate_all() {
-        std::vector<Index> order(sites_.size());
+        std::vector<Index> order(sites_.size() + shapes_.size());
         std::iota(order.begin(), order.end(), Index{0});
         sort_by_face(order);
         const auto count = static_cast<Index>(order.size());
@@ -196,8 +204,13 @@ private:
             result.relays = RelayLogs(surface_.num_faces());
             for (Index i = begin; i < end; ++i) {
                 const auto keeps_face = [&](Index face) { return keeps(order[i], face); };
-                run_front(*front, sites_[order[i]], bounds_.distance, work_cap_, keeps_face,
-                          start_of(options_.points.start, order[i]));
+                if (order[i] < sites_.size()) {
+                    run_front(*front, sites_[order[i]], bounds_.distance, work_cap_, keeps_face,
+                              start_of(options_.points.start, order[i]));
+                } else {
+                    run_front(*front, shapes_[order[i] - sites_.size()], bounds_.distance,
+                              work_cap_, keeps_face);
+                }
                 collect(order[i], *front, keeps_face, result);
             }
             result.vertices.shrink_to_fit();
@@ -236,17 +249,18 @@ private:
         front.for_each_vertex([&](Index vertex, double distance) {
             task.vertices.push_back({distance, vertex, site});
         });
-        front.for_each_half_edge([&](Index half_edge, std::span<const Window> windows) {
-            const Index face = Surface::face(half_edge);
-            if (!keeps(face)) return;
-            for (const Window& w : windows) {
-                if (borders_[face] != 0) {
-                    task.relays.add(to_relay(w, site, half_edge));
-                } else {
-                    task.strays.push_back(to_relay(w, site, half_edge));
-                }
+        const auto add = [&](const Relay& relay) {
+            if (borders_[Surface::face(relay.half_edge)] != 0) {
+                task.relays.add(relay);
+            } else {
+                task.strays.push_back(relay);
             }
+        };
+        front.for_each_half_edge([&](Index half_edge, std::span<const Window> windows) {
+            if (!keeps(Surface::face(half_edge))) return;
+            for (const Window& w : windows) add(to_relay(w, site, half_edge));
         });
+        front.for_each_beam([&](const Beam& beam) { add(to_relay(beam, site)); });
     }
 
     // The site of a face away from borders.
@@ -317,6 +331,7 @@ private:
     const Surface& surface_;
     std::shared_ptr<const Corners> corners_;
     std::span<const SurfacePoint> sites_;
+    std::span<const ShapeSource> shapes_;  // Sites behind the points.
     const PropagationOptions& options_;
     Index work_cap_;
     DistanceBounds bounds_;
@@ -331,6 +346,27 @@ private:
     std::vector<std::unique_ptr<WindowFront>> free_fronts_;
     Propagation result_;
 };
+
+std::vector<ShapeSource> sources_of(const Surface& surface, std::span<const SiteShape> shapes) {
+    std::vector<ShapeSource> sources;
+    for (const SiteShape& shape : shapes) sources.push_back(shape_source(surface, shape));
+    return sources;
+}
+
+// The corners without ways across lines and into regions.
+std::shared_ptr<const Corners> corners_around(const Surface& surface,
+                                              std::shared_ptr<const Corners> corners,
+                                              std::span<const ShapeSource> shapes) {
+    std::vector<Index> cut;
+    for (const ShapeSource& shape : shapes) {
+        for (const Index h : shape.sides) {
+            cut.push_back(h);
+            if (surface.twin[h] != no_index) cut.push_back(surface.twin[h]);
+        }
+    }
+    if (cut.empty()) return corners;
+    return std::make_shared<Corners>(corners->cut_along(cut));
+}
 
 // Windows end at caps. What the bounds name beyond them is no site.
 void cap(DistanceBounds& bounds, std::span<const float> caps, float max_distance) {
@@ -349,14 +385,18 @@ Propagation propagate_windows(const Surface& surface, SurfaceLayout layout,
                               const PropagationOptions& options, Index work_cap,
                               std::span<const float> caps) {
     poll(options.progress, 0);
-    DistanceBounds bounds = distance_bounds(surface, layout, sites, options.num_threads,
-                                            within(options.progress, 0, 0), options.points.start);
+    const std::vector<ShapeSource> shapes = sources_of(surface, options.shapes);
+    DistanceBounds bounds =
+        distance_bounds(surface, layout, sites, options.num_threads, within(options.progress, 0, 0),
+                        options.points.start, options.shapes);
     if (!caps.empty() || options.max_distance < infinity) {
         // Larger than any rounding of a distance.
         cap(bounds, caps, rounded_up(options.max_distance * (1 + 1e-6)));
     }
     auto corners = SurfaceLayout(std::move(layout)).corners();  // Frees the arcs.
-    return WindowEngine(surface, std::move(corners), std::move(bounds), sites, options, work_cap)
+    corners = corners_around(surface, std::move(corners), shapes);
+    return WindowEngine(surface, std::move(corners), std::move(bounds), sites, shapes, options,
+                        work_cap)
         .run();
 }
 

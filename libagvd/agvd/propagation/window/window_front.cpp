@@ -23,17 +23,6 @@ namespace {
 // many pseudo-sources a vertex emits its whole fan, which holds what any further one would.
 constexpr Index max_pseudo_sources = 32;
 
-// Directions around a vertex, counter-clockwise.
-struct Fan {
-    double distance;  // Of the vertex, from below: the path is longer by at most `error`.
-    float error;
-    Index first;  // Leaves the vertex; its face is the first one.
-    // The same of the last face; no_index: to the boundary, or all around.
-    Index last = no_index;
-    // Rays that bound the fan in these two faces, in their frames; none: the whole face.
-    std::optional<Vec2> from = {}, to = {};
-};
-
 // The face at the tail of a half-edge, seen from beyond the opposite edge: that frame starts at the
 // apex of the half-edge and runs clockwise around the vertex.
 struct FanFace {
@@ -107,24 +96,14 @@ Fan fan_around(const WindowFront& front, Index record) {
             front.surface.outgoing[v.vertex]};
 }
 
-// Through the edges opposite to the vertex. False if the boundary comes before the last face.
-bool emit_fan(WindowFront& front, const Fan& fan) {
-    Index h = fan.first;
-    do {
-        emit_into(front, h, fan);
-        if (h == fan.last) return true;
-        h = front.corners.twin(Surface::previous(h));
-    } while (h != no_index && h != fan.first);
-    return h != no_index;
-}
-
 // From a site in a face, or on its half-edge `skipped`, through the other edges of the face.
 void emit_from_face(WindowFront& front, const SurfacePoint& point, Index skipped, double start) {
     const Surface& surface = front.surface;
     for (Index h = 3 * point.face.value(); h < 3 * point.face.value() + 3; ++h) {
         const Vec2 p = position_in_frame(surface, point, h);
         reach_vertex(front, vertex_record(front, surface.tail(h)), {start + p.norm(), 0, h, p});
-        if (h == skipped || surface.twin[h] == no_index) continue;
+        const Index twin = front.corners.twin(h);
+        if (h == skipped || twin == no_index) continue;
         const double length = surface.length_of(h);
         const Vec2 image(length - p.x(), -p.y());
         if (!(image.y() < 0)) continue;
@@ -138,7 +117,7 @@ void emit_from_face(WindowFront& front, const SurfacePoint& point, Index skipped
                             0,
                             false};
         const Index tail = vertex_record(front, surface.head(h));
-        send(front, {surface.twin[h], tail, vertex_record(front, surface.tail(h))}, window);
+        send(front, {twin, tail, vertex_record(front, surface.tail(h))}, window);
     }
 }
 
@@ -223,7 +202,7 @@ void close_or_watch(WindowFront& front, Index record) {
 
 // Loads what an item needs after its corners, and what is seldom in the cache.
 [[gnu::always_inline]] inline void prefetch(const WindowFront& front, FrontItem item) {
-    if (item.is_pseudo_source()) return;
+    if (!item.is_half_edge()) return;
     const EdgeRecord& edge = front.edges.records[item.record()];
     if (edge.waiting != no_index) front.store.prefetch(edge.waiting);
     const Corners& corners = front.corners;
@@ -282,16 +261,21 @@ void emit_from_pseudo_source(WindowFront& front, const PseudoSource& source) {
 }
 
 // False if the cap was passed; what the front then holds means nothing.
-bool run_in_order(WindowFront& front, WindowQueue::Order order, const SurfacePoint& site,
-                  double start, Index work_cap) {
+template <typename Emit>
+bool run_in_order(WindowFront& front, WindowQueue::Order order, const Emit& emit, double start,
+                  Index work_cap) {
     front.reset(order, start);
-    emit_from_site(front, site, start);
+    emit();
     while (!front.queue.empty()) {
         const FrontItem item = front.queue.pop([&](FrontItem next) { prefetch(front, next); });
         close_edges(front);
         const Index record = item.record();
-        if (item.is_pseudo_source()) {
-            emit_from_pseudo_source(front, front.pseudo_sources.take(record));
+        if (!item.is_half_edge()) {
+            if (item.is_beam()) {
+                serve_beam(front, record);
+            } else {
+                emit_from_pseudo_source(front, front.pseudo_sources.take(record));
+            }
         } else if (front.queue.take(front.edges.records[record].bucket)) {
             serve_edge(front, record);
             if (front.edges.records[record].num_served > work_cap) return false;
@@ -300,7 +284,29 @@ bool run_in_order(WindowFront& front, WindowQueue::Order order, const SurfacePoi
     return true;
 }
 
+template <typename Emit>
+void run_both_orders(WindowFront& front, const Emit& emit, double start,
+                     std::span<const float> bounds, Index work_cap, const KeptFaces& keeps) {
+    using enum WindowQueue::Order;
+    front.bounds = bounds;
+    front.keeps = keeps ? &keeps : nullptr;
+    if (!run_in_order(front, Buckets, emit, start, work_cap)) {
+        (void)run_in_order(front, Nearest, emit, start, no_index);
+    }
+    front.keeps = nullptr;
+}
+
 }  // namespace
+
+bool emit_fan(WindowFront& front, const Fan& fan) {
+    Index h = fan.first;
+    do {
+        emit_into(front, h, fan);
+        if (h == fan.last) return true;
+        h = front.corners.twin(Surface::previous(h));
+    } while (h != no_index && h != fan.first);
+    return h != no_index;
+}
 
 void reach_vertex(WindowFront& front, Index record, const Arrival& arrival) {
     const double distance = arrival.distance;
@@ -337,13 +343,14 @@ void close_edges(WindowFront& front) {
 
 void run_front(WindowFront& front, const SurfacePoint& site, std::span<const float> bounds,
                Index work_cap, const KeptFaces& keeps, double start) {
-    using enum WindowQueue::Order;
-    front.bounds = bounds;
-    front.keeps = keeps ? &keeps : nullptr;
-    if (!run_in_order(front, Buckets, site, start, work_cap)) {
-        (void)run_in_order(front, Nearest, site, start, no_index);
-    }
-    front.keeps = nullptr;
+    run_both_orders(
+        front, [&] { emit_from_site(front, site, start); }, start, bounds, work_cap, keeps);
+}
+
+void run_front(WindowFront& front, const ShapeSource& shape, std::span<const float> bounds,
+               Index work_cap, const KeptFaces& keeps) {
+    run_both_orders(
+        front, [&] { emit_from_shape(front, shape); }, 0, bounds, work_cap, keeps);
 }
 
 }  // namespace agvd

@@ -1,12 +1,14 @@
 //! \file
 //! Exact or error-bounded distances from one site, as far as it can be the nearest: windows through
-//! a bucketed queue of half-edges. The state is plain structs, a pass is a free function.
+//! a bucketed queue of half-edges, and beams from lines. The state is plain structs, a pass is a
+//! free function.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <cassert>
 #include <functional>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -14,6 +16,8 @@
 #include "agvd/core/progress.h"
 #include "agvd/core/run_array.h"
 #include "agvd/mesh/mesh.h"
+#include "agvd/propagation/shape_source.h"
+#include "agvd/propagation/window/beam.h"
 #include "agvd/propagation/window/window.h"
 #include "agvd/propagation/window/window_queue.h"
 
@@ -134,6 +138,24 @@ struct PseudoSourceTable {
     }
 };
 
+//! Beams that wait, and those that came into kept faces.
+struct BeamTable {
+    RunArray<Beam> records;
+    Index first_free = no_index;
+    Index num_served = 0;
+
+    Index add(const Beam& beam) {
+        if (first_free == no_index) return records.push(beam);
+        const Index record = first_free;
+        first_free = std::exchange(records[record], beam).tail;
+        return record;
+    }
+    void give_back(Index record) {
+        records[record].half_edge = no_index;
+        records[record].tail = std::exchange(first_free, record);
+    }
+};
+
 //! True for the faces whose windows are asked for after the run; empty: for all.
 using KeptFaces = std::function<bool(Index face)>;
 
@@ -172,6 +194,7 @@ struct WindowFront {
     VertexTable vertices = {};
     EdgeTable edges = {};
     PseudoSourceTable pseudo_sources = {};
+    BeamTable beams = {};
     WindowStore store = {};
     WatchList watched = {};
     FrontScratch scratch = {};
@@ -200,6 +223,9 @@ struct WindowFront {
         edges.first_free = no_index;
         pseudo_sources.records.clear();
         pseudo_sources.first_free = no_index;
+        beams.records.clear();
+        beams.first_free = no_index;
+        beams.num_served = 0;
         store.clear();
         queue.start(order, start);
         watched.first.fill(no_index);
@@ -210,7 +236,7 @@ struct WindowFront {
     [[nodiscard]] std::size_t bytes() const {
         return (vertices.record_of.capacity() + edges.record_of.capacity()) * sizeof(Index) +
                vertices.records.bytes() + edges.records.bytes() + pseudo_sources.records.bytes() +
-               store.bytes() + queue.bytes();
+               beams.records.bytes() + store.bytes() + queue.bytes();
     }
 
     //! Calls each(vertex, distance) for the vertices reached within their bound: the length of a
@@ -232,6 +258,13 @@ struct WindowFront {
             for (const EdgeRecord& e : edges.records) tell(e);
         } else {
             for (const Index record : edges.by_arrival()) tell(edges.records[record]);
+        }
+    }
+    //! Calls each(beam) for the beams into kept faces.
+    template <typename Each>
+    void for_each_beam(const Each& each) const {
+        for (const Beam& beam : beams.records) {
+            if (beam.half_edge != no_index) each(beam);
         }
     }
 
@@ -321,6 +354,31 @@ void take_in_windows(WindowFront& front, EdgeRecord& edge, const WindowFace& fac
 //! windows were sent on in the order of distance; the relative error is infinite then.
 void serve_edge(WindowFront& front, Index record);
 
+//! Sends the beam of a whole edge of a line into the face of a half-edge of it.
+void emit_beam(WindowFront& front, Index side);
+
+//! Sends on the parts of a beam. It stays among the beams of the front if its face is kept.
+void serve_beam(WindowFront& front, Index record);
+
+//! Directions around a vertex, counter-clockwise.
+struct Fan {
+    double distance;  //!< Of the vertex, from below: the path is longer by at most `error`.
+    float error;
+    Index first;  //!< Leaves the vertex; its face is the first one.
+    //! The same of the last face; no_index: to the boundary, or all around.
+    Index last = no_index;
+    //! Rays that bound the fan in these two faces, in their frames; none: the whole face.
+    std::optional<Vec2> from = {}, to = {};
+};
+
+//! Sends windows through the edges opposite to the vertex. False if the boundary comes before the
+//! last face.
+bool emit_fan(WindowFront& front, const Fan& fan);
+
+//! Sends beams from the sides of a line or a region, and windows from its vertices into the angles
+//! between the beams.
+void emit_from_shape(WindowFront& front, const ShapeSource& shape);
+
 //! Closes the watched half-edges that the current bucket has left behind: their windows and records
 //! are used again. No other result of the run changes.
 void close_edges(WindowFront& front);
@@ -338,5 +396,9 @@ void close_edges(WindowFront& front);
 //! \throw Cancelled  the next run begins anew.
 void run_front(WindowFront& front, const SurfacePoint& site, std::span<const float> bounds,
                Index work_cap, const KeptFaces& keeps = {}, double start = 0);
+
+//! The same from a line or a region. No path crosses it: in front.corners its edges are cut.
+void run_front(WindowFront& front, const ShapeSource& shape, std::span<const float> bounds,
+               Index work_cap, const KeptFaces& keeps = {});
 
 }  // namespace agvd

@@ -1,5 +1,5 @@
 //! \file
-//! The order in which half-edges are served and pseudo-sources emit windows.
+//! The order in which half-edges and beams are served and pseudo-sources emit windows.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,8 @@
 
 namespace agvd {
 
-//! The record of a half-edge or of a pseudo-source, in one word: bit 0 tells which.
+//! The record of a half-edge, a pseudo-source or a beam, in one word: bit 0 tells whether it is a
+//! half-edge, and the highest bit a beam from a pseudo-source.
 struct FrontItem {
     Index word;
 
@@ -20,10 +21,18 @@ struct FrontItem {
     [[nodiscard]] static constexpr FrontItem pseudo_source(Index record) {
         return {2 * record + 1};
     }
-    [[nodiscard]] constexpr bool is_pseudo_source() const { return word % 2 == 1; }
-    [[nodiscard]] constexpr Index record() const { return word / 2; }
+    [[nodiscard]] static constexpr FrontItem beam(Index record) {
+        return {beam_bit | (2 * record + 1)};
+    }
+    [[nodiscard]] constexpr bool is_half_edge() const { return word % 2 == 0; }
+    //! Of an item that is no half-edge.
+    [[nodiscard]] constexpr bool is_beam() const { return (word & beam_bit) != 0; }
+    [[nodiscard]] constexpr Index record() const { return (word & ~beam_bit) / 2; }
     //! Any order that is the same in every run.
     constexpr auto operator<=>(const FrontItem&) const = default;
+
+private:
+    static constexpr Index beam_bit = Index{1} << 31;
 };
 
 //! Items by distance. Any order gives the same distances up to rounding.

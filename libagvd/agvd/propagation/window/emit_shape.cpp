@@ -1,0 +1,119 @@
+// In front of an edge of a line the shortest paths are parallel and make right angles with it; from
+// a vertex they fill the angle between the beams of its edges, if there is one. A sector is what
+// lies around a vertex between two edges of lines, or between one and the boundary; where it is
+// wider than pi (pi / 2 at the boundary), a fan leaves between the right angles.
+#include <algorithm>
+#include <optional>
+
+#include "agvd/propagation/window/window_front.h"
+
+namespace agvd {
+namespace {
+
+// A fan narrower than this (sine of its angle) is rounding.
+constexpr double narrow_fan = 1e-9;
+
+// A face around a vertex, and a ray from the vertex in the frame of the half-edge.
+struct FaceRay {
+    Index half_edge;  // Leaves the vertex.
+    Vec2 ray;
+};
+
+// The next half-edge around the tail; no_index: at the end of the sector.
+Index turn_left(const Corners& corners, Index h) { return corners.twin(Surface::previous(h)); }
+Index turn_right(const Corners& corners, Index h) {
+    const Index twin = corners.twin(h);
+    return twin == no_index ? no_index : Surface::next(twin);
+}
+
+// The ray at a right angle, counter-clockwise, from the half-edge at which a sector begins.
+std::optional<FaceRay> right_angle_after(const Corners& corners, Index first) {
+    FaceRay at{first, {0, 1}};
+    while (true) {
+        const Vec2 turned = into(corners[at.half_edge].turn, at.ray);
+        if (turned.y() <= 0) return at;
+        const Index next = turn_left(corners, at.half_edge);
+        if (next == no_index) return std::nullopt;
+        at = {next, turned};
+    }
+}
+
+// The same clockwise from the edge at which a sector ends, behind the face of the half-edge `last`.
+std::optional<FaceRay> right_angle_before(const Corners& corners, Index last) {
+    const Vec2& end = corners[last].turn;
+    FaceRay at{last, {end.y(), -end.x()}};
+    while (!(at.ray.y() > 0)) {
+        const Index next = turn_right(corners, at.half_edge);
+        if (next == no_index) return std::nullopt;
+        const Vec2& corner = corners[next].turn;
+        at = {next,
+              {corner.x() * at.ray.x() - corner.y() * at.ray.y(),
+               corner.x() * at.ray.y() + corner.y() * at.ray.x()}};
+    }
+    return at;
+}
+
+// Whether a ray lies behind another one counter-clockwise, by more than rounding, in one sector.
+bool is_behind(const Corners& corners, const FaceRay& later, const FaceRay& earlier) {
+    FaceRay at = earlier;
+    bool is_first = true;
+    while (at.half_edge != later.half_edge) {
+        const Index next = turn_left(corners, at.half_edge);
+        if (next == no_index) return false;
+        at = {next, is_first ? into(corners[at.half_edge].turn, at.ray) : Vec2(0, 0)};
+        is_first = false;
+    }
+    if (at.ray == Vec2(0, 0)) return true;  // A whole face lies between.
+    const double angle = cross(at.ray, later.ray);
+    return angle > narrow_fan * at.ray.norm() * later.ray.norm() || at.ray.dot(later.ray) < 0;
+}
+
+// Whether a half-edge at which a sector ends belongs to a line or region, not to the boundary only.
+bool is_of_shape(const WindowFront& front, const ShapeSource& shape, Index half_edge) {
+    return front.surface.twin[half_edge] != no_index ||
+           std::binary_search(shape.sides.begin(), shape.sides.end(), half_edge);
+}
+
+// Emits into the sector that begins at a side.
+void emit_left_of_tail(WindowFront& front, const ShapeSource& shape, Index side) {
+    const Corners& corners = front.corners;
+    const std::optional<FaceRay> from = right_angle_after(corners, side);
+    if (!from) return;
+    Index last = from->half_edge;
+    for (Index next = last; next != no_index; next = turn_left(corners, next)) last = next;
+    Fan fan{0, 0, from->half_edge, last, from->ray};
+    if (is_of_shape(front, shape, Surface::previous(last))) {
+        const std::optional<FaceRay> to = right_angle_before(corners, last);
+        if (!to || !is_behind(corners, *to, *from)) return;
+        fan.last = to->half_edge;
+        fan.to = to->ray;
+    }
+    (void)emit_fan(front, fan);
+}
+
+// Emits into the sector that ends at a side, if it begins at the boundary.
+void emit_right_of_head(WindowFront& front, const ShapeSource& shape, Index side) {
+    const Corners& corners = front.corners;
+    const std::optional<FaceRay> to = right_angle_before(corners, Surface::next(side));
+    if (!to) return;
+    Index first = to->half_edge;
+    for (Index next = first; next != no_index; next = turn_right(corners, next)) first = next;
+    if (is_of_shape(front, shape, first)) return;
+    (void)emit_fan(front, {0, 0, first, to->half_edge, {}, to->ray});
+}
+
+}  // namespace
+
+void emit_from_shape(WindowFront& front, const ShapeSource& shape) {
+    for (const Index vertex : shape.vertices) {
+        VertexRecord& v = front.vertices.records[vertex_record(front, vertex)];
+        v.low = v.upper = v.bound = 0;
+    }
+    for (const Index side : shape.sides) {
+        emit_beam(front, side);
+        emit_left_of_tail(front, shape, side);
+        emit_right_of_head(front, shape, side);
+    }
+}
+
+}  // namespace agvd

@@ -1,0 +1,223 @@
+// Cells of lines and regions: in the plane their borders are parts of parabolas and lines by
+// formula, elsewhere their points are as far from both sites.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "agvd/core/error.h"
+#include "agvd/diagram/diagram.h"
+#include "agvd/diagram/face_relays.h"
+#include "agvd/mesh/surface_points.h"
+#include "support/checks.h"
+#include "support/line_sites.h"
+#include "support/points.h"
+#include "support/random_meshes.h"
+#include "support/shapes.h"
+
+using namespace agvd;
+using namespace line_sites;
+
+namespace {
+
+// Lines and regions that have no vertex in common, and points.
+struct MixedSites {
+    std::vector<SurfacePoint> points;
+    std::vector<SiteShape> shapes;
+};
+
+std::vector<Index> vertices_of(const Surface& surface, const SiteShape& shape) {
+    std::vector<Index> vertices;
+    for (const Index e : shape.edges) {
+        vertices.push_back(surface.tail(surface.edge_half[e]));
+        vertices.push_back(surface.head(surface.edge_half[e]));
+    }
+    for (const Index f : shape.faces) {
+        for (const Index v : surface.mesh.triangles[f]) vertices.push_back(v);
+    }
+    return vertices;
+}
+
+MixedSites mixed_sites(const Surface& surface, std::uint64_t seed) {
+    MixedSites sites{points::scattered(surface, 4, seed), {}};
+    std::vector<bool> is_taken(surface.num_vertices(), false);
+    for (std::uint64_t i = 0; i < 4; ++i) {
+        const SiteShape shape = i % 2 == 0 ? random_line(surface, 5, seed * 4 + i)
+                                           : random_region(surface, 4, seed * 4 + i);
+        const std::vector<Index> own = vertices_of(surface, shape);
+        if (std::any_of(own.begin(), own.end(), [&](Index v) { return is_taken[v]; })) continue;
+        for (const Index v : own) is_taken[v] = true;
+        sites.shapes.push_back(shape);
+    }
+    sites.shapes = numbered(sites.shapes, 4);
+    return sites;
+}
+
+// From one site, within the point's face.
+double distance_through_relays(const Surface& surface, const Propagation& propagation,
+                               const SurfacePoint& p, SiteId site) {
+    const std::optional<Index> mixed = mixed_index_of(propagation, p.face.value());
+    if (!mixed) return infinity;
+    double least = infinity;
+    for (const Relay& relay : relays_of(propagation, *mixed)) {
+        if (relay.site != site) continue;
+        const PlanarRelay planar = to_planar(relay, to_face_frame(surface, relay.half_edge));
+        least = std::min(least,
+                         reach(planar, position_in_frame(surface, p, 3 * p.face.value())).distance);
+    }
+    return least;
+}
+
+}  // namespace
+
+TEST(CellsOfLines, EndAtTheParabola) {
+    for (const Index n : {3, 8, 13}) {
+        SCOPED_TRACE(n);
+        const Surface surface = uneven_square(n, n);
+        SiteShape bottom{.site = 1};
+        for (Index e = 0; e < surface.num_edges(); ++e) {
+            const Index h = surface.edge_half[e];
+            const auto& at = surface.mesh.positions;
+            if (at[surface.tail(h)].y() == 0 && at[surface.head(h)].y() == 0) {
+                bottom.edges.push_back(e);
+            }
+        }
+        ASSERT_EQ(bottom.edges.size(), n);
+        Index middle = 0;  // The vertex nearest to the middle.
+        const Vec3 centre(0.5, 0.5, 0);
+        for (Index v = 0; v < surface.num_vertices(); ++v) {
+            const auto& at = surface.mesh.positions;
+            if ((at[v] - centre).norm() < (at[middle] - centre).norm()) middle = v;
+        }
+        const Vec3 focus = surface.mesh.positions[middle];
+        const std::vector<SurfacePoint> point{point_at(surface, middle)};
+        const Propagation propagation =
+            propagate(surface, point, {.shapes = {bottom}, .max_error = 0});
+        const Diagram diagram =
+            build_diagram(surface, point, propagation, {.chord_tolerance = 1e-5});
+        checks::expect_valid_complex(surface, diagram);
+        // The parabola is y = ((x - fx)^2 + fy^2) / 2 fy.
+        const auto integral = [&](double x) {
+            return (std::pow(x - focus.x(), 3) / 3 + focus.y() * focus.y() * x) / (2 * focus.y());
+        };
+        // At most 16 chords in a face.
+        EXPECT_NEAR(diagram.cell_area[1], integral(1) - integral(0), 4e-4 / (n * n));
+        Index count = 0;
+        for (Index e = 0; e < diagram.edges.size(); ++e) {
+            if (!diagram.edges[e].right.is_valid()) continue;
+            for (Index i = diagram.edge_points[e]; i < diagram.edge_points[e + 1]; ++i) {
+                const Vec3 p = position(surface.mesh.view(), diagram.points[i]);
+                EXPECT_NEAR((p - focus).norm(), p.y(), 1e-11);
+                EXPECT_NEAR(diagram.point_distance[i], p.y(), 1e-11);
+                ++count;
+            }
+        }
+        EXPECT_GT(count, 2 * n);
+    }
+}
+
+TEST(CellsOfLines, AreThoseOfTheFormulaInThePlane) {
+    int count = 0, num_shapes = 0;
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        const Surface surface = uneven_square(14, seed);
+        const auto [points, shapes] = mixed_sites(surface, seed);
+        num_shapes += static_cast<int>(shapes.size());
+        const Propagation propagation =
+            propagate(surface, points, {.shapes = shapes, .max_error = 0});
+        const Diagram diagram = build_diagram(surface, points, propagation);
+        checks::expect_valid_complex(surface, diagram);
+        EXPECT_EQ(diagram.num_sites, 4 + shapes.size());
+        for (Index e = 0; e < diagram.edges.size(); ++e) {
+            if (!diagram.edges[e].right.is_valid()) continue;
+            for (Index i = diagram.edge_points[e]; i < diagram.edge_points[e + 1]; ++i) {
+                const Vec3 p = position(surface.mesh.view(), diagram.points[i]);
+                for (const SiteId s : {diagram.edges[e].left, diagram.edges[e].right}) {
+                    const double distance =
+                        s.value() < 4
+                            ? (position(surface.mesh.view(), points[s.value()]) - p).norm()
+                            : in_plane(surface, shapes[s.value() - 4], p);
+                    ASSERT_NEAR(diagram.point_distance[i], distance, 1e-10);
+                    ++count;
+                }
+            }
+        }
+    }
+    EXPECT_GT(num_shapes, 40);
+    EXPECT_GT(count, 5000);
+}
+
+TEST(CellsOfLines, AreACellComplexOnRandomMeshes) {
+    int count = 0;
+    for (const char* family : random_meshes::families()) {
+        for (std::uint64_t seed = 0; seed < 10; ++seed) {
+            SCOPED_TRACE(std::string(family) + " seed " + std::to_string(seed));
+            const Surface surface = build_surface(random_meshes::make(family, seed).view());
+            const auto [points, shapes] = mixed_sites(surface, seed);
+            std::vector<PropagationOptions> all{{.max_error = 0}, {}, {.engine = Engine::Steiner}};
+            for (PropagationOptions& options : all) {
+                options.shapes = shapes;
+                checks::expect_valid_complex(
+                    surface, build_diagram(surface, points, propagate(surface, points, options)));
+                ++count;
+            }
+        }
+    }
+    EXPECT_GE(count, 300);
+}
+
+// No site is nearer there than those of the border. On coarse meshes, where a face holds several
+// parts of a cell, this is so for most points only.
+TEST(CellsOfLines, HaveBordersOfEqualDistances) {
+    int count = 0;
+    const TriangleMesh meshes[] = {shapes::jitter(shapes::sphere(4), 0.01, 3),
+                                   shapes::jitter(shapes::torus(80, 40), 0.01, 4)};
+    for (const TriangleMesh& mesh : meshes) {
+        const Surface surface = build_surface(mesh.view());
+        const double radius = std::sqrt(surface_area(surface) / (std::numbers::pi * 8));
+        for (std::uint64_t seed = 0; seed < 6; ++seed) {
+            SCOPED_TRACE("seed " + std::to_string(seed));
+            const auto [points, shapes] = mixed_sites(surface, seed);
+            const Propagation propagation =
+                propagate(surface, points, {.shapes = shapes, .max_error = 0});
+            const Diagram diagram = build_diagram(surface, points, propagation);
+            checks::expect_valid_complex(surface, diagram);
+            for (Index e = 0; e < diagram.edges.size(); ++e) {
+                const auto [left, right, tail, head] = diagram.edges[e];
+                for (Index i = diagram.edge_points[e]; i < diagram.edge_points[e + 1]; ++i) {
+                    const SurfacePoint& p = diagram.points[i];
+                    const double least = label_at(surface, propagation, p).distance.value();
+                    ASSERT_NEAR(diagram.point_distance[i], least, 1e-10 * radius);
+                    for (const SiteId site : {left, right}) {
+                        ASSERT_NEAR(distance_through_relays(surface, propagation, p, site), least,
+                                    1e-10 * radius);
+                    }
+                    ++count;
+                }
+            }
+        }
+    }
+    EXPECT_GT(count, 5000);
+}
+
+TEST(CellsOfLines, AreTheSameForAnyNumberOfThreads) {
+    const Surface surface = build_surface(shapes::jitter(shapes::sphere(4), 0.01, 3).view());
+    const auto [points, shapes] = mixed_sites(surface, 1);
+    PropagationOptions options{.shapes = shapes, .num_threads = 1};
+    const Propagation one = propagate(surface, points, options);
+    options.num_threads = 3;
+    const Propagation three = propagate(surface, points, options);
+    checks::expect_same(one, three);
+    checks::expect_same(build_diagram(surface, points, one, {.num_threads = 1}),
+                        build_diagram(surface, points, three, {.num_threads = 3}));
+}
+
+TEST(CellsOfLines, HaveNoArcs) {
+    const Surface surface = build_surface(shapes::grid(3).view());
+    const auto [points, shapes] = mixed_sites(surface, 1);
+    ASSERT_FALSE(shapes.empty());
+    const Propagation propagation = propagate(surface, points, {.shapes = shapes});
+    EXPECT_THROW((void)build_diagram(surface, points, propagation, {.chord = 1e-3}), InvalidOption);
+}
