@@ -90,7 +90,7 @@ struct SiteGoal {
 //! \param sites, propagation  propagate(surface, sites).
 //! \throw InvalidInput   no site reaches the point.
 //! \throw InvalidOption  a site is a line or a region.
-//! Cost: along relays O(faces crossed), and O(relays) at each vertex where the path bends.
+//! Cost: along relays O(faces crossed), and O(relays) at each vertex that the path meets.
 [[nodiscard]] GeodesicPath path_to_site(const Surface& surface, std::span<const SurfacePoint> sites,
                                         const Propagation& propagation, const SurfacePoint& point,
                                         const Progress& progress = {});

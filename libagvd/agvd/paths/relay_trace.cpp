@@ -1,9 +1,8 @@
 // At the point, the nearest relay of its faces tells the image to go to. The line to the image is
 // followed from face to face until the image lies in one: there the next relay is asked. It is that
-// of the site, or of a vertex where the path bends. At a vertex on the line, all faces around it are
-// asked: rounding would choose the side on which the path passes it, and the image is right on one
-// side only. Relays with errors are asked in every face, since no site or vertex need lie at their
-// images.
+// of the site, or of a vertex where the path bends. At a vertex on the line all its faces are
+// asked: the image is right on one side of it only, and rounding would choose the side. Relays with
+// errors are asked in every face, since no site or vertex need lie at their images.
 #include "agvd/paths/relay_trace.h"
 
 #include <algorithm>

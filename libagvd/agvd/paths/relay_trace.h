@@ -27,7 +27,7 @@ struct TracedPath {
 
 //! \param point  snapped.
 //! \return none where a face on the way has no relays, or rounding leads astray.
-//! Cost: O(relays) at the point and at each vertex where the path bends, O(1) in other faces; with
+//! Cost: O(relays) at the point and at each vertex that the path meets, O(1) in other faces; with
 //! errors in the relays O(relays) in all faces.
 [[nodiscard]] std::optional<TracedPath> trace_to_site(const TracedField& field,
                                                       const SurfacePoint& point, Ticker& ticker);
