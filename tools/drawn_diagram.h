@@ -77,7 +77,7 @@ struct DrawnSites {
 //! The mesh cut along the bisectors. Parameters and errors as above.
 //! \return its face_origin names the caller's faces.
 [[nodiscard]] agvd::CutCells cut_cells(const agvd::MeshView& mesh, const DrawnSites& sites,
-                                       const agvd::PropagationOptions& options,
+                                       agvd::PropagationOptions options,
                                        const SurfaceOptions& as_surface,
                                        const StageProgress& progress_of);
 
