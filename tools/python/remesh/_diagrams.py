@@ -218,8 +218,8 @@ def voronoi(V: Any, F: Any = None, sites: Any = None, max_error: float | None = 
     True
     >>> len(diagram.bisectors), diagram.neighbours_of(0)
     (1, array([1]))
-    >>> line = remesh.voronoi(V, F, [0], lines=[F[100][:2]], regions=[[200, 201]])
-    >>> line.labels[F[100][0]], line.labels[F[200]].tolist(), line.cell_area.shape
+    >>> line = remesh.voronoi(V, F, [0], lines=[F[100][:2]], regions=[[300, 301]])
+    >>> line.labels[F[100][0]], line.labels[F[300]].tolist(), line.cell_area.shape
     (1, [2, 2, 2], (3,))
     >>> pairs = remesh.voronoi(V, F, [0, 1, 2, 3], groups=[0, 0, 1, 1])
     >>> pairs.cell_area.shape, sorted(set(pairs.labels.tolist()))
@@ -259,8 +259,8 @@ def cut_cells(V: Any, F: Any = None, sites: Any = None, max_error: float | None 
     shapes = _shapes(mesh, lines, regions)
     faces, barycentric = _points(mesh, sites, shapes)
     return _remesh.cut_cells(mesh.V, mesh.F, faces, barycentric, _groups(groups, len(faces)),
-                             _weights(weights, len(faces)), *shapes, _barriers(barriers, mesh),
-                             _lengths(edge_lengths, barriers, mesh),
+                             _weights(weights, len(faces)), shapes[0], shapes[1],
+                             _barriers(barriers, mesh), _lengths(edge_lengths, barriers, mesh),
                              *_common(engine, max_error, keep_slits, threads), progress)
 
 
@@ -297,7 +297,7 @@ def geodesic_distance(V: Any, F: Any = None, sources: Any = None, max_error: flo
             float("inf") if radius is None else _arrays.number(radius, "radius"),
             1e-4 if error is None else error, slits, num_threads, progress)
     return _remesh.geodesic_distance(mesh.V, mesh.F, faces, barycentric,
-                                     _weights(weights, len(faces)), *shapes,
+                                     _weights(weights, len(faces)), shapes[0], shapes[1],
                                      _barriers(barriers, mesh), _lengths(edge_lengths, barriers, mesh),
                                      *_common(engine, max_error, keep_slits, threads), progress)
 
