@@ -362,7 +362,7 @@ Input prepare(const Arguments& arguments, cli::Console& console) {
     // Otherwise memory that half a stage has freed between its results would stay in use. Less than
     // a small run takes in all is kept: each page that comes back is cleared anew, a fifth of the
     // time of bunny with 2000.
-    constexpr std::size_t kept_free = std::size_t{1} << 25;
+    constexpr std::size_t kept_free = std::size_t{3} << 24;
     const auto progress = [&, last = std::pair(remesh::Stage::Clean, false)](
                               remesh::Stage stage, double fraction) mutable {
         const bool goes_on = console.progress(remesh::stage_name(stage), fraction);
