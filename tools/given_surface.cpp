@@ -8,6 +8,18 @@ namespace cli {
 using agvd::Index;
 using agvd::SurfacePoint;
 
+std::vector<agvd::SiteShape> carry_shapes(std::span<const remesh::GivenShape> shapes,
+                                          const agvd::MeshView& mesh,
+                                          const remesh::CleanedView& clean,
+                                          const agvd::Surface& surface) {
+    std::vector<agvd::SiteShape> carried;
+    for (const remesh::GivenShape& shape : shapes) {
+        carried.push_back(remesh::carry_shape(shape.edges, shape.faces, mesh, clean, surface));
+        carried.back().site = shape.site;
+    }
+    return carried;
+}
+
 GivenSurface::GivenSurface(const agvd::MeshView& mesh, const remesh::CleanOptions& cleaning,
                            std::span<const std::array<Index, 2>> barriers)
     : mesh_(mesh),
@@ -30,12 +42,7 @@ std::vector<SurfacePoint> GivenSurface::to_surface(const std::vector<SurfacePoin
 
 std::vector<agvd::SiteShape> GivenSurface::to_surface(
     const std::vector<remesh::GivenShape>& shapes) const {
-    std::vector<agvd::SiteShape> moved;
-    for (const remesh::GivenShape& shape : shapes) {
-        moved.push_back(remesh::carry_shape(shape.edges, shape.faces, mesh_, clean_, surface_));
-        moved.back().site = shape.site;
-    }
-    return moved;
+    return carry_shapes(shapes, mesh_, clean_, surface_);
 }
 
 std::vector<SurfacePoint> GivenSurface::to_given(const std::vector<SurfacePoint>& points) const {

@@ -13,6 +13,13 @@
 
 namespace cli {
 
+//! Lines and regions of a mesh on the surface of the cleaned one. Parameters and errors as those of
+//! remesh::carry_shape.
+[[nodiscard]] std::vector<agvd::SiteShape> carry_shapes(std::span<const remesh::GivenShape> shapes,
+                                                        const agvd::MeshView& mesh,
+                                                        const remesh::CleanedView& clean,
+                                                        const agvd::Surface& surface);
+
 //! What all stages but remesh() work on. Points are carried between the caller's faces and those of
 //! the surface.
 class GivenSurface {

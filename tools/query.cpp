@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "agvd/mesh/cut_surface.h"
+#include "given_surface.h"
 #include "help.h"
 #include "remesh/clean/carry.h"
 #include "remesh/meshfile/atomic_file.h"
@@ -48,17 +49,6 @@ std::vector<SurfacePoint> on_surface(const OpenedInput& input,
                                      const std::vector<SurfacePoint>& given) {
     if (input.surface.has_own_lengths) return given;
     return remesh::to_cleaned(given, input.file.mesh.view(), input.clean);
-}
-
-std::vector<agvd::SiteShape> shapes_on_surface(const OpenedInput& input,
-                                               std::span<const remesh::GivenShape> given) {
-    std::vector<agvd::SiteShape> shapes;
-    for (const remesh::GivenShape& shape : given) {
-        shapes.push_back(remesh::carry_shape(shape.edges, shape.faces, input.file.mesh.view(),
-                                             input.clean, input.surface));
-        shapes.back().site = shape.site;
-    }
-    return shapes;
 }
 
 std::vector<SurfacePoint> sample(const DiagramArguments& arguments, const agvd::Surface& surface,
@@ -150,8 +140,9 @@ GivenSites sites_on(const OpenedInput& input, const DiagramArguments& arguments,
         remesh::SitesFile given = read_given_sites(arguments, mesh, console);
         sites.points = naming_file(arguments.sites, [&] { return on_surface(input, given.sites); });
         sites.roles = std::move(given.points);
-        sites.shapes =
-            naming_file(arguments.sites, [&] { return shapes_on_surface(input, given.shapes); });
+        sites.shapes = naming_file(arguments.sites, [&] {
+            return carry_shapes(given.shapes, input.file.mesh.view(), input.clean, input.surface);
+        });
     }
     const double slit = input.clean.slit_length;
     if (slit > remesh::mean_spacing(input.surface, sites.points.size() + sites.shapes.size())) {

@@ -271,4 +271,15 @@ void expect_same(const Diagram& a, const Diagram& b) {
     EXPECT_EQ(a.cell_euler, b.cell_euler);
 }
 
+void expect_same_for_threads(const Surface& surface, std::span<const SurfacePoint> sites,
+                             PropagationOptions options) {
+    options.num_threads = 1;
+    const Propagation one = propagate(surface, sites, options);
+    options.num_threads = 3;
+    const Propagation three = propagate(surface, sites, options);
+    expect_same(one, three);
+    expect_same(build_diagram(surface, sites, one, {.num_threads = 1}),
+                build_diagram(surface, sites, three, {.num_threads = 3}));
+}
+
 }  // namespace checks

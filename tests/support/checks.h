@@ -2,6 +2,8 @@
 //! Invariants that hold for every valid result.
 #pragma once
 
+#include <span>
+
 #include "agvd/diagram/diagram.h"
 #include "agvd/propagation/propagate.h"
 
@@ -20,5 +22,10 @@ void expect_valid_complex(const agvd::Surface& surface, const agvd::Diagram& dia
 void expect_same(const agvd::Surface& a, const agvd::Surface& b);
 void expect_same(const agvd::Propagation& a, const agvd::Propagation& b);
 void expect_same(const agvd::Diagram& a, const agvd::Diagram& b);
+
+//! One thread and three give the same propagation and the same diagram.
+void expect_same_for_threads(const agvd::Surface& surface,
+                             std::span<const agvd::SurfacePoint> sites,
+                             agvd::PropagationOptions options);
 
 }  // namespace checks

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "agvd/core/error.h"
 #include "agvd/core/random.h"
 #include "support/dice.h"
 #include "support/shapes.h"
@@ -174,6 +175,14 @@ TriangleMesh spiked(std::uint64_t seed, agvd::Index most) {
         p[dice.count(0, 2)] *= std::pow(10.0, dice.count(0, most));
     }
     return mesh;
+}
+
+std::optional<agvd::Surface> spiked_surface(std::uint64_t seed) {
+    try {
+        return agvd::build_surface(spiked(seed).view());
+    } catch (const agvd::InvalidInput&) {
+        return std::nullopt;
+    }
 }
 
 }  // namespace shapes

@@ -2,7 +2,10 @@
 //! Meshes with defects, by formula.
 #pragma once
 
+#include <optional>
+
 #include "agvd/mesh/mesh.h"
+#include "agvd/mesh/surface.h"
 
 namespace shapes {
 
@@ -34,5 +37,7 @@ namespace shapes {
 //! Three quarters of a cube of 48 faces, some of its coordinates times up to 10^most: spikes. With
 //! 17 their width is a rounding of their length.
 [[nodiscard]] agvd::TriangleMesh spiked(std::uint64_t seed, agvd::Index most = 17);
+//! It as a surface; none if a face has no area.
+[[nodiscard]] std::optional<agvd::Surface> spiked_surface(std::uint64_t seed);
 
 }  // namespace shapes

@@ -2,17 +2,13 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include "agvd/core/error.h"
 #include "agvd/mesh/surface_points.h"
 
 namespace agvd {
 namespace {
-
-void sort_out(std::vector<Index>& values) {
-    std::sort(values.begin(), values.end());
-    values.erase(std::unique(values.begin(), values.end()), values.end());
-}
 
 bool is_among(const std::vector<Index>& ascending, Index value) {
     return std::binary_search(ascending.begin(), ascending.end(), value);
@@ -31,8 +27,7 @@ void check_range(const std::vector<Index>& indices, Index count, std::size_t sha
 }  // namespace
 
 ShapeSource shape_source(const Surface& surface, const SiteShape& shape) {
-    std::vector<Index> faces = shape.faces;
-    sort_out(faces);
+    const std::vector<Index> faces = distinct(shape.faces);
     const auto is_inside = [&](Index half_edge) {
         return is_among(faces, Surface::face(half_edge));
     };
@@ -53,8 +48,8 @@ ShapeSource shape_source(const Surface& surface, const SiteShape& shape) {
             source.vertices.push_back(surface.tail(h));
         }
     }
-    sort_out(source.sides);
-    sort_out(source.vertices);
+    source.sides = distinct(std::move(source.sides));
+    source.vertices = distinct(std::move(source.vertices));
     return source;
 }
 
@@ -80,7 +75,9 @@ std::vector<Index> points_off_shapes(const Surface& surface, std::span<const Sur
             for (Index h = 3 * face; h < 3 * face + 3; ++h) edges.push_back(surface.edge[h]);
         }
     }
-    for (std::vector<Index>* const all : {&vertices, &edges, &faces}) sort_out(*all);
+    for (std::vector<Index>* const all : {&vertices, &edges, &faces}) {
+        *all = distinct(std::move(*all));
+    }
     std::vector<Index> off;
     for (Index i = 0; i < points.size(); ++i) {
         const SurfacePoint& p = points[i];

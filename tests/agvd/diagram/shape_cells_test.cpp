@@ -205,13 +205,7 @@ TEST(CellsOfLines, HaveBordersOfEqualDistances) {
 TEST(CellsOfLines, AreTheSameForAnyNumberOfThreads) {
     const Surface surface = build_surface(shapes::jitter(shapes::sphere(4), 0.01, 3).view());
     const auto [points, shapes] = mixed_sites(surface, 1);
-    PropagationOptions options{.shapes = shapes, .num_threads = 1};
-    const Propagation one = propagate(surface, points, options);
-    options.num_threads = 3;
-    const Propagation three = propagate(surface, points, options);
-    checks::expect_same(one, three);
-    checks::expect_same(build_diagram(surface, points, one, {.num_threads = 1}),
-                        build_diagram(surface, points, three, {.num_threads = 3}));
+    checks::expect_same_for_threads(surface, points, {.shapes = shapes});
 }
 
 TEST(CellsOfLines, HaveNoArcs) {

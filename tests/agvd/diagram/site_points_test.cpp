@@ -182,14 +182,8 @@ TEST(SitesOfPoints, OwnTheCellsOfTheirPoints) {
 TEST(SitesOfPoints, AreTheSameForAnyNumberOfThreads) {
     const Surface surface = build_surface(shapes::jitter(shapes::sphere(3), 0.05, 3).view());
     const auto sites = points::scattered(surface, 40, 2);
-    PropagationOptions options{
-        .points = {.site = dealt_out(40, 6), .start = random_starts(40, 0.3, 1)}, .num_threads = 1};
-    const Propagation one = propagate(surface, sites, options);
-    options.num_threads = 3;
-    const Propagation three = propagate(surface, sites, options);
-    checks::expect_same(one, three);
-    checks::expect_same(build_diagram(surface, sites, one, {.num_threads = 1}),
-                        build_diagram(surface, sites, three, {.num_threads = 3}));
+    checks::expect_same_for_threads(
+        surface, sites, {.points = {.site = dealt_out(40, 6), .start = random_starts(40, 0.3, 1)}});
 }
 
 TEST(SitesWithStarts, HaveHyperbolasInThePlane) {

@@ -141,7 +141,8 @@ TEST(WindowPasses, HalfEdgesBehindTheFrontAreClosed) {
 }
 
 TEST(EdgeTable, RecordsGivenBackAreUsedAgain) {
-    EdgeTable edges{std::vector<Index>(12, 0), {}};
+    EdgeTable edges;
+    edges.record_of.assign(12, 0);
     for (const Index h : {Index{5}, Index{2}, Index{9}}) (void)edges.add({h, 0, 1});
     EXPECT_EQ(edges.find(2), 1u);
     edges.give_back(1);

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "agvd/core/number_text.h"
 #include "agvd/mesh/surface.h"
@@ -236,9 +237,7 @@ NumberedPoints with_shapes(const Surface& surface, std::span<const SurfacePoint>
         for (const Index face : shape.faces) {
             for (Index h = 3 * face; h < 3 * face + 3; ++h) edges.push_back(surface.edge[h]);
         }
-        std::sort(edges.begin(), edges.end());
-        edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-        for (const Index edge : edges) {
+        for (const Index edge : distinct(std::move(edges))) {
             for (int i = 0; i <= options.steiner_points + 1; ++i) {
                 all.points.push_back(point_on(surface.edge_half[edge], std::min(i * step, 1.0)));
             }

@@ -17,7 +17,8 @@ struct Beam {
     double weight;  //!< Distance of the half-edge's tail, or of its projection on the beam.
     double begin, end;
     Index half_edge;
-    Index tail, head;  //!< Records of the half-edge's ends.
+    Index tail,
+        head;  //!< Records of the half-edge's ends; of a free beam tail is the next free one.
 
     //! Of a point of the edge.
     [[nodiscard]] double distance(double at) const { return weight - at * x; }

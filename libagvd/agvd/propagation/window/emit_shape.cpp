@@ -46,9 +46,7 @@ std::optional<FaceRay> right_angle_before(const Corners& corners, Index last) {
         const Index next = turn_right(corners, at.half_edge);
         if (next == no_index) return std::nullopt;
         const Vec2& corner = corners[next].turn;
-        at = {next,
-              {corner.x() * at.ray.x() - corner.y() * at.ray.y(),
-               corner.x() * at.ray.y() + corner.y() * at.ray.x()}};
+        at = {next, into({corner.x(), -corner.y()}, at.ray)};
     }
     return at;
 }

@@ -54,6 +54,27 @@ struct VertexTable {
     }
 };
 
+//! Records of which a run gives some back and uses them again. The field `next` links the free
+//! ones.
+template <typename Record, Index Record::*next>
+struct ReusedRecords {
+    RunArray<Record> records;
+    Index first_free = no_index;
+
+    //! \return its index.
+    Index add(const Record& record) {
+        if (first_free == no_index) return records.push(record);
+        const Index at = first_free;
+        first_free = std::exchange(records[at], record).*next;
+        return at;
+    }
+    void give_back(Index record) { records[record].*next = std::exchange(first_free, record); }
+    void clear() {
+        records.clear();
+        first_free = no_index;
+    }
+};
+
 //! A half-edge to which windows are sent, and the records of its ends.
 struct HalfEdgeEnds {
     Index half_edge;
@@ -76,11 +97,9 @@ struct EdgeRecord {
 };
 
 //! Records of the half-edges that a run has come to.
-struct EdgeTable {
+struct EdgeTable : ReusedRecords<EdgeRecord, &EdgeRecord::next> {
     std::vector<Index> record_of;  //!< #H: the record of a half-edge, if it names the half-edge.
-    RunArray<EdgeRecord> records;
-    Index num_arrivals = 0;       //!< Exceeds the number of records if some were used again.
-    Index first_free = no_index;  //!< List of free records.
+    Index num_arrivals = 0;        //!< Exceeds the number of records if some were used again.
 
     //! no_index: the run has not come there, or has given the record back.
     [[nodiscard]] Index find(Index half_edge) const {
@@ -89,16 +108,16 @@ struct EdgeTable {
                                                                                  : no_index;
     }
     Index add(const HalfEdgeEnds& ends) {
-        const EdgeRecord record{ends.half_edge, ends.tail, ends.head, num_arrivals++};
-        Index& at = record_of[ends.half_edge];
-        if (first_free == no_index) return at = records.push(record);
-        at = first_free;
-        first_free = std::exchange(records[at], record).next;
-        return at;
+        return record_of[ends.half_edge] =
+                   ReusedRecords::add({ends.half_edge, ends.tail, ends.head, num_arrivals++});
     }
     void give_back(Index record) {
         records[record].half_edge = no_index;
-        records[record].next = std::exchange(first_free, record);
+        ReusedRecords::give_back(record);
+    }
+    void clear() {
+        ReusedRecords::clear();
+        num_arrivals = 0;
     }
     //! Those in use, in the order in which the run came to their half-edges.
     [[nodiscard]] std::vector<Index> by_arrival() const {
@@ -121,38 +140,25 @@ struct PseudoSource {
 };
 
 //! Pseudo-sources that wait.
-struct PseudoSourceTable {
-    RunArray<PseudoSource> records;
-    Index first_free = no_index;
-
-    Index add(const PseudoSource& source) {
-        if (first_free == no_index) return records.push(source);
-        const Index record = first_free;
-        first_free = std::exchange(records[record], source).vertex;
-        return record;
-    }
+struct PseudoSourceTable : ReusedRecords<PseudoSource, &PseudoSource::vertex> {
     PseudoSource take(Index record) {
         const PseudoSource source = records[record];
-        records[record].vertex = std::exchange(first_free, record);
+        give_back(record);
         return source;
     }
 };
 
 //! Beams that wait, and those that came into kept faces.
-struct BeamTable {
-    RunArray<Beam> records;
-    Index first_free = no_index;
+struct BeamTable : ReusedRecords<Beam, &Beam::tail> {
     Index num_served = 0;
 
-    Index add(const Beam& beam) {
-        if (first_free == no_index) return records.push(beam);
-        const Index record = first_free;
-        first_free = std::exchange(records[record], beam).tail;
-        return record;
-    }
     void give_back(Index record) {
         records[record].half_edge = no_index;
-        records[record].tail = std::exchange(first_free, record);
+        ReusedRecords::give_back(record);
+    }
+    void clear() {
+        ReusedRecords::clear();
+        num_served = 0;
     }
 };
 
@@ -218,14 +224,9 @@ struct WindowFront {
     //! Prepares the next run. Keeps the memory. \param start  the least distance of the run.
     void reset(WindowQueue::Order order, double start = 0) {
         vertices.records.clear();
-        edges.records.clear();
-        edges.num_arrivals = 0;
-        edges.first_free = no_index;
-        pseudo_sources.records.clear();
-        pseudo_sources.first_free = no_index;
-        beams.records.clear();
-        beams.first_free = no_index;
-        beams.num_served = 0;
+        edges.clear();
+        pseudo_sources.clear();
+        beams.clear();
         store.clear();
         queue.start(order, start);
         watched.first.fill(no_index);
