@@ -24,7 +24,8 @@ constexpr const char* distance_footer =
     "FILE has a point on each line: `v VERTEX`, `f FACE B0 B1 B2` or `p X Y Z`; for\n"
     "--sites also `site N` behind it, the site that it belongs to, and `start D`, the\n"
     "distance that it starts with. A line `l VERTEX VERTEX ...` is a site along edges\n"
-    "of the mesh, `r FACE FACE ...` a region, with distance 0 inside.\n\n"
+    "of the mesh, `r FACE FACE ...` a region, at its start (or 0) inside; `site` and\n"
+    "`start` may stand behind these, too.\n\n"
     "Output (.gz behind the extension: compressed):\n"
     "  .ply, .vtp, .vtk   the cleaned mesh with the vertex properties site (-1: none)\n"
     "         and distance (infinity: not reached); with --nearest also site_2,\n"
@@ -141,10 +142,11 @@ void run_distance(const DistanceArguments& arguments, Console& console) {
     const double max_error = arguments.propagation.max_error.value_or(0);
     const int threads = arguments.common.threads;
     if (arguments.nearest > 1) {
-        require_plain_points(arguments.sites, sites.roles, sites.shapes.size(), "--nearest takes");
         const agvd::KNearest ranks =
             agvd::k_nearest_sites(surface, sites.points, arguments.nearest,
-                                  {.max_error = max_error,
+                                  {.points = sites.roles,
+                                   .shapes = sites.shapes,
+                                   .max_error = max_error,
                                    .num_threads = threads,
                                    .progress = console.progress_of("propagate")});
         console.info(remesh::to_text(agvd::Engine::Window, ranks.certified_error));

@@ -14,9 +14,10 @@ constexpr const char* isolines_footer =
     "Examples:\n"
     "  agvd isolines bunny.ply --sites sites.txt --every 0.01 -o lines.vtp\n"
     "  agvd isolines part.stl -n 20 --levels 1,2.5,4 --tolerance 0.01 -o lines.obj\n\n"
-    "In each face a line is made of arcs of circles. Points of the output lie on\n"
-    "them: at their level up to 1e-9 of it, if the distances are exact. A level that\n"
-    "meets the distance of a vertex is raised by 2e-10 of it.\n\n"
+    "In each face a line is made of arcs of circles, and is straight in front of\n"
+    "edges of lines and regions. Points of the output lie on them: at their level up\n"
+    "to 1e-9 of it, if the distances are exact. A level that meets the distance of a\n"
+    "vertex is raised by 2e-10 of it.\n\n"
     "Output (.gz behind the extension: compressed):\n"
     "  .vtp   VTK PolyData for ParaView: a polyline for each line, a closed one ends\n"
     "         with its first point; cell data level\n"
@@ -62,14 +63,8 @@ void run_isolines(const IsolineArguments& arguments, Console& console) {
     const OpenedInput input = open_input(arguments, console, [](std::size_t num_faces) {
         return stages_of_query(num_faces, "isolines");
     });
-    const std::vector<agvd::SurfacePoint> sites =
-        plain_sites_on(input, arguments, console, "isolines are about");
-    agvd::PropagationOptions propagating = arguments.propagation;
-    propagating.relay_faces = agvd::all_faces(input.surface);
-    propagating.num_threads = arguments.common.threads;
-    propagating.progress = console.progress_of("propagate");
-    const agvd::Propagation propagation = agvd::propagate(input.surface, sites, propagating);
-    console.info(remesh::to_text(propagating.engine, propagation.certified_error));
+    const GivenSites sites = sites_on(input, arguments, console);
+    const agvd::Propagation propagation = propagate_everywhere(input, arguments, sites, console);
     const std::vector<double> levels = arguments.levels.empty()
                                            ? agvd::levels_every(propagation, arguments.step)
                                            : arguments.levels;

@@ -17,8 +17,10 @@ constexpr const char* path_footer =
     "  agvd path bunny.ply --sites sites.txt --targets points.txt -o paths.vtp\n"
     "  agvd path bunny.ply --pairs pairs.txt -o paths.obj -o paths.ply\n\n"
     "FILE has a point on each line: `v VERTEX`, `f FACE B0 B1 B2` or `p X Y Z`.\n"
-    "Of --pairs two lines in a row are a pair. Each piece of a path lies in one\n"
-    "face of the cleaned mesh.\n\n"
+    "Of --pairs two lines in a row are a pair. --sites may have lines, regions,\n"
+    "`site N` and `start D` as for `agvd distance`: paths end at the nearest point of\n"
+    "a line, or at the rim of a region. Each piece of a path lies in one face of the\n"
+    "cleaned mesh.\n\n"
     "Output (.gz behind the extension: compressed):\n"
     "  .vtp   VTK PolyData for ParaView: a polyline for each path; cell data\n"
     "         length, site (of --targets; -1: no site reaches the point)\n"
@@ -41,17 +43,11 @@ void check(const PathArguments& arguments) {
 
 std::vector<agvd::SitePath> paths_to_sites(const PathArguments& arguments, const OpenedInput& input,
                                            Console& console) {
-    const std::vector<agvd::SurfacePoint> sites =
-        plain_sites_on(input, arguments, console, "paths lead to");
+    const GivenSites sites = sites_on(input, arguments, console);
     const std::vector<agvd::SurfacePoint> targets = points_on(input, arguments.targets, console);
-    agvd::PropagationOptions propagating = arguments.propagation;
-    propagating.relay_faces = agvd::all_faces(input.surface);
-    propagating.num_threads = arguments.common.threads;
-    propagating.progress = console.progress_of("propagate");
-    const agvd::Propagation propagation = agvd::propagate(input.surface, sites, propagating);
-    console.info(remesh::to_text(propagating.engine, propagation.certified_error));
+    const agvd::Propagation propagation = propagate_everywhere(input, arguments, sites, console);
     return agvd::paths_to_sites(
-        input.surface, sites, propagation, targets,
+        input.surface, sites.points, propagation, targets,
         {.num_threads = arguments.common.threads, .progress = console.progress_of("paths")});
 }
 

@@ -1,6 +1,7 @@
 #include "based_diagram.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "agvd/diagram/diagram.h"
 #include "agvd/propagation/propagate.h"
@@ -33,12 +34,10 @@ BasedDiagram plain_diagram(const agvd::Surface& surface,
                            const std::function<agvd::Progress(const char*)>& progress_of,
                            std::optional<double> chord) {
     options.progress = progress_of("propagate");
-    const agvd::Propagation propagation = agvd::propagate(surface, sites, options);
-    return {agvd::build_diagram(surface, sites, propagation,
-                                {.chord = chord,
-                                 .num_threads = options.num_threads,
-                                 .progress = progress_of("diagram")}),
-            propagation.certified_error};
+    agvd::TracedDiagram traced = agvd::trace_diagram(
+        surface, sites, options,
+        {.chord = chord, .num_threads = options.num_threads, .progress = progress_of("diagram")});
+    return {std::move(traced.diagram), traced.certified_error};
 }
 
 }  // namespace
@@ -59,15 +58,12 @@ BasedDiagram based_diagram(const agvd::Surface& surface,
     const agvd::IntrinsicTriangulation base = base_for(surface, sites.size(), progress_of("clean"));
     const std::vector<agvd::SurfacePoint> on_base = base.to_intrinsic(sites);
     options.progress = progress_of("propagate");
-    const agvd::Propagation propagation = agvd::propagate(base.surface(), on_base, options);
     const agvd::Progress drawing = progress_of("diagram");
-    return {agvd::diagram_on_input(
-                base,
-                agvd::build_diagram(
-                    base.surface(), on_base, propagation,
-                    {.chord = chord, .num_threads = options.num_threads, .progress = drawing}),
-                drawing),
-            propagation.certified_error};
+    agvd::TracedDiagram traced = agvd::trace_diagram(
+        base.surface(), on_base, options,
+        {.chord = chord, .num_threads = options.num_threads, .progress = drawing});
+    return {agvd::diagram_on_input(base, std::move(traced.diagram), drawing),
+            traced.certified_error};
 }
 
 }  // namespace cli

@@ -5,6 +5,7 @@
 
 #include "agvd/mesh/scale.h"
 #include "agvd/paths/isolines.h"
+#include "agvd/propagation/shape_source.h"
 #include "page_cells.h"
 
 namespace cli {
@@ -33,6 +34,22 @@ double largest_distance(const std::vector<double>& distances) {
         if (std::isfinite(d)) most = std::max(most, d);
     }
     return most;
+}
+
+// The edges of lines and of the rims of regions.
+page::Polylines lines_of(const agvd::Surface& surface, const std::vector<agvd::SiteShape>& shapes) {
+    std::vector<Index> edges;
+    for (const agvd::ShapeSource& source : agvd::sources_of(surface, shapes)) {
+        for (const Index side : source.sides) edges.push_back(surface.edge[side]);
+    }
+    page::Polylines lines;
+    for (const Index edge : agvd::distinct(std::move(edges))) {
+        const Index h = surface.edge_half[edge];
+        lines.points.push_back(surface.mesh.positions[surface.tail(h)]);
+        lines.points.push_back(surface.mesh.positions[surface.head(h)]);
+        lines.lengths.push_back(2);
+    }
+    return lines;
 }
 
 page::Polylines isolines_every(double step, const agvd::Surface& surface,
@@ -70,6 +87,7 @@ page::DiagramPage diagram_for_page(const agvd::Surface& surface,
     for (const agvd::SurfacePoint& site : sites) {
         page.sites.push_back(agvd::position(page.mesh, site));
     }
+    page.site_lines = lines_of(surface, propagating.shapes);
     const double most = largest_distance(diagram.nearest_distance);
     if (most == 0) return page;
     page.isoline_step = step_for(most);

@@ -1,7 +1,6 @@
 #include "drawn_diagram.h"
 
 #include "based_diagram.h"
-#include "given_surface.h"
 #include "remesh/dual/build_dual.h"
 
 namespace cli {
@@ -19,16 +18,6 @@ std::vector<Value> carry(const std::vector<Index>& places, const std::vector<Val
         result.push_back(place == agvd::no_index ? none : values[place]);
     }
     return result;
-}
-
-GivenSurface given_surface(const agvd::MeshView& mesh, const SurfaceOptions& as_surface,
-                           const agvd::PropagationOptions& options,
-                           const StageProgress& progress_of) {
-    const remesh::CleanOptions cleaning{.keep_slits = as_surface.keep_slits,
-                                        .num_threads = options.num_threads,
-                                        .progress = progress_of("clean")};
-    if (as_surface.side_lengths.empty()) return {mesh, cleaning, as_surface.barriers};
-    return {mesh, as_surface.side_lengths, cleaning};
 }
 
 Polylines draw(const agvd::Diagram& diagram, const agvd::MeshView& mesh) {
@@ -71,11 +60,20 @@ DrawnArcs draw_arcs(const agvd::Surface& surface, const agvd::Diagram& diagram,
 
 }  // namespace
 
+GivenSurface given_surface(const agvd::MeshView& mesh, const SurfaceOptions& as_surface,
+                           int num_threads, const agvd::Progress& progress) {
+    const remesh::CleanOptions cleaning{
+        .keep_slits = as_surface.keep_slits, .num_threads = num_threads, .progress = progress};
+    if (as_surface.side_lengths.empty()) return {mesh, cleaning, as_surface.barriers};
+    return {mesh, as_surface.side_lengths, cleaning};
+}
+
 DrawnDiagram draw_diagram(const agvd::MeshView& mesh, const DrawnSites& given_sites,
                           const agvd::PropagationOptions& given_options,
                           const SurfaceOptions& as_surface, const StageProgress& progress_of,
-                          std::optional<double> chord) {
-    const GivenSurface given = given_surface(mesh, as_surface, given_options, progress_of);
+                          std::optional<double> chord, const DiagramReader& read) {
+    const GivenSurface given =
+        given_surface(mesh, as_surface, given_options.num_threads, progress_of("clean"));
     const agvd::Surface& surface = given.surface();
     const std::vector<agvd::SurfacePoint> sites = given.to_surface(given_sites.points);
     agvd::PropagationOptions options = given_options;
@@ -84,6 +82,7 @@ DrawnDiagram draw_diagram(const agvd::MeshView& mesh, const DrawnSites& given_si
     DrawnDiagram drawn;
     drawn.diagram = std::move(based.diagram);
     drawn.certified_error = based.certified_error;
+    if (read) read(surface, sites, drawn.diagram, options);
     drawn.cells = agvd::build_cells(drawn.diagram);
     drawn.dual = remesh::build_dual(surface, drawn.diagram, progress_of("dual"));
     drawn.lines = draw(drawn.diagram, surface.mesh.view());
@@ -100,7 +99,8 @@ DrawnDiagram draw_diagram(const agvd::MeshView& mesh, const DrawnSites& given_si
 agvd::CutCells cut_cells(const agvd::MeshView& mesh, const DrawnSites& sites,
                          agvd::PropagationOptions options, const SurfaceOptions& as_surface,
                          const StageProgress& progress_of) {
-    const GivenSurface given = given_surface(mesh, as_surface, options, progress_of);
+    const GivenSurface given =
+        given_surface(mesh, as_surface, options.num_threads, progress_of("clean"));
     options.shapes = given.to_surface(sites.shapes);
     const agvd::Diagram diagram =
         based_diagram(given.surface(), given.to_surface(sites.points), options, progress_of)
@@ -114,7 +114,8 @@ std::vector<double> vertex_distances(const agvd::MeshView& mesh, const DrawnSite
                                      agvd::PropagationOptions options,
                                      const SurfaceOptions& as_surface,
                                      const StageProgress& progress_of) {
-    const GivenSurface given = given_surface(mesh, as_surface, options, progress_of);
+    const GivenSurface given =
+        given_surface(mesh, as_surface, options.num_threads, progress_of("clean"));
     const std::vector<agvd::SurfacePoint> sites = given.to_surface(given_sites.points);
     const auto of_given = [&](const std::vector<double>& distances) {
         return carry(given.vertices_of_least(distances), distances, agvd::infinity);

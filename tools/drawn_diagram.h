@@ -6,12 +6,13 @@
 #include <array>
 #include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "agvd/diagram/cut_cells.h"
 #include "agvd/diagram/diagram.h"
 #include "agvd/propagation/propagate.h"
-#include "remesh/meshfile/diagram_file.h"
+#include "given_surface.h"
 
 namespace cli {
 
@@ -58,21 +59,33 @@ struct SurfaceOptions {
     std::vector<double> side_lengths = {};
 };
 
+//! \param progress  of the whole.
+//! \throw as GivenSurface.
+[[nodiscard]] GivenSurface given_surface(const agvd::MeshView& mesh,
+                                         const SurfaceOptions& as_surface, int num_threads,
+                                         const agvd::Progress& progress);
+
 //! Sites on the caller's mesh.
 struct DrawnSites {
     std::vector<agvd::SurfacePoint> points = {};
     std::vector<remesh::GivenShape> shapes = {};  //!< Lines and regions.
 };
 
+//! read(cleaned mesh, its sites, its diagram, what was propagated)
+using DiagramReader = std::function<void(const agvd::Surface&, std::span<const agvd::SurfacePoint>,
+                                         const agvd::Diagram&, const agvd::PropagationOptions&)>;
+
 //! \param options  their progress and their shapes are ignored.
 //! \param chord    as in agvd::DiagramOptions.
-//! \throw as remesh::clean_input, remesh::to_cleaned, remesh::carry_edges, remesh::carry_shape and
+//! \param read     called with the diagram on the cleaned mesh, if not empty.
+//! \throw as remesh::clean_input, remesh::to_cleaned, remesh::carry_edges, remesh::carry_shapes and
 //!        agvd::propagate.
 [[nodiscard]] DrawnDiagram draw_diagram(const agvd::MeshView& mesh, const DrawnSites& sites,
                                         const agvd::PropagationOptions& options,
                                         const SurfaceOptions& as_surface,
                                         const StageProgress& progress_of,
-                                        std::optional<double> chord = {});
+                                        std::optional<double> chord = {},
+                                        const DiagramReader& read = {});
 
 //! The mesh cut along the bisectors. Parameters and errors as above.
 //! \return its face_origin names the caller's faces.

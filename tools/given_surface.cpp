@@ -12,10 +12,12 @@ std::vector<agvd::SiteShape> carry_shapes(std::span<const remesh::GivenShape> sh
                                           const agvd::MeshView& mesh,
                                           const remesh::CleanedView& clean,
                                           const agvd::Surface& surface) {
-    std::vector<agvd::SiteShape> carried;
-    for (const remesh::GivenShape& shape : shapes) {
-        carried.push_back(remesh::carry_shape(shape.edges, shape.faces, mesh, clean, surface));
-        carried.back().site = shape.site;
+    std::vector<remesh::ShapeView> views;
+    for (const remesh::GivenShape& shape : shapes) views.push_back({shape.edges, shape.faces});
+    std::vector<agvd::SiteShape> carried = remesh::carry_shapes(views, mesh, clean, surface);
+    for (std::size_t i = 0; i < shapes.size(); ++i) {
+        carried[i].site = shapes[i].site;
+        carried[i].start = shapes[i].start;
     }
     return carried;
 }

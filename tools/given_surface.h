@@ -14,7 +14,7 @@
 namespace cli {
 
 //! Lines and regions of a mesh on the surface of the cleaned one. Parameters and errors as those of
-//! remesh::carry_shape.
+//! remesh::carry_shapes.
 [[nodiscard]] std::vector<agvd::SiteShape> carry_shapes(std::span<const remesh::GivenShape> shapes,
                                                         const agvd::MeshView& mesh,
                                                         const remesh::CleanedView& clean,
@@ -40,7 +40,7 @@ public:
     [[nodiscard]] const agvd::Surface& surface() const { return surface_; }
     [[nodiscard]] std::vector<agvd::SurfacePoint> to_surface(
         const std::vector<agvd::SurfacePoint>& points) const;
-    //! \throw as remesh::carry_shape.
+    //! \throw as remesh::carry_shapes.
     [[nodiscard]] std::vector<agvd::SiteShape> to_surface(
         const std::vector<remesh::GivenShape>& shapes) const;
     [[nodiscard]] std::vector<agvd::SurfacePoint> to_given(

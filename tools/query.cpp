@@ -151,12 +151,19 @@ GivenSites sites_on(const OpenedInput& input, const DiagramArguments& arguments,
     return sites;
 }
 
-std::vector<SurfacePoint> plain_sites_on(const OpenedInput& input,
-                                         const DiagramArguments& arguments, Console& console,
-                                         const char* what) {
-    GivenSites given = sites_on(input, arguments, console);
-    require_plain_points(arguments.sites, given.roles, given.shapes.size(), what);
-    return std::move(given.points);
+agvd::Propagation propagate_everywhere(const OpenedInput& input, const DiagramArguments& arguments,
+                                       const GivenSites& sites, Console& console) {
+    agvd::PropagationOptions propagating = arguments.propagation;
+    propagating.points = sites.roles;
+    propagating.shapes = sites.shapes;
+    propagating.relay_faces = agvd::all_faces(input.surface);
+    propagating.num_threads = arguments.common.threads;
+    propagating.progress = console.progress_of("propagate");
+    agvd::Propagation propagation = naming_file(
+        arguments.input, [&] { return agvd::propagate(input.surface, sites.points, propagating); },
+        arguments.sites);
+    console.info(remesh::to_text(propagating.engine, propagation.certified_error));
+    return propagation;
 }
 
 std::vector<SurfacePoint> points_on(const OpenedInput& input, const fs::path& path,

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "agvd/mesh/surface.h"
+#include "agvd/propagation/propagate.h"
 #include "arguments.h"
 #include "expected_stages.h"
 #include "remesh/meshfile/lines_file.h"
@@ -27,12 +28,16 @@ struct Query {
     std::function<void()> run;
 };
 
+//! `agvd diagram`. \param command_line  which its page tells: see page::to_shell.
+[[nodiscard]] Query add_diagram(CLI::App& app, const std::string& command_line);
 //! `agvd distance`.
 [[nodiscard]] Query add_distance(CLI::App& app);
 //! `agvd path`.
 [[nodiscard]] Query add_path(CLI::App& app);
 //! `agvd isolines`.
 [[nodiscard]] Query add_isolines(CLI::App& app);
+//! `agvd compare`.
+[[nodiscard]] Query add_compare(CLI::App& app);
 
 //! \param run  the subcommand on a console of its own.
 template <typename Arguments>
@@ -91,12 +96,10 @@ struct GivenSites {
 [[nodiscard]] GivenSites sites_on(const OpenedInput& input, const DiagramArguments& arguments,
                                   Console& console);
 
-//! The same for what takes points only.
-//! \param what  takes them, as the text of the error begins.
-//! \throw agvd::InvalidInput  they are sites of several points, or have starts, or are no points.
-[[nodiscard]] std::vector<agvd::SurfacePoint> plain_sites_on(const OpenedInput& input,
-                                                             const DiagramArguments& arguments,
-                                                             Console& console, const char* what);
+//! Distances with relays in all faces; tells the engine and its error.
+[[nodiscard]] agvd::Propagation propagate_everywhere(const OpenedInput& input,
+                                                     const DiagramArguments& arguments,
+                                                     const GivenSites& sites, Console& console);
 
 //! The points of a file, on the cleaned mesh.
 [[nodiscard]] std::vector<agvd::SurfacePoint> points_on(const OpenedInput& input,

@@ -30,7 +30,7 @@ const Color inside_color{1, 1, 1};
 struct Options {
     std::string mesh, picture, overlay, inside, network, size = "1200x900";
     agvd::Index num_vertices = 2000;
-    std::vector<double> view{15, -30, 0};
+    std::array<double, 3> view = render::default_degrees;
     double line_width = 1.6;
     bool is_wire = false;
 };
@@ -93,8 +93,7 @@ void draw(const Options& options) {
                                   "; use a size such as 1200x900, each number from 1 to 10000");
     }
     const TriangleMesh mesh = remesh::read_mesh(options.mesh).mesh;
-    const View view(mesh.view(), {options.view[0], options.view[1], options.view[2]}, width,
-                    height);
+    const View view(mesh.view(), options.view, width, height);
     render::Canvas canvas(width, height);
     const Color& front = options.network.empty() ? render::front_color : plain_color;
     render::draw_mesh(mesh.view(), view, front, options.is_wire, canvas);
@@ -123,7 +122,6 @@ int main(int argc, char** argv) {
     app.add_option("--size", options.size, "Size of the picture in pixels: WIDTHxHEIGHT")
         ->capture_default_str();
     app.add_option("--view", options.view, "Turns about x, y and z in degrees; y first")
-        ->expected(3)
         ->delimiter(',')
         ->type_name("X,Y,Z")
         ->default_str("15,-30,0");

@@ -12,4 +12,11 @@ void require_pictures() {
 
 std::string picture_of(const agvd::MeshView&, const agvd::MeshView&) { return {}; }
 
+void check_picture(const std::filesystem::path&) { require_pictures(); }
+
+std::string picture_of_diagram(const std::filesystem::path&, const page::DiagramPage&,
+                               const agvd::CutCells&, const std::array<double, 3>&) {
+    return {};
+}
+
 }  // namespace cli

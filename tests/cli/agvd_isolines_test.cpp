@@ -55,6 +55,29 @@ TEST_F(AgvdIsolines, AreCirclesOnASquare) {
     EXPECT_NE(bytes("l.ply").find("property double level"), std::string::npos);
 }
 
+// Around a region in the corner and a point that starts at .1.
+TEST_F(AgvdIsolines, AreAroundRegionsAndStarts) {
+    const std::string sites = put("s", "p .5 .5 0 start .1\nr 0 1\n");
+    const auto outcome = isolines({square(), "--sites", sites, "--levels", ".15", "--tolerance",
+                                   "1e-4", "-o", at("l.obj"), "-q"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    std::istringstream in(bytes("l.obj"));
+    int num_around_point = 0, num_around_region = 0;
+    for (std::string word; in >> word;) {
+        if (word != "v") continue;
+        agvd::Vec3 p;
+        in >> p.x() >> p.y() >> p.z();
+        const double to_point = (p - agvd::Vec3(.5, .5, 0)).norm();
+        const double side = 1.0 / 7;
+        const agvd::Vec3 beside(std::max(p.x() - side, 0.0), std::max(p.y() - side, 0.0), 0);
+        const bool is_around_point = to_point < .06;
+        EXPECT_NEAR(is_around_point ? to_point : beside.norm(), is_around_point ? .05 : .15, 1e-9);
+        ++(is_around_point ? num_around_point : num_around_region);
+    }
+    EXPECT_GT(num_around_point, 8);
+    EXPECT_GT(num_around_region, 8);
+}
+
 TEST_F(AgvdIsolines, ComeAtEachMultiple) {
     const auto outcome =
         isolines({square(), "--sites", middle(), "--every", ".1", "-o", at("l.obj")});

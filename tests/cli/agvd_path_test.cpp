@@ -43,6 +43,27 @@ TEST_F(AgvdPath, LeadsFromEachTargetToItsSite) {
     EXPECT_NE(bytes("p.ply").find("property double length"), std::string::npos);
 }
 
+// A site of two points, a line that starts at .1, and a region.
+TEST_F(AgvdPath, LeadsToGroupsLinesAndRegions) {
+    const std::string sites = put("s",
+                                  "p .1 .2 0 site 0\np .1 .8 0 site 0 start .05\n"
+                                  "l 56 57 58 59 60 61 62 63 site 1 start .1\nr 84 85 site 2\n");
+    const auto outcome =
+        path({square(), "--sites", sites, "--targets",
+              put("t", "p .15 .2 0\np .15 .75 0\np .95 .1 0\np .8 .05 0\np .97 .6 0\n"), "-o",
+              at("p.obj"), "-q"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const std::string text = bytes("p.obj");
+    const std::vector<double> lengths = numbers(text, "length"), sites_of = numbers(text, "site");
+    ASSERT_EQ(lengths.size(), 5u) << text;
+    EXPECT_EQ(sites_of, (std::vector<double>{0, 0, 2, 2, 1}));
+    EXPECT_NEAR(lengths[0], .05, 1e-14);
+    EXPECT_NEAR(lengths[1], std::sqrt(2) * .05, 1e-14);
+    EXPECT_EQ(lengths[2], 0);
+    EXPECT_NEAR(lengths[3], 6.0 / 7 - .8, 1e-14);
+    EXPECT_NEAR(lengths[4], .03, 1e-14) << "without the start";
+}
+
 TEST_F(AgvdPath, LeadsFromPointToPointOfPairs) {
     const auto outcome =
         path({square(), "--pairs", put("t", "v 0\np 1 1 0\np .5 .3 0\np .5 .9 0\n"), "-o",

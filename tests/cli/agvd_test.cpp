@@ -113,12 +113,6 @@ TEST_F(AgvdDiagram, SitesMayBeLines) {
         area += (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]).norm() / 2;
     }
     EXPECT_NEAR(area, 1.0 / 3, 5e-4);  // Of chords.
-    for (const char* output : {"d.agvd", "d.html"}) {
-        const auto refused =
-            diagram({in, "--sites", sites, "-q", output == std::string("d.agvd") ? "-o" : "--html",
-                     at(output)});
-        EXPECT_EQ(refused.exit_code, output == std::string("d.agvd") ? 2 : 4) << refused.err;
-    }
 }
 
 // Sites 0 and 2 are one, and site 1 starts so late that its border passes at x = .6.
@@ -158,10 +152,6 @@ TEST_F(AgvdDiagram, SitesMayHaveSeveralPointsAndStarts) {
     const std::string plain = put("plain", "p .5 .5 0\n");
     EXPECT_EQ(diagram({in, "--sites", plain, "-q", "-o", at("plain.agvd")}).exit_code, 0);
     EXPECT_EQ(run(AGVD_PROGRAM, {"compare", at("d.agvd"), at("plain.agvd")}).exit_code, 4);
-    const auto path =
-        run(AGVD_PROGRAM, {"path", in, "--sites", sites, "--targets", plain, "-o", at("p.obj")});
-    EXPECT_EQ(path.exit_code, 4);
-    EXPECT_NE(path.err.find("paths lead to points without `site`"), std::string::npos) << path.err;
 }
 
 TEST_F(AgvdDiagram, CellsAreFacesOfACutMesh) {
@@ -309,6 +299,36 @@ TEST_F(AgvdCompare, JudgesADiagramByAnotherAndByTheExactOne) {
     EXPECT_EQ(none["frechet"]["sum_mesh_units"], 0);
     EXPECT_EQ(none["wrong_label_percent"], 0);
     EXPECT_LT(none["hausdorff_mesh_units"], 1e-12);
+}
+
+// A line along a side, a region in a corner of the unit square, and a site of two points.
+TEST_F(AgvdCompare, SitesMayBeLinesAndRegions) {
+    const agvd::TriangleMesh square = shapes::grid(10);
+    std::string line = "l";
+    for (std::size_t v = 0; v < square.positions.size(); ++v) {
+        if (square.positions[v].y() == 0) line += ' ' + std::to_string(v);
+    }
+    const std::string in = put("square.off", square);
+    const std::string points = "p .5 .5 0 site 0\np .2 .7 0 site 0 start .05\n";
+    const std::string sites = put("s", points + line + " site 1 start .02\nr 198 199 site 2\n");
+    const std::string exact = diagram_file("exact.agvd", in, {"--sites", sites, "--max-error=0"});
+    const auto none = figures(exact, "exact");
+    EXPECT_EQ(none["sites"], 3);
+    EXPECT_EQ(none["frechet"]["sum_mesh_units"], 0);
+    EXPECT_EQ(none["wrong_label_percent"], 0);
+    EXPECT_LT(none["bisector_error_a"]["max"], 5e-3);  // Of chords.
+    EXPECT_GT(none["bisector_error_a"]["points"], 100);
+    for (const char* engine : {"--engine=window", "--engine=steiner"}) {
+        const auto found =
+            figures(diagram_file("a.agvd", in, {"--sites", sites, "--force", engine}), exact);
+        EXPECT_EQ(found["frechet"]["unmatched_loops"], 0) << engine;
+        EXPECT_LT(found["bisector_error_a"]["max"], 0.05) << engine;
+        EXPECT_LT(found["wrong_label_percent"], 1) << engine;
+    }
+    const std::string other = put("other", points + line + " site 1 start .02\nr 198 site 2\n");
+    const auto outcome = compare({exact, diagram_file("b.agvd", in, {"--sites", other})});
+    EXPECT_EQ(outcome.exit_code, 4);
+    EXPECT_NE(outcome.err.find("different lines or regions"), std::string::npos) << outcome.err;
 }
 
 TEST_F(AgvdCompare, PrintsATableOrWritesAFile) {

@@ -311,7 +311,8 @@ TEST_F(Remesh, TakesABoundedAmountOfMemoryForASample) {
         EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
         return static_cast<double>(outcome.peak_bytes);
     };
-    const double bytes_per_sample = (peak(9000) - peak(1000)) / 8000;
+    // In one piece, and so many that free memory which the program keeps counts little.
+    const double bytes_per_sample = (peak(12'000) - peak(1000)) / 11'000;
     EXPECT_LT(bytes_per_sample, 7500);
     EXPECT_GT(bytes_per_sample, 1000);  // It is measured.
 }

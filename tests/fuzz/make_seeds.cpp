@@ -260,6 +260,12 @@ void put_sites(Seeds& seeds) {
             agvd::build_diagram(surface, sites, agvd::propagate(surface, sites));
         seeds.put("read_diagram", remesh::format_diagram("a.agvd", surface, sites, diagram));
     }
+    const std::vector<agvd::SiteShape> shapes{{.edges = {0, 1}, .site = 0},
+                                              {.faces = {7}, .site = 1}};
+    const agvd::Diagram diagram =
+        agvd::build_diagram(surface, {}, agvd::propagate(surface, {}, {.shapes = shapes}));
+    seeds.put("read_diagram",
+              remesh::format_diagram("a.agvd", surface, {}, diagram, {}, {}, shapes));
 }
 
 // Random options and each shape of small_mesh: as it is, and moved at random. What is left are

@@ -84,6 +84,21 @@ TEST(Compare, WrongLabelsAreCountedByArea) {
     EXPECT_NEAR(two.compare(two.straight_edge(0)).wrong_label_area, 0.5, 0.01);
 }
 
+// At (0, 0.5) and (1, 0.5), a quarter from one site and three quarters from the other.
+TEST(Compare, LabelsErrByHowMuchFartherTheirSitesAre) {
+    const TwoSites two;
+    const std::vector<SurfacePoint> points{point_at(two.surface, 2), point_at(two.surface, 22)};
+    const std::vector<std::vector<SiteId>> labels{
+        {SiteId(0), SiteId(1)}, {SiteId(1), SiteId(1)}, {SiteId(), SiteId(1)}};
+    const auto errors = compare_labels(two.surface, two.sites, points, labels);
+    EXPECT_EQ(errors[0].wrong, 0);
+    EXPECT_EQ(errors[0].largest, 0);
+    EXPECT_EQ(errors[1].wrong, 0.5);
+    EXPECT_NEAR(errors[1].largest, 0.5, 1e-14);
+    EXPECT_EQ(errors[2].wrong, 0.5);
+    EXPECT_TRUE(std::isinf(errors[2].largest));
+}
+
 // Both sites at one place: every point ties, so both labels are right everywhere.
 TEST(Compare, TiedSitesAreBothRight) {
     TwoSites two;

@@ -143,6 +143,23 @@ TEST(Oracle, AllSitesAtOnceGiveTheNearest) {
     }
 }
 
+TEST(Oracle, OneSearchIsExactFromOneSiteAndNeverTooShortFromMany) {
+    const Surface s = build_surface(shapes::jitter(shapes::torus(24, 12), 0.03, 4).view());
+    const auto sites = points::scattered(s, 12, 2);
+    const auto targets = points::scattered(s, 200, 3);
+    const auto from_first = distances_by_one_search(s, {sites.data(), 1}, targets);
+    const auto from_all = distances_by_one_search(s, sites, targets);
+    const auto exact_from_first = exact_distances(s, sites[0], targets);
+    Index num_exact = 0;
+    const NearestSites nearest = exact_nearest_sites(s, sites, targets);
+    for (Index i = 0; i < targets.size(); ++i) {
+        EXPECT_NEAR(from_first[i], exact_from_first[i], 1e-12);
+        EXPECT_GE(from_all[i], nearest.distance[i] - 1e-12);
+        num_exact += from_all[i] <= nearest.distance[i] + 1e-12;
+    }
+    EXPECT_GT(num_exact, 180u);  // Windows are lost here and there only.
+}
+
 // Near targets are answered on a part of the surface; asking for a far one too takes all of it.
 TEST(Oracle, PartsOfTheSurfaceGiveTheSameDistances) {
     const Surface s = build_surface(shapes::jitter(shapes::sphere(4), 0.01, 3).view());

@@ -6,6 +6,7 @@
 
 #include "agvd/mesh/surface_points.h"
 #include "agvd/propagation/propagate.h"
+#include "support/line_sites.h"
 #include "support/points.h"
 #include "support/shapes.h"
 
@@ -27,11 +28,32 @@ TEST(SiteDistances, AreEuclideanInThePlane) {
     const auto sites = points::scattered(surface, 6, 1);
     const auto targets = points::scattered(surface, 60, 2);
     const auto queries = all_pairs(sites, targets, 0.3);
-    const auto found = site_distances(surface, sites, queries);
+    const auto found = site_distances(surface, sites, {}, queries);
     for (std::size_t q = 0; q < queries.size(); ++q) {
         const Vec3 from = position(surface.mesh.view(), sites[queries[q].site.value()]);
         const Vec3 to = position(surface.mesh.view(), queries[q].point);
         EXPECT_NEAR(found[q], (to - from).norm(), 1e-12) << q;
+    }
+}
+
+TEST(SiteDistances, FromLinesAndRegionsAreThoseToSegmentsInThePlane) {
+    const Surface surface = line_sites::uneven_square(9, 4);
+    const auto sites = points::scattered(surface, 1, 1);
+    const auto targets = points::scattered(surface, 60, 2);
+    const std::vector<SiteShape> shapes{line_sites::random_line(surface, 7, 1),
+                                        line_sites::random_region(surface, 4, 2)};
+    for (const double guess : {0.0, 0.3, infinity}) {
+        std::vector<SiteDistanceQuery> queries;
+        for (const SurfacePoint& target : targets) {
+            for (const Index s : {2u, 0u, 1u}) queries.push_back({SiteId(s), target, guess});
+        }
+        const auto found = site_distances(surface, sites, shapes, queries);
+        for (std::size_t q = 0; q < queries.size(); q += 3) {
+            const Vec3 p = position(surface.mesh.view(), queries[q].point);
+            EXPECT_NEAR(found[q], line_sites::in_plane(surface, shapes[1], p), 1e-13);
+            EXPECT_NEAR(found[q + 1], (position(surface.mesh.view(), sites[0]) - p).norm(), 1e-12);
+            EXPECT_NEAR(found[q + 2], line_sites::in_plane(surface, shapes[0], p), 1e-13);
+        }
     }
 }
 
@@ -42,7 +64,7 @@ TEST(SiteDistances, AreThoseOfThePropagationAtVertices) {
     for (Index v = 0; v < surface.num_vertices(); ++v) {
         vertices.push_back(point_at(surface, v));
     }
-    const auto found = site_distances(surface, sites, all_pairs(sites, vertices, 0.5));
+    const auto found = site_distances(surface, sites, {}, all_pairs(sites, vertices, 0.5));
     for (Index s = 0; s < sites.size(); ++s) {
         const auto exact = propagate(surface, {&sites[s], 1}, {.max_error = 0}).vertex_distance;
         for (Index v = 0; v < surface.num_vertices(); ++v) {
@@ -55,19 +77,19 @@ TEST(SiteDistances, AreTheSameBothWaysAndForAnyGuessAndThreads) {
     const Surface surface = build_surface(shapes::jitter(shapes::torus(24, 12), 0.02, 5).view());
     const auto a = points::scattered(surface, 9, 3);
     const auto b = points::scattered(surface, 12, 4);
-    const auto there = site_distances(surface, a, all_pairs(a, b, 1));
-    const auto back = site_distances(surface, b, all_pairs(b, a, 1));
+    const auto there = site_distances(surface, a, {}, all_pairs(a, b, 1));
+    const auto back = site_distances(surface, b, {}, all_pairs(b, a, 1));
     for (std::size_t i = 0; i < a.size(); ++i) {
         for (std::size_t j = 0; j < b.size(); ++j) {
             EXPECT_NEAR(there[i * b.size() + j], back[j * a.size() + i], 1e-9);
         }
     }
     for (const double guess : {0.0, 0.1, 100.0, infinity}) {
-        const auto other = site_distances(surface, a, all_pairs(a, b, guess));
+        const auto other = site_distances(surface, a, {}, all_pairs(a, b, guess));
         for (std::size_t q = 0; q < there.size(); ++q) EXPECT_NEAR(other[q], there[q], 1e-9);
     }
-    EXPECT_EQ(site_distances(surface, a, all_pairs(a, b, 1), 1), there);
-    EXPECT_EQ(site_distances(surface, a, all_pairs(a, b, 1), 8), there);
+    EXPECT_EQ(site_distances(surface, a, {}, all_pairs(a, b, 1), 1), there);
+    EXPECT_EQ(site_distances(surface, a, {}, all_pairs(a, b, 1), 8), there);
 }
 
 // Folds run along y up to y = 1. The faces near both points hold a path across all folds; a shorter
@@ -85,7 +107,7 @@ TEST(SiteDistances, AShorterPathOutsideOfWhatIsNearIsFound) {
     const double exact = propagate(surface, {&site, 1}, {.max_error = 0}).vertex_distance[30 * 41];
     for (const double guess : {0.0, 0.6, 10.0}) {
         const auto found =
-            site_distances(surface, {&site, 1}, all_pairs({&site, 1}, {&target, 1}, guess));
+            site_distances(surface, {&site, 1}, {}, all_pairs({&site, 1}, {&target, 1}, guess));
         EXPECT_NEAR(found[0], exact, 1e-9) << guess;
     }
 }
@@ -96,7 +118,7 @@ TEST(SiteDistances, OtherComponentsAreNotReached) {
     const auto site = point_at(surface, 0);
     const auto other = point_at(surface, surface.num_vertices() - 1);
     const std::vector<SiteDistanceQuery> queries{{SiteId(0), other, 1}, {SiteId(0), site, 1}};
-    EXPECT_EQ(site_distances(surface, {&site, 1}, queries), (std::vector<double>{infinity, 0}));
+    EXPECT_EQ(site_distances(surface, {&site, 1}, {}, queries), (std::vector<double>{infinity, 0}));
 }
 
 TEST(SiteDistances, PointsThatCrowdAFaceAreToldApart) {
@@ -110,7 +132,7 @@ TEST(SiteDistances, PointsThatCrowdAFaceAreToldApart) {
             targets.push_back({FaceId(face), {1 - b - 1e-7, 1e-7, b}});
         }
     }
-    const auto found = site_distances(surface, {&site, 1}, all_pairs({&site, 1}, targets, 1));
+    const auto found = site_distances(surface, {&site, 1}, {}, all_pairs({&site, 1}, targets, 1));
     for (std::size_t i = 0; i < targets.size(); ++i) {
         const double exact =
             (position(surface.mesh.view(), targets[i]) - position(surface.mesh.view(), site))

@@ -219,6 +219,14 @@ def test_nearest_sites_are_ranked():
     assert (sites[:, 3] == -1).all() and np.isinf(distances[:, 3]).all()
     with pytest.raises(remesh.InvalidOption):
         remesh.nearest_sites(V, F, points, 0)
+    # Groups, starts and a line along y = 0.
+    line = [v for v in range(len(V)) if V[v, 1] == 0]
+    of_sites = np.column_stack([np.minimum(straight[:, 0], straight[:, 2] + 0.1), straight[:, 1],
+                                V[:, 1]])
+    sites, distances = remesh.nearest_sites(V, F, points, 3, 0, groups=[0, 1, 0],
+                                            weights=[0, 0, 0.1, 0], lines=[line])
+    assert np.allclose(distances, np.sort(of_sites, axis=1), atol=1e-12)
+    assert np.allclose(np.take_along_axis(of_sites, sites, axis=1), distances, atol=1e-12)
 
 
 def test_points_may_make_groups_and_start_late():
@@ -329,3 +337,56 @@ def test_cells_may_be_cut_out():
     assert np.array_equal(site, nearest)
     whole = np.bincount(source, areas, len(F))
     assert np.allclose(whole, 1 / 128)
+
+
+def square_sites():
+    """A square, a point, a line and a region on it, and the distances of points from each."""
+    V, F = flat_square(10)
+    at = lambda x, y: int(np.linalg.norm(V[:, :2] - [x, y], axis=1).argmin())
+    point = np.array([[0.25, 0.75, 0]])
+    line = [at(0.1 * i, 0.2) for i in range(2, 8)]
+    centres = V[F].mean(axis=1)
+    region = np.flatnonzero((centres[:, 0] > 0.7) & (centres[:, 1] > 0.6))
+
+    def distances(P):
+        beside = np.maximum(np.abs(P[:, 0] - 0.45) - 0.25, 0)
+        in_corner = np.maximum([0.7, 0.6] - P[:, :2], 0)
+        return np.stack([np.linalg.norm(P - point, axis=1),
+                         np.hypot(beside, P[:, 1] - 0.2),
+                         np.linalg.norm(in_corner, axis=1)], axis=1)
+
+    return V, F, {"sites": point, "lines": [line], "regions": [region]}, distances
+
+
+def test_lines_and_regions_may_start_late():
+    V, F, sites, distances = square_sites()
+    weights = np.array([0.05, 0.1, 0.02])
+    far = distances(V) + weights
+    diagram = remesh.voronoi(V, F, max_error=0, weights=weights, **sites)
+    assert np.allclose(diagram.distances, far.min(axis=1), atol=1e-12)
+    assert np.array_equal(diagram.labels, far.argmin(axis=1))
+    only_points = remesh.voronoi(V, F, max_error=0, weights=weights[:1], **sites)
+    assert np.allclose(only_points.distances, (distances(V) + [0.05, 0, 0]).min(axis=1))
+    grouped = remesh.voronoi(V, F, max_error=0, groups=[1, 0, 1], **sites)
+    assert grouped.cell_area.shape == (2,)
+    point, line, region = distances(V).T
+    ahead = np.minimum(point, region) - line
+    is_clear = np.abs(ahead) > 1e-9
+    assert np.array_equal((grouped.labels == 0)[is_clear], (ahead > 0)[is_clear])
+
+
+def test_diagrams_of_all_kinds_of_sites_are_compared(tmp_path):
+    V, F, sites, _ = square_sites()
+    for engine in ("window", "steiner"):
+        file = tmp_path / f"{engine}.agvd"
+        remesh.voronoi(V, F, engine=engine, weights=[0.05, 0.1, 0.02], file=file, **sites)
+        figures = remesh.compare(file)
+        assert figures["sites"] == 3 and figures["frechet"]["unmatched_loops"] == 0
+        assert figures["bisector_error_a"]["max"] < 0.05
+    figures = remesh.compare(tmp_path / "steiner.agvd", tmp_path / "window.agvd", points=0)
+    assert figures["wrong_label_percent"] < 1 and figures["bisector_error_a"] is None
+    remesh.voronoi(V, F, [3], file=tmp_path / "other.agvd")
+    with pytest.raises(remesh.InvalidInput, match="different sites"):
+        remesh.compare(tmp_path / "other.agvd", tmp_path / "window.agvd")
+    with pytest.raises(remesh.FileError):
+        remesh.voronoi(V, F, [3], file=tmp_path / "other.stl")

@@ -38,7 +38,7 @@ def test_every_function_and_class_has_an_example():
     things = [getattr(remesh, name) for name in remesh.__all__]
     things = [x for x in things if (inspect.isfunction(x) or inspect.isclass(x)) and not is_error(x)]
     things += [remesh.examples.sphere, remesh.examples.torus]
-    assert len(things) == 24
+    assert len(things) == 25
     for thing in things:
         assert ">>> " in thing.__doc__, thing.__name__
 
@@ -91,7 +91,7 @@ def test_stubs_have_the_functions_of_the_extension():
 
     stubs = arguments_of_stubs()
     functions = {name: f for name, f in vars(_remesh).items() if inspect.isbuiltin(f)}
-    assert set(stubs) == set(functions) and len(stubs) == 29
+    assert set(stubs) == set(functions) and len(stubs) == 30
     for name, function in functions.items():
         assert arguments(function) == stubs[name], name
 

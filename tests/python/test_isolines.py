@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 import remesh
-from test_diagrams import flat_square
+from test_diagrams import flat_square, square_sites
 
 
 def test_lines_in_the_plane_are_circles():
@@ -38,3 +38,12 @@ def test_what_is_wrong_is_said(sphere):
                   {"every": 0}, {"levels": [1], "tolerance": 0}):
         with pytest.raises(remesh.InvalidOption):
             remesh.isolines(*sphere, [0], **wrong)
+
+
+def test_lines_around_lines_and_regions():
+    V, F, sites, distances = square_sites()
+    weights = np.array([0.05, 0.03, 0])
+    found = remesh.isolines(V, F, levels=[0.1, 0.2], weights=weights, **sites)
+    assert set(found.levels.tolist()) == {0.1, 0.2}
+    for line, level in zip(found.lines, found.levels):
+        assert np.allclose((distances(line) + weights).min(axis=1), level, rtol=1e-9)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 import remesh
-from test_diagrams import flat_square
+from test_diagrams import flat_square, square_sites
 
 
 def lengths_of(lines):
@@ -51,3 +51,17 @@ def test_what_is_wrong_is_said(sphere):
         remesh.paths(*sphere, [0], ends=[1, 2])
     with pytest.raises(remesh.InvalidOption):
         remesh.paths(*sphere, [0], ends=[1], max_error=1)
+
+
+def test_paths_to_lines_and_regions():
+    V, F, sites, distances = square_sites()
+    weights = np.array([0.05, 0.03, 0])
+    starts = np.random.default_rng(1).random((50, 3)) * [1, 1, 0]
+    far = distances(starts) + weights
+    found = remesh.paths(V, F, starts, weights=weights, **sites)
+    assert np.array_equal(found.sites, far.argmin(axis=1))
+    assert np.allclose(found.lengths, far.min(axis=1) - weights[found.sites], atol=1e-12)
+    for line, site in zip(found.lines, found.sites):
+        assert distances(line[-1:])[0, site] < 1e-12
+    with pytest.raises(remesh.InvalidOption, match="of sites"):
+        remesh.paths(V, F, [0], ends=[1], weights=[1])

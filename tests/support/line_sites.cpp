@@ -2,22 +2,13 @@
 
 #include <algorithm>
 
+#include "agvd/mesh/closest_point.h"
 #include "support/dice.h"
 #include "support/shapes.h"
 
 namespace line_sites {
 
 using namespace agvd;
-
-namespace {
-
-double to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
-    const Vec3 along = b - a;
-    const double share = std::clamp(along.dot(p - a) / along.squaredNorm(), 0.0, 1.0);
-    return (p - a - share * along).norm();
-}
-
-}  // namespace
 
 Surface uneven_square(Index n, std::uint64_t seed) {
     TriangleMesh mesh = shapes::grid(n);
@@ -65,13 +56,13 @@ double in_plane(const Surface& surface, const SiteShape& shape, const Vec3& p) {
     double least = infinity;
     for (const Index edge : shape.edges) {
         const Index h = surface.edge_half[edge];
-        least = std::min(least, to_segment(p, at[surface.tail(h)], at[surface.head(h)]));
+        least = std::min(least, distance_to_segment(p, at[surface.tail(h)], at[surface.head(h)]));
     }
     for (const Index face : shape.faces) {
         int inside = 0;
         for (Index h = 3 * face; h < 3 * face + 3; ++h) {
             const Vec3 &a = at[surface.tail(h)], &b = at[surface.head(h)];
-            least = std::min(least, to_segment(p, a, b));
+            least = std::min(least, distance_to_segment(p, a, b));
             inside += (b - a).cross(p - a).z() >= 0 ? 1 : 0;
         }
         if (inside == 3) least = 0;

@@ -1,5 +1,6 @@
 // Meshes by formula: grid, tetrahedron, cube, icosahedron, sphere, torus and tubes, and operations
-// on meshes: subdivide, move vertices, join two meshes, insert vertices without curvature.
+// on meshes: subdivide, move vertices, put them in another order, join two meshes, insert vertices
+// without curvature.
 // Coordinates and numbering are the same in every run, so that tests can state exact values.
 #include "support/shapes.h"
 
@@ -7,8 +8,13 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <numeric>
+#include <utility>
+#include <vector>
 
 #include "agvd/core/random.h"
+#include "agvd/mesh/any_mesh.h"
+#include "agvd/mesh/surface_points.h"
 #include "support/dice.h"
 
 namespace shapes {
@@ -221,6 +227,21 @@ void add_flat_vertices(TriangleMesh& mesh, Index count, std::uint64_t seed) {
         mesh.triangles[f] = {a, b, m};
         mesh.triangles.insert(mesh.triangles.end(), {{b, c, m}, {c, a, m}});
     }
+}
+
+TriangleMesh shuffle(const TriangleMesh& mesh) {
+    const auto order = [](std::size_t count, std::uint64_t seed) {
+        std::vector<Index> result(count);
+        std::iota(result.begin(), result.end(), Index{0});
+        for (std::size_t i = count - 1; i > 0; --i) {
+            std::swap(result[i], result[agvd::random_bits(seed, 0, i) % (i + 1)]);
+        }
+        return result;
+    };
+    const std::vector<Index> vertices = order(mesh.positions.size(), 1);
+    const std::vector<Index> faces = order(mesh.triangles.size(), 2);
+    return {agvd::take(mesh.positions, vertices),
+            agvd::take(agvd::rename_vertices(mesh.triangles, agvd::places_in(vertices)), faces)};
 }
 
 double signed_volume(const TriangleMesh& mesh) {

@@ -28,6 +28,8 @@ namespace shapes {
 //! Random faces cut into three at a point inside, random edges in two: all new vertices but those
 //! on the boundary have no curvature. Faces become needles.
 void add_flat_vertices(agvd::TriangleMesh& mesh, agvd::Index count, std::uint64_t seed);
+//! Vertices and faces in random order.
+[[nodiscard]] agvd::TriangleMesh shuffle(const agvd::TriangleMesh& mesh);
 //! Above 0 for a closed mesh with outward normals.
 [[nodiscard]] double signed_volume(const agvd::TriangleMesh& mesh);
 [[nodiscard]] agvd::TriangleMesh moved(agvd::TriangleMesh mesh, const agvd::Vec3& by);

@@ -17,13 +17,14 @@ struct DrawnPage {
     agvd::Diagram diagram;
 };
 
-// Of the unit square with sites in the faces with these numbers.
-DrawnPage page_of_square(const std::vector<agvd::Index>& faces) {
+// Of the unit square with sites in the faces with these numbers, and lines and regions.
+DrawnPage page_of_square(const std::vector<agvd::Index>& faces,
+                         const std::vector<agvd::SiteShape>& shapes = {}) {
     static const agvd::TriangleMesh mesh = shapes::grid(16);
     const agvd::Surface surface = agvd::build_surface(mesh.view());
     std::vector<agvd::SurfacePoint> sites;
     for (const agvd::Index f : faces) sites.push_back({agvd::FaceId(f), {0.2, 0.5, 0.3}});
-    const agvd::PropagationOptions exact{.max_error = 0};
+    const agvd::PropagationOptions exact{.shapes = shapes, .max_error = 0};
     const auto silent = [](const char*) { return agvd::Progress(); };
     cli::BasedDiagram based = cli::based_diagram(surface, sites, exact, silent);
     page::DiagramPage page =
@@ -43,6 +44,25 @@ double nearest(const Vec3& point, const std::vector<Vec3>& sites) {
     double least = agvd::infinity;
     for (const Vec3& site : sites) least = std::min(least, (point - site).norm());
     return least;
+}
+
+TEST(DiagramPage, LinesAndRegionsAreShownByTheirEdges) {
+    const auto [page, diagram] =
+        page_of_square({70}, {{.faces = {300, 301}, .site = 1}, {.edges = {7, 7, 8}, .site = 2}});
+    EXPECT_EQ(page.sites.size(), 1U);
+    EXPECT_EQ(diagram.num_sites, 3U);
+    // Both faces are a square: its four sides, not the diagonal.
+    EXPECT_EQ(page.site_lines.lengths, std::vector<agvd::Index>(6, 2));
+    ASSERT_EQ(page.site_lines.points.size(), 12U);
+    const agvd::Surface surface = agvd::build_surface(page.mesh);
+    double length = 4.0 / 16;
+    for (const agvd::Index edge : {7, 8}) length += surface.length[edge];
+    for (std::size_t i = 0; i < 12; i += 2) {
+        length -= (page.site_lines.points[i] - page.site_lines.points[i + 1]).norm();
+    }
+    EXPECT_NEAR(length, 0, 1e-12);
+    EXPECT_FALSE(page.bisectors.points.empty());
+    EXPECT_FALSE(page.isolines.points.empty());
 }
 
 TEST(DiagramPage, LinesLieWhereDistancesAreEqualOrMultiplesOfTheStep) {

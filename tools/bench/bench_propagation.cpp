@@ -9,6 +9,7 @@
 #include "agvd/intrinsic/intrinsic_triangulation.h"
 #include "agvd/propagation/propagate.h"
 #include "arguments.h"
+#include "bench/allocations.h"
 #include "bench/exact.h"
 #include "bench/medians.h"
 #include "bench/method.h"
@@ -69,7 +70,11 @@ std::vector<bench::Column> columns_for(const Arguments& arguments) {
     if (arguments.diagram) {
         columns.insert(columns.end(), {{"diagram_ms", "diagram ms", 1},
                                        {"diagram_p0", "diagram P0", 1},
-                                       {"diagram_beside_p0", "beside", 1}});
+                                       {"diagram_beside_p0", "beside", 1},
+                                       {"both_p0", "both P0", 1},
+                                       {"both_bytes_per_face", "both B/face", 0},
+                                       {"working_bytes_per_face", "working", 0},
+                                       {"most_relays", "most relays", 0}});
     }
     return columns;
 }
@@ -97,16 +102,24 @@ struct Timings {
     }
 };
 
+std::size_t bytes_of(const Diagram& d) {
+    const auto sum = [](const auto&... lists) { return ((lists.size() * sizeof(lists[0])) + ...); };
+    return sum(d.points, d.point_distance, d.passages, d.edge_points, d.edges, d.vertex_offsets,
+               d.vertex_ends, d.vertex_sites, d.vertices, d.vertex_distance, d.nearest_site,
+               d.nearest_distance, d.cell_area, d.cell_euler);
+}
+
 // One method, run several times.
 struct Contestant {
     const bench::Method& method;
     int threads;
-    Timings propagate = {}, diagram = {};
+    // Both: in one call, where faces are traced while the Steiner engine runs.
+    Timings propagate = {}, diagram = {}, both = {};
     Json result = {};  // What does not depend on the run.
 };
 
 Json describe(const Case& c, const Propagation& propagation,
-              const std::optional<bench::ExactRun>& exact) {
+              const std::optional<std::vector<double>>& exact) {
     const auto mixed = static_cast<double>(propagation.mixed_faces.size());
     Json result{{"peak_bytes", propagation.peak_bytes},
                 {"bytes_per_face", static_cast<double>(propagation.peak_bytes) /
@@ -118,8 +131,7 @@ Json describe(const Case& c, const Propagation& propagation,
                  mixed == 0 ? 0 : static_cast<double>(propagation.relays.size()) / mixed}};
     if (!std::isfinite(propagation.certified_error)) result["certified_error"] = nullptr;
     if (exact) {
-        const bench::VertexError error =
-            bench::vertex_error(propagation.vertex_distance, exact->vertex_distance);
+        const bench::VertexError error = bench::vertex_error(propagation.vertex_distance, *exact);
         result["mean_relative_error"] = error.mean;
         result["max_relative_error"] = error.max;
         result["lowest_relative_error"] = error.lowest;
@@ -128,25 +140,34 @@ Json describe(const Case& c, const Propagation& propagation,
 }
 
 // Adds one repetition.
-void run(const Case& c, const std::optional<bench::ExactRun>& exact, bool with_diagram,
+void run(const Case& c, const std::optional<std::vector<double>>& exact, bool with_diagram,
          bench::P0& sweep, bench::SweepSeconds& p0, Contestant& contestant) {
     PropagationOptions options = contestant.method.options;
     options.num_threads = contestant.threads;
     Propagation propagation;
     const bench::Seconds propagating =
         bench::time([&] { propagation = propagate(c.surface, c.layout, c.on_base, options); });
-    bench::Seconds building;
-    if (with_diagram) {
-        Diagram diagram;
-        building = bench::time([&] {
-            diagram = build_diagram(c.surface, c.on_base, propagation,
-                                    {.num_threads = contestant.threads});
-        });
-    }
     if (contestant.result.empty()) contestant.result = describe(c, propagation, exact);
     const double before = std::exchange(p0, sweep.seconds()).median;
     contestant.propagate.add(propagating, before, p0.median);
-    if (with_diagram) contestant.diagram.add(building, before, p0.median);
+    if (!with_diagram) return;
+    const DiagramOptions drawing{.num_threads = contestant.threads};
+    contestant.diagram.add(
+        bench::time(
+            [&] { (void)build_diagram(c.surface, c.on_base, std::move(propagation), drawing); }),
+        before, p0.median);
+    propagation = {};
+    TracedDiagram traced;
+    const bench::PeakBytes most;
+    contestant.both.add(
+        bench::time([&] { traced = trace_diagram(c.surface, c.on_base, options, drawing); }),
+        before, p0.median);
+    const double faces = c.surface.num_faces();
+    const auto bytes = static_cast<double>(most.bytes());
+    contestant.result["both_bytes_per_face"] = bytes / faces;
+    contestant.result["working_bytes_per_face"] =
+        (bytes - static_cast<double>(bytes_of(traced.diagram))) / faces;
+    contestant.result["most_relays"] = traced.most_relays;
 }
 
 // Wall time over that of one thread; null without a run on one thread.
@@ -180,7 +201,10 @@ Json row_of(const Case& c, const Contestant& contestant, double p0,
     const double faces = c.surface.num_faces();
     contestant.propagate.tell("propagate", p0, faces, row);
     row["speedup"] = speedup(contestant, all);
-    if (!contestant.diagram.cpu.empty()) contestant.diagram.tell("diagram", p0, faces, row);
+    if (!contestant.diagram.cpu.empty()) {
+        contestant.diagram.tell("diagram", p0, faces, row);
+        contestant.both.tell("both", p0, faces, row);
+    }
     row.update(contestant.result);
     return row;
 }
@@ -192,9 +216,9 @@ std::vector<Json> measure(const Case& c, const std::vector<bench::Method>& metho
     bench::P0 sweep(c.input, c.sites);
     bench::SweepSeconds last_sweeps = sweep.seconds();
     double p0 = last_sweeps.quickest;
-    std::optional<bench::ExactRun> exact;
+    std::optional<std::vector<double>> exact;  // Distances of the vertices.
     if (c.surface.num_faces() <= arguments.exact_limit) {
-        exact = bench::run_exact(c.input, c.sites);
+        exact = bench::exact_vertex_distances(c.input, c.sites);
     }
     std::vector<Contestant> contestants;
     for (const bench::Method& method : methods) {
@@ -213,7 +237,9 @@ std::vector<Json> measure(const Case& c, const std::vector<bench::Method>& metho
     std::vector<Json> rows;
     if (exact) {
         Timings timings;
-        timings.add(exact->taken, p0, p0);
+        timings.add(
+            bench::time([&] { (void)bench::vertex_distances_by_one_search(c.input, c.sites); }), p0,
+            p0);
         rows.push_back(heading_of(c, "CGAL exact", 1));
         rows.back()["repetitions"] = 1;
         rows.back()["p0_ms"] = 1e3 * p0;

@@ -1,25 +1,31 @@
 //! \file
-//! CGAL's exact distances as one more method, if the build has CGAL.
+//! What benchmarks take from CGAL's exact distances, if the build has CGAL. Without it all
+//! functions that ask CGAL throw agvd::InvalidOption.
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "agvd/mesh/mesh.h"
 #include "agvd/mesh/surface.h"
-#include "bench/timing.h"
+#include "paper/compare.h"
 
 namespace bench {
 
-struct ExactRun {
-    std::vector<double> vertex_distance;  //!< #V; infinity where no site reaches.
-    Seconds taken;                        //!< On one core.
-};
+[[nodiscard]] bool has_exact();
 
-//! exact_nearest_sites of all vertices: one search from all sites, which alone is not reliable, and
-//! one from each site as far as it may be nearest.
-//! \throw agvd::InvalidOption  built without CGAL.
-[[nodiscard]] ExactRun run_exact(const agvd::Surface& surface,
-                                 std::span<const agvd::SurfacePoint> sites);
+//! exact_nearest_sites of all vertices: #V; infinity where no site reaches.
+[[nodiscard]] std::vector<double> exact_vertex_distances(const agvd::Surface& surface,
+                                                         std::span<const agvd::SurfacePoint> sites);
+
+//! distances_by_one_search of all vertices: #V; infinity where no site reaches.
+[[nodiscard]] std::vector<double> vertex_distances_by_one_search(
+    const agvd::Surface& surface, std::span<const agvd::SurfacePoint> sites);
+
+//! agvd::compare_labels on all cores.
+[[nodiscard]] std::vector<agvd::LabelError> exact_label_errors(
+    const agvd::Surface& surface, std::span<const agvd::SurfacePoint> sites,
+    std::span<const agvd::SurfacePoint> points, std::span<const std::vector<agvd::SiteId>> labels);
 
 //! Error of vertex distances, relative to the exact ones.
 struct VertexError {

@@ -34,4 +34,12 @@ std::vector<Method> methods(const MethodLists& lists) {
     return result;
 }
 
+std::vector<Method> on_base(std::vector<Method> methods) {
+    for (Method& method : methods) {
+        method.name += " base";
+        method.drawing = Drawing::OnBase;
+    }
+    return methods;
+}
+
 }  // namespace bench

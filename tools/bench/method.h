@@ -9,11 +9,18 @@
 
 namespace bench {
 
+//! How a diagram comes from distances.
+enum class Drawing {
+    OnMesh,       //!< All on the triangles of the mesh.
+    OnBase,       //!< On the intrinsic base that the programs use (based_diagram.h).
+    VertexLabels  //!< Labels of vertices alone, joined by straight segments
+                  //!< (paper/vertex_labels.h).
+};
+
 struct Method {
     std::string name;  //!< Short, for the table: "window 1e-03", "steiner m=8".
     agvd::PropagationOptions options;
-    //! Only labels of vertices are used, joined by straight segments (paper/vertex_labels.h).
-    bool by_vertex_labels = false;
+    Drawing drawing = Drawing::OnMesh;
 };
 
 //! The options to vary; each engine uses those that it has.
@@ -25,5 +32,8 @@ struct MethodLists {
 };
 
 [[nodiscard]] std::vector<Method> methods(const MethodLists& lists);
+
+//! The same on the intrinsic base; their names end in "base".
+[[nodiscard]] std::vector<Method> on_base(std::vector<Method> methods);
 
 }  // namespace bench

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "bench/timing.h"
+#include "bench/workload.h"
 
 namespace bench {
 namespace {
@@ -82,12 +83,6 @@ private:
     std::vector<Index> heap_;
     std::vector<Index> place_;  // #V: index in heap_; no_index outside.
 };
-
-Index nearest_corner(const agvd::Surface& surface, const agvd::SurfacePoint& site) {
-    const auto& b = site.barycentric;
-    const auto corner = static_cast<std::size_t>(std::max_element(b.begin(), b.end()) - b.begin());
-    return surface.mesh.triangles[site.face.value()][corner];
-}
 
 }  // namespace
 

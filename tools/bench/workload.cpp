@@ -1,5 +1,6 @@
 #include "bench/workload.h"
 
+#include <algorithm>
 #include <charconv>
 
 #include "agvd/core/error.h"
@@ -76,6 +77,12 @@ Surface subdivided(Surface surface, Index min_faces, double jitter) {
 Surface load(const std::filesystem::path& path, Index min_faces) {
     const TriangleMesh mesh = is_torus(path) ? named_torus(path) : remesh::read_mesh(path).mesh;
     return subdivided(build_surface(mesh.view()), min_faces);
+}
+
+Index nearest_corner(const Surface& surface, const SurfacePoint& point) {
+    const auto& b = point.barycentric;
+    const auto corner = static_cast<std::size_t>(std::max_element(b.begin(), b.end()) - b.begin());
+    return surface.mesh.triangles[point.face.value()][corner];
 }
 
 std::vector<SurfacePoint> random_sites(const Surface& surface, Index count, Place place,

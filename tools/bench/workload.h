@@ -21,6 +21,10 @@ namespace bench {
 //! \throw agvd::IoError, agvd::InvalidInput, agvd::InvalidOption  FACES is too small or no number.
 [[nodiscard]] agvd::Surface load(const std::filesystem::path& path, agvd::Index min_faces);
 
+//! The vertex at which a point lies, or the corner of its face with the largest coordinate.
+[[nodiscard]] agvd::Index nearest_corner(const agvd::Surface& surface,
+                                         const agvd::SurfacePoint& point);
+
 enum class Place { Vertices, Faces };
 
 //! Distinct random vertices, or points uniform by area in face interiors.

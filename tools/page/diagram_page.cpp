@@ -104,7 +104,8 @@ std::string format_page(const DiagramPage& page, const agvd::Diagram& diagram,
                    .mesh = thin ? thin->view() : page.mesh,
                    .cells = page.bisectors,
                    .isolines = page.isolines,
-                   .sites = page.sites};
+                   .sites = page.sites,
+                   .site_lines = page.site_lines};
     if (thin) {
         drawn.thinned_from = page.mesh.triangles.size();
     } else {

@@ -18,7 +18,8 @@ struct DiagramPage {
     std::string engine = {};              //!< Of the distances.
     std::string name = {};                //!< Of the file of the mesh.
     agvd::MeshView mesh = {};             //!< On which the diagram is drawn.
-    std::vector<agvd::Vec3> sites = {};   //!< Where they are.
+    std::vector<agvd::Vec3> sites = {};   //!< Where points among them are.
+    Polylines site_lines = {};            //!< Lines among them, and the rims of regions.
     Polylines bisectors = {};             //!< Between cells.
     Polylines isolines = {};              //!< Of equal distance ...
     double isoline_step = 0;              //!< ... at multiples of this one; 0: there are none.

@@ -149,6 +149,7 @@ MeshBlock to_block(const PageMesh& mesh) {
     add_lines("cell", mesh.cells, grid, streams);
     add_lines("isoline", mesh.isolines, grid, streams);
     add_points("site_steps", mesh.sites, grid, streams);
+    add_lines("site_line", mesh.site_lines, grid, streams);
     description["streams"] = streams.lengths();
     description["gzip"] = remesh::knows_gzip();
     block.base64 =

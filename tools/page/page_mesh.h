@@ -43,6 +43,7 @@ struct PageMesh {
     Polylines cells = {};                                  //!< Edges of Voronoi cells.
     Polylines isolines = {};                               //!< Lines of equal distance.
     std::vector<agvd::Vec3> sites = {};                    //!< Points on the surface.
+    Polylines site_lines = {};                             //!< Sites that are lines.
 };
 
 struct MeshBlock {

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "agvd/core/error.h"
+#include "bench/exact.h"
 #include "bench/face_shapes.h"
 #include "cli.h"
 #include "make_data/data_files.h"
@@ -21,6 +22,8 @@ using namespace agvd;
 using Json = nlohmann::ordered_json;
 using bench::Column;
 
+constexpr Index label_points = 100'000;
+
 struct Arguments {
     fs::path meshes;
     fs::path instead;  // Empty: each section's own meshes.
@@ -36,6 +39,15 @@ std::vector<bench::Method> methods(std::vector<int> steiner_points,
                            {0, 1e-3},
                            std::move(steiner_points),
                            std::move(lambdas)});
+}
+
+// These, and Steiner points on the intrinsic base.
+std::vector<bench::Method> methods_and_base(std::vector<int> on_mesh, std::vector<int> on_base) {
+    std::vector<bench::Method> all = methods(std::move(on_mesh));
+    const auto base =
+        bench::on_base(bench::methods({{Engine::Steiner}, {}, std::move(on_base), {1}}));
+    all.insert(all.end(), base.begin(), base.end());
+    return all;
 }
 
 // Where sections get their meshes and put their rows.
@@ -64,21 +76,16 @@ public:
         return bench::random_sites(surface, std::min(count, most), bench::Place::Vertices, 1);
     }
 
-    // Measures and keeps one row for each method; `more` is added to each. Where diagrams are
-    // compared, the labels of vertices are one more method.
+    // Measures and keeps one row for each method; `more` is added to each. Without CGAL no labels
+    // are compared.
     void measure(const std::string& name, const Surface& surface,
-                 const std::vector<SurfacePoint>& sites, std::vector<bench::Method> by,
+                 const std::vector<SurfacePoint>& sites, const std::vector<bench::Method>& by,
                  bench::PaperOptions options = {}, const Json& more = Json::object()) {
-        if (options.with_errors) by.push_back({"vertex labels", {.max_error = 0}, true});
+        if (!bench::has_exact()) options.label_points = 0;
         options.repetitions = std::min(options.repetitions, arguments_.repetitions);
         std::vector<Json> measured = bench::measure({name, surface, sites}, by, options);
         bench::paper::add_ratios(measured);
-        std::size_t i = 0;
         for (Json& row : measured) {
-            const PropagationOptions& how = by[i++].options;
-            row["steiner_points"] =
-                how.engine == Engine::Steiner ? Json(how.steiner_points) : Json();
-            row["lambda"] = how.engine == Engine::Steiner ? Json(how.lambda) : Json();
             row.update(more);
             bench::print_row(columns_, row);
             rows_.push_back(row);
@@ -99,21 +106,36 @@ private:
 void fig1(Workshop& shop) {
     const Surface surface =
         shop.is_quick_look() ? shop.mesh("") : build_surface(make_data::organic().view());
-    shop.measure("organic", surface, shop.sites(surface, 30), methods({8}));
+    shop.measure("organic", surface, shop.sites(surface, 30), methods({8}),
+                 {.with_other_codes = true, .label_points = label_points});
 }
 
-// Table 1: 100 sites on four meshes.
+// These, and labels of vertices.
+std::vector<bench::Method> methods_and_labels(std::vector<int> steiner_points) {
+    std::vector<bench::Method> all = methods(std::move(steiner_points));
+    all.push_back({"vertex labels", {.max_error = 0}, bench::Drawing::VertexLabels});
+    return all;
+}
+
+// Table 1: 100 sites on meshes of three of its four sizes.
 void table1(Workshop& shop) {
-    const std::pair<const char*, Index> meshes[] = {{"fertility.off", 30'000},
-                                                    {"3holes.off", 100'000},
-                                                    {"fandisk.off", 200'000},
-                                                    {"bunny.off", 1'000'000}};
+    const std::pair<const char*, Index> meshes[] = {
+        {"fertility.off", 30'000}, {"3holes.off", 100'000}, {"fandisk.off", 200'000}};
     for (const auto& [name, faces] : meshes) {
         const Surface surface = shop.mesh(name, faces);
-        const int repetitions = faces < 200'000 ? 3 : faces < 1'000'000 ? 2 : 1;
-        shop.measure(fs::path(name).stem(), surface, shop.sites(surface, 100), methods({5, 8, 12}),
-                     {.repetitions = repetitions});
+        shop.measure(fs::path(name).stem(), surface, shop.sites(surface, 100),
+                     methods_and_labels({5, 8, 12}),
+                     {.repetitions = faces < 200'000 ? 3 : 2,
+                      .with_other_codes = true,
+                      .label_points = label_points});
     }
+}
+
+// The fourth size: one run, without errors, which take far longer.
+void million(Workshop& shop) {
+    const Surface surface = shop.mesh("bunny.off", 1'000'000);
+    shop.measure("bunny", surface, shop.sites(surface, 100), methods_and_labels({8}),
+                 {.repetitions = 1, .with_errors = false, .with_other_codes = true});
 }
 
 // Table 2: 2 to 2000 sites on two meshes.
@@ -131,14 +153,16 @@ void table2(Workshop& shop) {
 // Fig. 9: 30 sites on a cow of at least 50k faces.
 void fig9(Workshop& shop) {
     const Surface surface = shop.mesh("spot.obj", 50'000);
-    shop.measure("spot", surface, shop.sites(surface, 30), methods({5, 8, 12}));
+    shop.measure("spot", surface, shop.sites(surface, 30), methods({5, 8, 12}),
+                 {.label_points = label_points});
 }
 
 // Fig. 10: 2 to 30 Steiner points per edge.
 void fig10(Workshop& shop) {
     const Surface surface = shop.mesh("3holes.off", 100'000);
     shop.measure("3holes", surface, shop.sites(surface, 100),
-                 methods({2, 3, 5, 8, 10, 12, 15, 20, 25, 30}), {.repetitions = 2});
+                 methods({2, 3, 5, 8, 10, 12, 15, 20, 25, 30}),
+                 {.repetitions = 2, .bisector_points = 1000});
 }
 
 // Fig. 12: triangles retired every lambda #F pops.
@@ -148,7 +172,8 @@ void fig12(Workshop& shop) {
                  methods({8}, {0.01, 0.03, 0.1, 0.3, 1, 3, 10, 100}), {.with_errors = false});
 }
 
-// Fig. 13: one surface and set of sites in three resolutions, each in three qualities.
+// Fig. 13: one surface and set of sites in three resolutions, each in three qualities. The table
+// has no |dA - dB|.
 void fig13(Workshop& shop) {
     const Surface coarse = shop.mesh("spot.obj");
     const auto corners = shop.sites(coarse, 30);
@@ -156,15 +181,13 @@ void fig13(Workshop& shop) {
         for (const double jitter : {0.0, 0.3, 0.45}) {
             const Surface surface = shop.mesh("spot.obj", faces, jitter);
             std::vector<SurfacePoint> sites;  // The coarse mesh's vertices keep their numbers.
+            sites.reserve(corners.size());
             for (const SurfacePoint& corner : corners) {
-                const auto k =
-                    std::max_element(corner.barycentric.begin(), corner.barycentric.end()) -
-                    corner.barycentric.begin();
-                const Triangle& triangle = coarse.mesh.triangles[corner.face.value()];
-                sites.push_back(point_at(surface, triangle[static_cast<std::size_t>(k)]));
+                sites.push_back(point_at(surface, bench::nearest_corner(coarse, corner)));
             }
             const bench::FaceShapes shapes = bench::face_shapes(surface);
-            shop.measure("spot", surface, sites, methods({8}), {.repetitions = 2},
+            shop.measure("spot", surface, sites, methods_and_base({8}, {8, 12}),
+                         {.repetitions = 2, .bisector_points = 1000},
                          {{"mean_lo", shapes.mean_lo}, {"mean_tau", shapes.mean_tau}});
         }
     }
@@ -176,8 +199,8 @@ void fig14(Workshop& shop) {
          {"dirty/58011.stl", "dirty/65004.stl", "dirty/72214.stl", "dirty/79741.stl"}) {
         const Surface surface = shop.mesh(name);
         const bench::FaceShapes shapes = bench::face_shapes(surface);
-        shop.measure(fs::path(name).stem(), surface, shop.sites(surface, 50), methods({8, 12}),
-                     {.bisector_points = 1000},
+        shop.measure(fs::path(name).stem(), surface, shop.sites(surface, 50),
+                     methods_and_base({8, 12}, {8, 12}), {.bisector_points = 1000},
                      {{"mean_tau", shapes.mean_tau}, {"max_tau", shapes.max_tau}});
     }
 }
@@ -213,29 +236,29 @@ const std::vector<Section>& sections() {
     static const std::vector<Column> last{{"dual_p0", "dual", 2, 7},
                                           {"over_exact_distances", "/exact", 2, 7}};
     static const auto costs = join({case_columns(), cost_columns()});
-    static const auto all_columns = join({costs, error_columns()});
-    static const auto ratios = join({costs, ratio_columns(), error_columns()});
+    static const auto with_errors = join({costs, error_columns()});
+    static const auto with_labels = join({costs, error_columns(), label_columns(), code_columns()});
+    static const auto with_ratios =
+        join({costs, ratio_columns(), error_columns(), label_columns()});
     static const std::vector<Section> all{
-        {"fig1", fig1, ratios},
-        {"table1", table1, all_columns},
+        {"fig1", fig1, join({with_ratios, code_columns()})},
+        {"table1", table1, with_labels},
+        {"million", million, join({costs, code_columns()})},
         {"table2",
          table2,
          costs,
          bench::plots_over_sites,
          {{"mesh", "mesh"}, {"sites", "t"}},
          {{"total_p0", "P0", 1}, {"peak_mb", "MB", 1}}},
-        {"fig9", fig9, ratios},
-        {"fig10", fig10, all_columns, bench::plots_over_points},
+        {"fig9", fig9, with_ratios},
+        {"fig10", fig10, with_errors, bench::plots_over_points},
         {"fig12", fig12, costs, bench::plots_over_lambda},
         {"fig13",
          fig13,
          join({case_columns(), quality, cost_columns(), error_columns()}),
          bench::plots_over_quality,
          {{"faces", "faces"}, {"mean_lo", "Lo", 2}},
-         {{"delta_percent", "δ %", 3},
-          {"wrong_percent", "wrong %", 3},
-          {"total_p0", "P0", 1},
-          {"peak_mb", "MB", 1}}},
+         {{"delta_percent", "δ %", 3}, {"total_p0", "P0", 1}, {"peak_mb", "MB", 1}}},
         {"fig14", fig14, join({case_columns(), thinness, cost_columns(), error_columns()})},
         {"fig15", fig15, join({costs, last})},
     };

@@ -55,7 +55,7 @@ struct Open {
     };
     std::vector<Bisector> bisectors;
     std::vector<Label> doubtful_labels;
-    Index wrong_labels = 0;
+    Index unreached_labels = 0;  // Where only one side has a site.
 };
 
 void ask_bisectors(const Surface& surface, const Diagram& diagram, Questions& questions,
@@ -66,21 +66,41 @@ void ask_bisectors(const Surface& surface, const Diagram& diagram, Questions& qu
     }
 }
 
-void ask_labels(const Surface& surface, const Approximation& approximation,
-                std::span<const SurfacePoint> samples, const NearestSites& exact,
-                Questions& questions, Open& open) {
+// Of the nearest relays at the points.
+std::vector<SiteId> labels_of(const Surface& surface, const Approximation& approximation,
+                              std::span<const SurfacePoint> points) {
     const IntrinsicTriangulation* base = approximation.base;
     const Surface& asked = base ? base->surface() : surface;
-    for (std::size_t i = 0; i < samples.size(); ++i) {
-        const SurfacePoint point = base ? base->to_intrinsic(samples[i]) : samples[i];
-        const SiteId ours = point_label(asked, approximation.propagation, point).site;
-        if (ours == exact.site[i]) continue;
-        if (ours.is_valid() && exact.site[i].is_valid()) {
-            open.doubtful_labels.push_back({questions.ask(ours, samples[i]), exact.distance[i]});
+    std::vector<SiteId> labels;
+    for (const SurfacePoint& point : points) {
+        const SurfacePoint there = base ? base->to_intrinsic(point) : point;
+        labels.push_back(point_label(asked, approximation.propagation, there).site);
+    }
+    return labels;
+}
+
+void ask_labels(std::span<const SurfacePoint> points, std::span<const SiteId> labels,
+                const NearestSites& exact, Questions& questions, Open& open) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (labels[i] == exact.site[i]) continue;
+        if (labels[i].is_valid() && exact.site[i].is_valid()) {
+            open.doubtful_labels.push_back(
+                {questions.ask(labels[i], points[i]), exact.distance[i]});
         } else {
-            ++open.wrong_labels;
+            ++open.unreached_labels;
         }
     }
+}
+
+LabelError measure_labels(const Questions& exact, const Open& open, std::size_t num_points) {
+    std::size_t num_wrong = open.unreached_labels;
+    double largest = num_wrong > 0 ? infinity : 0;
+    for (const auto& [ours, nearest] : open.doubtful_labels) {
+        if (!(exact[ours] > nearest * (1 + tie))) continue;
+        ++num_wrong;
+        largest = std::max(largest, exact[ours] - nearest);
+    }
+    return {static_cast<double>(num_wrong) / static_cast<double>(num_points), largest};
 }
 
 BisectorError measure_bisectors(const Questions& exact, const Open& open, double cell_radius) {
@@ -131,8 +151,9 @@ std::vector<DiagramError> compare_with_exact(const Surface& surface,
     std::vector<Open> open(approximations.size());
     for (std::size_t i = 0; i < approximations.size(); ++i) {
         ask_bisectors(surface, approximations[i].diagram, questions, open[i]);
-        ask_labels(surface, approximations[i], std::span(targets).first(num_samples), exact,
-                   questions, open[i]);
+        const auto samples = std::span(targets).first(num_samples);
+        ask_labels(samples, labels_of(surface, approximations[i], samples), exact, questions,
+                   open[i]);
     }
     questions.answer(surface, sites, options.num_threads);
 
@@ -140,13 +161,27 @@ std::vector<DiagramError> compare_with_exact(const Surface& surface,
     std::vector<DiagramError> errors(approximations.size());
     for (std::size_t i = 0; i < approximations.size(); ++i) {
         errors[i].bisectors = measure_bisectors(questions, open[i], cell_radius);
-        for (const auto& [ours, nearest] : open[i].doubtful_labels) {
-            open[i].wrong_labels += questions[ours] > nearest * (1 + tie);
-        }
-        errors[i].wrong_label_area = open[i].wrong_labels / static_cast<double>(num_samples);
+        errors[i].wrong_label_area = measure_labels(questions, open[i], num_samples).wrong;
         measure_distances(vertices, std::span(exact.distance).subspan(num_samples),
                           approximations[i].propagation, errors[i]);
     }
+    return errors;
+}
+
+std::vector<LabelError> compare_labels(const Surface& surface, std::span<const SurfacePoint> sites,
+                                       std::span<const SurfacePoint> points,
+                                       std::span<const std::vector<SiteId>> labels,
+                                       int num_threads) {
+    const NearestSites exact = exact_nearest_sites(surface, sites, points, num_threads);
+    Questions questions(sites.size());
+    std::vector<Open> open(labels.size());
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+        ask_labels(points, labels[i], exact, questions, open[i]);
+    }
+    questions.answer(surface, sites, num_threads);
+    std::vector<LabelError> errors;
+    errors.reserve(open.size());
+    for (const Open& one : open) errors.push_back(measure_labels(questions, one, points.size()));
     return errors;
 }
 

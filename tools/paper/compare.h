@@ -17,6 +17,14 @@ struct DiagramError {
     double mean_relative_distance = 0;  //!< Mean of the same.
 };
 
+//! Labels of points that are not those of the exact nearest sites. Where sites tie within rounding,
+//! each of them is right.
+struct LabelError {
+    double wrong = 0;    //!< Share of the points.
+    double largest = 0;  //!< Most by which a wrong label's site is farther than the nearest one,
+                         //!< mesh units; infinite where only one of them reaches.
+};
+
 //! What is judged; both belong to the same sites.
 struct Approximation {
     const Propagation& propagation;  //!< Of the surface, or of `base` if there is one.
@@ -32,14 +40,24 @@ struct CompareOptions {
 };
 
 //! Error of each approximation of one diagram. Bisectors are measured at the points of their
-//! polylines and at the middles between these; labels are those of the nearest relay at a point.
-//! Where sites tie within rounding, each of them is right. A vertex that only one side reaches has
-//! an infinite relative distance.
+//! polylines and at the middles between these; labels are those of the nearest relay at a point. A
+//! vertex that only one side reaches has an infinite relative distance.
 //!
 //! Cost: one exact search from all sites, and one from each site as far as its cell and the
 //! neighbours of its bisectors; shared by all approximations.
 [[nodiscard]] std::vector<DiagramError> compare_with_exact(
     const Surface& surface, std::span<const SurfacePoint> sites,
     std::span<const Approximation> approximations, const CompareOptions& options = {});
+
+//! Errors of several lists of labels of the same points.
+//! \param labels       #points each.
+//! \param num_threads  >= 0; 0: all cores. Same result for any number.
+//!
+//! Cost: exact_nearest_sites of the points, and a search from each site as far as its wrong labels.
+[[nodiscard]] std::vector<LabelError> compare_labels(const Surface& surface,
+                                                     std::span<const SurfacePoint> sites,
+                                                     std::span<const SurfacePoint> points,
+                                                     std::span<const std::vector<SiteId>> labels,
+                                                     int num_threads = 0);
 
 }  // namespace agvd

@@ -189,10 +189,11 @@ double directed_hausdorff(const TriangleMesh& from, const TriangleMesh& to, doub
     for (const Triangle& piece : from.triangles) {
         const Vec3& a = from.positions[piece[0]];
         const Vec3 along = from.positions[piece[1]] - a;
-        const double steps = std::max(1.0, std::ceil(along.norm() / spacing));
-        for (double i = 0; i <= steps; ++i) {
+        const auto steps = static_cast<Index>(std::max(1.0, std::ceil(along.norm() / spacing)));
+        for (Index i = 0; i <= steps; ++i) {
             ticker.tick(16);
-            farthest_sq = std::max(farthest_sq, tree.query(a + i / steps * along).distance_sq);
+            const Vec3 point = a + static_cast<double>(i) / steps * along;
+            farthest_sq = std::max(farthest_sq, tree.query(point).distance_sq);
         }
     }
     return std::sqrt(farthest_sq);
@@ -249,11 +250,14 @@ std::vector<BisectorError> exact_bisector_errors(const Surface& surface,
                                                  std::span<const Diagram* const> diagrams,
                                                  const BisectorErrorOptions& options) {
     if (options.max_points < 1) throw InvalidOption("max_points is 0; use 1 or more");
-    std::vector<std::vector<SiteId>> points_of(sites.size());  // By site.
+    std::vector<std::vector<SiteId>> parts_of(diagrams[0]->num_sites);  // Points, and shapes.
     for (Index i = 0; i < sites.size(); ++i) {
-        points_of[options.points.site_of(i)].push_back(SiteId(i));
+        parts_of[options.points.site_of(i)].push_back(SiteId(i));
     }
-    // The points of the left and of the right site of each sample in turn.
+    for (std::size_t i = 0; i < options.shapes.size(); ++i) {
+        parts_of[options.shapes[i].site].push_back(SiteId(static_cast<Index>(sites.size() + i)));
+    }
+    // The parts of the left and of the right site of each sample in turn.
     std::vector<SiteDistanceQuery> queries;
     std::vector<std::size_t> ends;      // Of the queries of each side of a sample.
     std::vector<std::size_t> begin{0};  // Of each diagram's sides.
@@ -264,7 +268,7 @@ std::vector<BisectorError> exact_bisector_errors(const Surface& surface,
         for (std::size_t i = 0; i < samples.size(); i += step) {
             const auto& [point, left, right, distance] = samples[i];
             for (const SiteId site : {left, right}) {
-                for (const SiteId p : points_of[site.value()]) {
+                for (const SiteId p : parts_of[site.value()]) {
                     queries.push_back({p, point, distance});
                 }
                 ends.push_back(queries.size());
@@ -272,13 +276,14 @@ std::vector<BisectorError> exact_bisector_errors(const Surface& surface,
         }
         begin.push_back(ends.size());
     }
-    const std::vector<double> exact =
-        site_distances(surface, sites, queries, options.num_threads, options.progress);
+    const std::vector<double> exact = site_distances(surface, sites, options.shapes, queries,
+                                                     options.num_threads, options.progress);
     const auto least = [&](std::size_t side) {
         double distance = infinity;
         for (std::size_t q = side == 0 ? 0 : ends[side - 1]; q < ends[side]; ++q) {
             const std::vector<double>& start = options.points.start;
-            const double from = start.empty() ? 0 : start[queries[q].site.value()];
+            const Index part = queries[q].site.value();
+            const double from = part < start.size() ? start[part] : 0;
             distance = std::min(distance, from + exact[q]);
         }
         return distance;

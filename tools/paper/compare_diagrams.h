@@ -70,7 +70,8 @@ struct LoopCurves {
 
 //! `{}` gives the defaults.
 struct BisectorErrorOptions {
-    SitePoints points = {};  //!< What the points given as sites stand for.
+    SitePoints points = {};              //!< What the points given as sites stand for.
+    std::vector<SiteShape> shapes = {};  //!< Lines and regions, besides the points.
     //! >= 1; of more points that a diagram has, every k-th is measured.
     Index max_points = 20'000;
     int num_threads = 0;     //!< >= 0; 0: all cores. Same result for any number.
@@ -78,14 +79,13 @@ struct BisectorErrorOptions {
 };
 
 //! |dA - dB| of each diagram, dA and dB being the exact distances (window engine) of points of its
-//! bisectors from the two sites that they are said to be between; of a site's points the nearest
-//! counts. A point that one of them does not
-//! reach counts as infinitely wrong.
+//! bisectors from the two sites that they are said to be between; of a site's points and shapes the
+//! nearest counts. A point that one of them does not reach counts as infinitely wrong.
 //!
 //! \param diagrams  of the same surface and sites; they share the searches.
 //! Cost: for each site one exact search as far as its bisectors, in a mesh with their points as
-//! vertices; with random sites, together some 3 to 6 exact propagations. Far more on meshes of
-//! long slivers, where windows are many: measure fewer points there.
+//! vertices; with random sites, together some 3 to 6 exact propagations; for each shape O(#F)
+//! besides. Far more on meshes of long slivers, where windows are many: measure fewer points there.
 //! \throw Cancelled  the progress callback returned false.
 [[nodiscard]] std::vector<BisectorError> exact_bisector_errors(
     const Surface& surface, std::span<const SurfacePoint> sites,

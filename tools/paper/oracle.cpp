@@ -158,6 +158,20 @@ double distance_to(WindowTree& tree, const Surface& surface, const Part& part,
         ask(tree, part, close) + (position(mesh, close) - position(mesh, target)).norm());
 }
 
+// Distance of each target from the nearest of the sites.
+std::vector<double> search(const Surface& surface, const Part& part,
+                           std::span<const SurfacePoint> sites,
+                           std::span<const SurfacePoint> targets) {
+    WindowTree tree(part.mesh);
+    for (const SurfacePoint& site : sites) add_source(tree, part, site);
+    std::vector<double> distances;
+    distances.reserve(targets.size());
+    for (const SurfacePoint& target : targets) {
+        distances.push_back(distance_to(tree, surface, part, target));
+    }
+    return distances;
+}
+
 // At least every face that comes within `reach` of a place in space, hence along the surface too.
 std::vector<char> faces_within(const Surface& surface, const Vec3& place, double reach) {
     std::vector<char> is_inside(surface.num_faces());
@@ -183,15 +197,7 @@ std::vector<double> distances_within(const Surface& surface, const SurfacePoint&
     is_inside[site.face.value()] = 1;  // Also when rounding says otherwise.
     for (const SurfacePoint& target : targets) is_inside[target.face.value()] = 1;
     const auto num_inside = static_cast<Index>(std::count(is_inside.begin(), is_inside.end(), 1));
-    const Part part = make_part(surface, is_inside, num_inside);
-    WindowTree tree(part.mesh);
-    add_source(tree, part, site);
-    std::vector<double> distances;
-    distances.reserve(targets.size());
-    for (const SurfacePoint& target : targets) {
-        distances.push_back(distance_to(tree, surface, part, target));
-    }
-    return distances;
+    return search(surface, make_part(surface, is_inside, num_inside), {&site, 1}, targets);
 }
 
 // Calls answer(s) for each site in parallel; of several failures the one of the lowest site is
@@ -246,23 +252,26 @@ std::vector<std::vector<double>> exact_distances(const Surface& surface,
     return distances;
 }
 
-// CGAL up to at least 5.5 loses windows where several sources meet one on an edge, so its search
-// from all sites serves as an upper bound only: what decides are the distances from each site
-// alone, of all sites that are near enough in space.
+std::vector<double> distances_by_one_search(const Surface& surface,
+                                            std::span<const SurfacePoint> sites,
+                                            std::span<const SurfacePoint> targets) {
+    return search(surface, whole(surface), sites, targets);
+}
+
+// The search from all sites serves as an upper bound only: what decides are the distances from each
+// site alone, of all sites that are near enough in space.
 NearestSites exact_nearest_sites(const Surface& surface, std::span<const SurfacePoint> sites,
                                  std::span<const SurfacePoint> targets, int num_threads) {
-    const Part part = whole(surface);
-    WindowTree tree(part.mesh);
     std::vector<Vec3> site_positions;
     for (const SurfacePoint& site : sites) {
-        add_source(tree, part, site);
         site_positions.push_back(position(surface.mesh.view(), site));
     }
+    const std::vector<double> bounds = distances_by_one_search(surface, sites, targets);
     std::vector<std::vector<SurfacePoint>> asked(sites.size());
     std::vector<std::vector<Index>> asked_for(sites.size());
     std::vector<double> reach(sites.size(), 0);
     for (Index i = 0; i < targets.size(); ++i) {
-        const double bound = rounding * distance_to(tree, surface, part, targets[i]);
+        const double bound = rounding * bounds[i];
         const Vec3 place = position(surface.mesh.view(), targets[i]);
         for (std::size_t s = 0; s < sites.size(); ++s) {
             const double slack = space_rounding * (place.norm() + site_positions[s].norm());

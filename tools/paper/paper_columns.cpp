@@ -18,7 +18,7 @@ std::vector<Column> case_columns() {
     return {{"mesh", "mesh", 0, 24},
             {"faces", "faces", 0, 8},
             {"sites", "t", 0, 5},
-            {"method", "method", 0, 16}};
+            {"method", "method", 0, 21}};
 }
 
 std::vector<Column> cost_columns() {
@@ -39,6 +39,12 @@ std::vector<Column> error_columns() {
             {"mean_bisector_error", "dA-dB", -1, 8}, {"p95_bisector_error", "95 %", -1, 8},
             {"max_bisector_error", "largest", -1, 8}};
 }
+
+std::vector<Column> label_columns() {
+    return {{"wrong_label_percent", "labels %", 3, 8}, {"largest_label_error", "farther", -1, 8}};
+}
+
+std::vector<Column> code_columns() { return {{"largest_difference", "differs", -1, 8}}; }
 
 std::vector<Column> join(std::initializer_list<std::vector<Column>> parts) {
     std::vector<Column> all;

@@ -12,6 +12,8 @@ namespace bench::paper {
 [[nodiscard]] std::vector<Column> cost_columns();   //!< Time and memory.
 [[nodiscard]] std::vector<Column> ratio_columns();  //!< Both over those of exact windows.
 [[nodiscard]] std::vector<Column> error_columns();
+[[nodiscard]] std::vector<Column> label_columns();  //!< Errors of labels, by CGAL.
+[[nodiscard]] std::vector<Column> code_columns();   //!< Of other codes: how far from ours.
 
 [[nodiscard]] std::vector<Column> join(std::initializer_list<std::vector<Column>> parts);
 

@@ -13,15 +13,6 @@ struct Place {
     Index vertex = no_index;
 };
 
-double distance_through(const Surface& surface, const Relay& relay, const SurfacePoint& point) {
-    const Vec2 p = position_in_frame(surface, point, relay.half_edge);
-    const Vec2 image(relay.x, relay.y);
-    if (relay.y >= 0 || p.y() <= 0) return relay.weight + (p - image).norm();
-    const double straight = relay.x - relay.y * (p.x() - relay.x) / (p.y() - relay.y);
-    const Vec2 via(std::clamp(straight, relay.begin, relay.end), 0);
-    return relay.weight + (via - image).norm() + (p - via).norm();
-}
-
 class Drawing {
 public:
     Drawing(const Surface& surface, std::size_t num_sites, const Propagation& p)
@@ -69,33 +60,18 @@ private:
     }
     Place corner(Index h) { return place(at_[surface_.tail(h)], point_on(h, 0), 0); }
 
-    // Where both sites are equally far on half-edge h.
+    // Where paths along half-edge h, from both of its ends, are equally long.
     Place crossing(Index h) {
         Place& known = crossings_[surface_.edge[h]];
         const auto face = FaceId(Surface::face(h));
         if (known.vertex != no_index) {
             return place(known, *seen_from(surface_, known.point, face.value()), 0);
         }
-        const auto& mixed = p_.mixed_faces;
-        const auto i = std::lower_bound(mixed.begin(), mixed.end(), face.value()) - mixed.begin();
-        const auto distance = [&](SiteId site, double at) {
-            double least = infinity;
-            for (const Relay& relay : relays_of(p_, static_cast<Index>(i))) {
-                if (relay.site != site) continue;
-                least = std::min(least, distance_through(surface_, relay, point_on(h, at)));
-            }
-            return least;
-        };
-        const SiteId site = label(h), other = label(Surface::next(h));
-        const auto gap = [&](double at) { return distance(site, at) - distance(other, at); };
-        double low = 0, high = 1;
-        while (high - low > 1e-4) {
-            const double middle = (low + high) / 2;
-            (gap(middle) < 0 ? low : high) = middle;
-        }
-        const double at_low = gap(low), step = at_low / (at_low - gap(high));
-        const double at = low + (high - low) * (step >= 0 && step <= 1 ? step : 0.5);
-        return place(known, point_on(h, at), distance(site, at));
+        const double length = surface_.length_of(h);
+        const double tail = p_.vertex_distance[surface_.tail(h)];
+        const double head = p_.vertex_distance[surface_.head(h)];
+        const double at = std::clamp((1 + (head - tail) / length) / 2, 0.0, 1.0);
+        return place(known, point_on(h, at), tail + at * length);
     }
 
     // Edges are added so that their ends are counter-clockwise at each vertex.

@@ -7,12 +7,12 @@
 
 namespace agvd {
 
-//! In a face whose corners have two labels a segment joins the two points of its edges that are
-//! equally far from the sites at their ends. With three labels the middle of three such points is
-//! joined with each. Each segment is a Voronoi edge, and so is each part of the boundary in a cell.
-//! Areas and Euler characteristics are left empty.
+//! In a face whose corners have two labels a segment joins the crossings of its edges: where the
+//! distances of both ends, if they grew by the length of the edge, would be equal. With three
+//! labels the middle of three crossings is joined with each. Each segment is a Voronoi edge, and so
+//! is each part of the boundary in a cell. Areas and Euler characteristics are left empty.
 //!
-//! \param exact  of the window engine with max_error 0.
+//! \param exact  of the window engine with max_error 0; only its vertices matter.
 [[nodiscard]] Diagram vertex_label_diagram(const Surface& surface, std::size_t num_sites,
                                            const Propagation& exact);
 

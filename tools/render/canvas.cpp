@@ -1,6 +1,6 @@
 // A z-buffer with several samples per pixel and side, which are averaged at the end. A triangle
 // fills the samples that are in front; the distance from its edges, known from barycentric
-// coordinates, gives thin dark lines. Hollows are darkened by comparing the depth of each sample
+// coordinates, gives thin dark lines. Hollows are darkened by comparing the depth of each pixel
 // with that of pairs of opposite samples around it, so that a slope alone stays bright.
 #include "render/canvas.h"
 
@@ -106,29 +106,48 @@ void Canvas::draw_line(const Vec3& a, const Vec3& b, const Color& color, double 
             const double t =
                 length_sq > 0 ? std::clamp(p.dot(along.head<2>()) / length_sq, 0.0, 1.0) : 0;
             if ((p - t * along.head<2>()).squaredNorm() > half * half) continue;
-            const std::size_t i = index(x, y);
-            if (from.z() + t * along.z() + bias * samples > depth_[i]) colors_[i] = color;
+            if (is_visible(a + t * (b - a), bias)) colors_[index(x, y)] = color;
         }
     }
 }
 
+bool Canvas::is_visible(const Vec3& point, double bias) const {
+    const Vec3 at = point * samples;
+    // The samples around the point, so that it is not hidden by its own face where that is steep.
+    const Box box = bounds(std::array{at}, 0, width_, height_);
+    float farthest = std::numeric_limits<float>::max();
+    for (int y = box.y0; y <= box.y1; ++y) {
+        for (int x = box.x0; x <= box.x1; ++x) farthest = std::min(farthest, depth_[index(x, y)]);
+    }
+    return at.z() + bias * samples > farthest;
+}
+
 void Canvas::shade_hollows(double radius) {
-    constexpr int pairs = 8;  // of opposite rays, so that a slope alone hides nothing
+    constexpr int pairs = 24;  // of opposite rays, so that a slope alone hides nothing
     constexpr float strength = 0.85F;
+    std::array<Vec2, pairs> rays;
+    for (int pair = 0; pair < pairs; ++pair) {
+        const double angle = 3.0 * std::numbers::pi * pair / pairs;
+        const double reach = radius * samples * (pair + 1) / pairs;
+        rays[static_cast<std::size_t>(pair)] = reach * Vec2(std::cos(angle), std::sin(angle));
+    }
     std::vector<float> light(depth_.size(), 1);
-    for (int y = 0; y < height_; ++y) {
-        for (int x = 0; x < width_; ++x) {
+    // At the middle sample of each pixel, for all of them.
+    for (int y = samples / 2; y < height_; y += samples) {
+        for (int x = samples / 2; x < width_; x += samples) {
             const std::size_t i = index(x, y);
             if (depth_[i] == nothing) continue;
             double hidden = 0;
-            const double turn = agvd::random_unit(0, 0, i);
-            for (int pair = 0; pair < pairs; ++pair) {
-                const double angle = std::numbers::pi * (turn + 3.0 * pair / pairs);
-                const double reach = radius * samples * (pair + 1) / pairs;
+            const double turn = std::numbers::pi * agvd::random_unit(0, 0, i);
+            const Vec2 axis(std::cos(turn), std::sin(turn));
+            for (const Vec2& ray : rays) {
+                const Vec2 way(axis.x() * ray.x() - axis.y() * ray.y(),
+                               axis.x() * ray.y() + axis.y() * ray.x());
+                const double reach = ray.norm();
                 double rise = 0;
                 for (const double side : {-1.0, 1.0}) {
-                    const int u = x + static_cast<int>(side * reach * std::cos(angle));
-                    const int v = y + static_cast<int>(side * reach * std::sin(angle));
+                    const int u = x + static_cast<int>(side * way.x());
+                    const int v = y + static_cast<int>(side * way.y());
                     if (u < 0 || v < 0 || u >= width_ || v >= height_) continue;
                     const float there = depth_[index(u, v)];
                     const double climb = (there == nothing ? -reach : there - depth_[i]) / reach;
@@ -136,7 +155,10 @@ void Canvas::shade_hollows(double radius) {
                 }
                 hidden += std::clamp(rise / 2, 0.0, 1.0) / pairs;
             }
-            light[i] = 1 - strength * static_cast<float>(std::min(1.0, 1.6 * hidden));
+            const float left = 1 - strength * static_cast<float>(std::min(1.0, 1.6 * hidden));
+            for (int k = 0; k < samples * samples; ++k) {
+                light[index(x - samples / 2 + k % samples, y - samples / 2 + k / samples)] = left;
+            }
         }
     }
     for (std::size_t i = 0; i < light.size(); ++i) colors_[i] *= light[i];

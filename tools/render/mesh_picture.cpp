@@ -12,7 +12,6 @@ namespace {
 
 const Color back_color{0.06F, 0.13F, 0.55F};
 constexpr int pair_width = 800, pair_height = 720;  // Of each of two meshes, in pixels.
-constexpr std::array<double, 3> pair_degrees{15, -30, 0};
 
 // A warm light from above on the left, a cool one from the right, and ambient light from above.
 Color shade(const Vec3& normal, const Color& surface) {
@@ -67,9 +66,10 @@ View View::moved_right(int pixels) const {
     return moved;
 }
 
-void draw_mesh(const agvd::MeshView& mesh, const View& view, const Color& front, bool is_wire,
+void draw_mesh(const agvd::MeshView& mesh, const View& view, const FaceColor& color, bool is_wire,
                Canvas& canvas) {
-    for (const agvd::Triangle& t : mesh.triangles) {
+    for (agvd::Index f = 0; f < mesh.triangles.size(); ++f) {
+        const agvd::Triangle& t = mesh.triangles[f];
         const Vec3 &a = mesh.positions[t[0]], &b = mesh.positions[t[1]], &c = mesh.positions[t[2]];
         const std::array corners{view.to_pixels(a), view.to_pixels(b), view.to_pixels(c)};
         const Vec3 screen_normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
@@ -79,14 +79,20 @@ void draw_mesh(const agvd::MeshView& mesh, const View& view, const Color& front,
         // Lines fade where triangles are only a few pixels large: otherwise lines would cover them.
         const double pixels = std::sqrt(std::abs(screen_normal.z()));
         const double opacity = is_wire ? 0.75 * std::clamp(pixels / 10, 0.1, 1.0) : 0.0;
-        canvas.draw_triangle(corners, shade(normal, is_front ? front : back_color),
+        canvas.draw_triangle(corners, shade(normal, color(f, is_front)),
                              static_cast<float>(opacity));
     }
 }
 
+void draw_mesh(const agvd::MeshView& mesh, const View& view, const Color& front, bool is_wire,
+               Canvas& canvas) {
+    const auto color = [&](agvd::Index, bool is_front) { return is_front ? front : back_color; };
+    draw_mesh(mesh, view, color, is_wire, canvas);
+}
+
 std::string picture_of_pair(const agvd::MeshView& left, const agvd::MeshView& right) {
     Canvas canvas(2 * pair_width, pair_height);
-    const View view(left, pair_degrees, pair_width, pair_height);
+    const View view(left, default_degrees, pair_width, pair_height);
     draw_mesh(left, view, front_color, true, canvas);
     draw_mesh(right, view.moved_right(pair_width), front_color, true, canvas);
     canvas.shade_hollows(0.05 * std::min(pair_width, pair_height));

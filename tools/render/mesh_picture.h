@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <string>
 
 #include "agvd/mesh/mesh.h"
@@ -11,6 +12,9 @@
 namespace render {
 
 inline const Color front_color{0.84F, 0.40F, 0.24F};  //!< Of faces seen from the front.
+
+//! How meshes are turned in pictures: degrees about x, y and z, y first.
+inline constexpr std::array<double, 3> default_degrees{15, -30, 0};
 
 //! Turned about y, then x, then z (degrees); seen from a few radii away; fitted to a part of a
 //! picture. All lengths of the picture in pixels.
@@ -38,8 +42,14 @@ private:
     double distance_ = 1, scale_ = 1;
 };
 
-//! Draws all faces; back faces are blue.
-//! \param is_wire  with their edges.
+//! Of a face.
+using FaceColor = std::function<Color(agvd::Index face, bool is_front)>;
+
+//! Draws all faces. \param is_wire  with their edges.
+void draw_mesh(const agvd::MeshView& mesh, const View& view, const FaceColor& color, bool is_wire,
+               Canvas& canvas);
+
+//! The same; back faces are blue.
 void draw_mesh(const agvd::MeshView& mesh, const View& view, const Color& front, bool is_wire,
                Canvas& canvas);
 

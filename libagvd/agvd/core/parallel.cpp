@@ -9,7 +9,7 @@
 
 namespace agvd {
 
-void run_in_order(Index num_chunks, const std::function<void(Index chunk)>& run, Poller& poller) {
+void run_in_order(Index num_chunks, LoopBody<Index> run, Poller& poller) {
     for (Index chunk = 0; chunk < num_chunks; ++chunk) {
         // A loop of one chunk does not poll: it may be one of thousands.
         if (chunk > 0) poller.poll();
@@ -17,12 +17,11 @@ void run_in_order(Index num_chunks, const std::function<void(Index chunk)>& run,
     }
 }
 
-void parallel_chunks(Index count, Index grain, int num_threads,
-                     const std::function<void(Index chunk, Index begin, Index end)>& body,
+void parallel_chunks(Index count, Index grain, int num_threads, const ChunkBody& body,
                      Poller& poller) {
     assert(grain >= 1 && num_threads >= 0);
     const Index chunks = num_chunks(count, grain);
-    const std::function<void(Index)> run = [&](Index chunk) {
+    const auto run = [&](Index chunk) {
         const Index begin = chunk * grain;
         body(chunk, begin, begin + std::min(grain, count - begin));
     };
@@ -33,8 +32,7 @@ void parallel_chunks(Index count, Index grain, int num_threads,
     }
 }
 
-void parallel_chunks(Index count, Index grain, int num_threads,
-                     const std::function<void(Index chunk, Index begin, Index end)>& body) {
+void parallel_chunks(Index count, Index grain, int num_threads, const ChunkBody& body) {
     Poller none;
     parallel_chunks(count, grain, num_threads, body, none);
 }

@@ -3,13 +3,16 @@
 //! depend on the number of threads.
 #pragma once
 
-#include <functional>
 #include <vector>
 
+#include "agvd/core/loop_body.h"
 #include "agvd/core/progress.h"
 #include "agvd/core/types.h"
 
 namespace agvd {
+
+//! Called with (chunk, begin, end).
+using ChunkBody = LoopBody<Index, Index, Index>;
 
 //! Calls body(chunk, begin, end) for each chunk of `grain` consecutive indices of [0, count).
 //!
@@ -20,12 +23,10 @@ namespace agvd {
 //! The body may throw only Cancelled (of the poller) and std::bad_alloc. The exception is thrown
 //! from here when no thread is in the body any more. Record other failures and throw that of the
 //! lowest index after the loop.
-void parallel_chunks(Index count, Index grain, int num_threads,
-                     const std::function<void(Index chunk, Index begin, Index end)>& body,
+void parallel_chunks(Index count, Index grain, int num_threads, const ChunkBody& body,
                      Poller& poller);
 //! The same without a poller, for short loops.
-void parallel_chunks(Index count, Index grain, int num_threads,
-                     const std::function<void(Index chunk, Index begin, Index end)>& body);
+void parallel_chunks(Index count, Index grain, int num_threads, const ChunkBody& body);
 
 //! The same with a poller, but calls each(index).
 template <typename Each>

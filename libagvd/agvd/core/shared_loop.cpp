@@ -24,7 +24,7 @@ constexpr std::chrono::milliseconds wait_between_polls{5};
 // A loop whose chunks are taken by several threads.
 class SharedLoop {
 public:
-    SharedLoop(Index num, const std::function<void(Index)>& body, Poller& poller)
+    SharedLoop(Index num, LoopBody<Index> body, Poller& poller)
         : num_chunks_(num), body_(body), poller_(poller) {}
 
     // Called by workers.
@@ -83,7 +83,7 @@ private:
     }
 
     const std::size_t num_chunks_;
-    const std::function<void(Index)>& body_;
+    LoopBody<Index> body_;
     Poller& poller_;
     std::atomic<std::size_t> next_ = 0;
     std::atomic<bool> has_failed_ = false;
@@ -144,8 +144,7 @@ private:
 
 }  // namespace
 
-void run_shared(Index num_chunks, int num_threads, const std::function<void(Index chunk)>& run,
-                Poller& poller) {
+void run_shared(Index num_chunks, int num_threads, LoopBody<Index> run, Poller& poller) {
     // Not tbb::parallel_for, in which the calling thread may wait long without a poll.
     SharedLoop loop(num_chunks, run, poller);
     Helpers helpers(num_threads);

@@ -17,6 +17,14 @@ public:
         std::iota(parent_.begin(), parent_.end(), Index{0});
     }
 
+    //! Adds elements, each a set of its own. \param count  at least as many as there are.
+    void grow(std::size_t count) {
+        const std::size_t before = parent_.size();
+        parent_.resize(count);
+        std::iota(parent_.begin() + static_cast<std::ptrdiff_t>(before), parent_.end(),
+                  static_cast<Index>(before));
+    }
+
     //! Cost: O(log n) amortized; paths are halved.
     [[nodiscard]] Index root(Index i) {
         while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];

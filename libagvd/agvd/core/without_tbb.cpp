@@ -3,8 +3,7 @@
 
 namespace agvd {
 
-void run_shared(Index num_chunks, int, const std::function<void(Index chunk)>& run,
-                Poller& poller) {
+void run_shared(Index num_chunks, int, LoopBody<Index> run, Poller& poller) {
     run_in_order(num_chunks, run, poller);
 }
 

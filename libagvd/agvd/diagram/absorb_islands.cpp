@@ -38,7 +38,8 @@ Index interval_of(const StageInput& in, const EdgeLabels& labels, Index point, I
     return label == in.site_of_point[point] ? holder : no_index;
 }
 
-// The node that holds a point, if it is of the point's site; no_index: none, or an inner point.
+}  // namespace
+
 Index holder_of(const StageInput& input, const EdgeLabels& labels, Index i) {
     const SurfacePoint& point = input.points[i];
     const Index site = input.site_of_point[i];
@@ -52,6 +53,8 @@ Index holder_of(const StageInput& input, const EdgeLabels& labels, Index i) {
     const Index v = input.surface.mesh.triangles[face][0];
     return labels.mixed_index[face] == no_index && labels.point_site[v] == site ? v : no_index;
 }
+
+namespace {
 
 // The sites all of whose points belong to other cells. Islands that are absorbed change nothing of
 // it.
@@ -167,7 +170,7 @@ void unite_connected(IslandSearch& search) {
 
 void find_mainland(IslandSearch& search) {
     const EdgeLabels& labels = search.parts.labels;
-    search.is_mainland.assign(labels.point_site.size() + labels.crossings.size(), 0);
+    search.is_mainland.assign(labels.num_nodes(), 0);
     for (Index i = 0; i < labels.inner_points.size(); ++i) {
         if (!has(search.in_doubt, labels.inner_points[i].site)) continue;
         search.is_mainland[search.sets.root(search.in.surface.num_vertices() + i)] = 1;
@@ -279,7 +282,7 @@ std::vector<Index> relabel_islands(const StageInput& input, const CellSet& in_do
                                    DiagramParts& parts) {
     const EdgeLabels& labels = parts.labels;
     const std::vector<Index> faces = faces_of_cells(input.surface, parts, in_doubt);
-    UnionFind sets(labels.point_site.size() + labels.crossings.size());
+    UnionFind sets(labels.num_nodes());
     IslandSearch search{input, in_doubt, faces, parts, std::move(sets), {}, {}, {}};
     unite_points(search);
     unite_connected(search);
@@ -298,9 +301,25 @@ std::vector<Index> relabel_islands(const StageInput& input, const CellSet& in_do
     return positions;
 }
 
+// Whether the relays that tracing these faces may read have been kept.
+bool has_relays_around(const StageInput& input, const EdgeLabels& labels,
+                       std::span<const Index> positions) {
+    const std::vector<RelayRange>& ranges = input.propagation.relay_ranges;
+    return std::all_of(positions.begin(), positions.end(), [&](Index position) {
+        const Index face = input.propagation.mixed_faces[position];
+        bool has_all = ranges[position] != dropped_relays;
+        for (Index h = 3 * face; h < 3 * face + 3; ++h) {
+            if (input.surface.twin[h] == no_index) continue;
+            const Index across = labels.mixed_index[Surface::face(input.surface.twin[h])];
+            has_all = has_all && (across == no_index || ranges[across] != dropped_relays);
+        }
+        return has_all;
+    });
+}
+
 }  // namespace
 
-Diagram absorb_islands(const StageInput& input, DiagramParts& parts) {
+std::optional<Diagram> absorb_islands(const StageInput& input, DiagramParts& parts) {
     const CellSet displaced = find_displaced(input, parts.num_sites, parts.labels);
     while (true) {
         input.poller.poll();
@@ -310,6 +329,7 @@ Diagram absorb_islands(const StageInput& input, DiagramParts& parts) {
         if (std::find(in_doubt.begin(), in_doubt.end(), 1) == in_doubt.end()) return complex;
         const std::vector<Index> positions = relabel_islands(input, in_doubt, parts);
         if (positions.empty()) return complex;
+        if (!has_relays_around(input, parts.labels, positions)) return {};
         trace_faces(input, positions, parts);
         parts.joined = join_arcs(parts.labels, parts.arcs, ticker);
     }

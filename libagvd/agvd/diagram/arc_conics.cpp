@@ -1,17 +1,19 @@
-// In the middle of an arc the nearest paths from both sites give a conic. It goes on in both
-// directions until one of its paths comes to the end of what its source sees, or until another path
-// becomes the nearest; what is left of the arc is treated likewise. Where nothing ends a conic
-// before it has turned far, what is left begins in its middle.
+// An arc is followed from its tail. The nearest paths from both sites give a conic, which goes on
+// until one of the paths comes to the end of what its source sees, or until another path becomes
+// the nearest.
 //
 // The conics of (a, b) and (c, b) meet where their polar equations about b do, which is linear in
 // the direction u: with c_i from b to the other focus, D_i the difference of weights and
 // N_i = |c_i|^2 - D_i^2 it is u . (N_1 c_2 - N_2 c_1) = N_1 D_2 - N_2 D_1.
 //
-// A path that does not meet the conic within h of its point m is told by tangents: f and f' being
-// distances, g and g' their gradients at m and rho the length of the last straight piece,
-//   f' - f >= f'(m) - f(m) - |g' - g| h - h^2 / (2 rho)   within h of m.
+// A path that does not meet the conic between p and q is told by what its source sees, or by
+// tangents: f and f' being distances, g and g' their gradients at p and rho the length of the last
+// straight piece of f,
+//   f'(x) - f(x) >= f'(p) - f(p) + (g' - g) . (x - p) - |x - p|^2 / (2 rho),
+// and the conic lies in the triangle of its chord and its tangents.
 #include "agvd/diagram/arc_conics.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace agvd {
@@ -21,160 +23,230 @@ namespace {
 constexpr double equal_distances_on_arcs = 2e-13;
 // Parts that are shorter (share of the triangle's size) are left to their neighbours.
 constexpr double shortest_part = 1e-12;
-constexpr int most_parts = 1000;  // Of one arc.
+constexpr int most_steps = 1000;  // Along one arc.
 // So near (share of the triangle's size) to the ends of an arc rounding may leave no conic.
 constexpr double least_blur = 1e-9;
 // A share of the triangle's size and the distance: ends of an arc lie so near to its conic.
 constexpr double beside_conic = 1e-10;
-// Parts do not turn by more (60 degrees) from their middle.
-constexpr double least_cosine = 0.5;
+// Squared sine of half the angle between two points where conics meet: below it they touch.
+constexpr double touching = 1e-15;
 
-bool turns_little(const Vec2& a, const Vec2& b) {
-    const double both = a.dot(b);
-    return both > 0 &&
-           both * both >= least_cosine * least_cosine * a.squaredNorm() * b.squaredNorm();
+// Away from what lies right of a ray, and away from what lies left of it.
+Vec2 left_of(const Vec2& ray) { return {-ray.y(), ray.x()}; }
+Vec2 right_of(const Vec2& ray) { return {ray.y(), -ray.x()}; }
+
+// Distances with errors: one focus is farther off than the other everywhere.
+bool has_no_points(const Conic& conic) {
+    constexpr double rounding = 1e-13;
+    const double difference = std::abs(conic.weight[0] - conic.weight[1]);
+    return difference * (1 - rounding) > (conic.focus[0] - conic.focus[1]).norm();
 }
 
 }  // namespace
 
-double ArcConics::slack(double distance) const {
-    return equal_distances_on_arcs * (size_ + distance);
+Vec2 ArcConics::Source::ray(std::size_t side) const {
+    return side == 0 ? right_of(normals[0]) : left_of(normals[1]);
 }
 
-bool ArcConics::is_near(const Vec2& a, const Vec2& b, double distance) const {
-    const double equal = slack(distance);
-    return (a - b).squaredNorm() <= equal * equal;
+// Seen from the focus that it does not bend around the conic turns by less than half a circle.
+bool ArcConics::Piece::is_before(const Vec2& p, const Vec2& q) const {
+    const std::size_t eye = conic.weight[0] < conic.weight[1] ? 0 : 1;
+    const double turn = cross(p - conic.focus[eye], q - conic.focus[eye]);
+    return eye == 0 ? turn > 0 : turn < 0;
 }
 
-// Windows side by side that show one image are one.
-void ArcConics::join_windows(Relays relays) {
-    windows_.clear();
-    for (PlanarRelay relay : relays) {
-        for (std::size_t i = 0; i < windows_.size() && !relay.sees_all; ++i) {
-            const PlanarRelay& other = windows_[i];
-            if (other.sees_all || !is_near(other.image, relay.image, relay.at_begin) ||
-                std::abs(other.weight - relay.weight) > slack(relay.at_begin)) {
-                continue;
-            }
-            if (is_near(other.end, relay.begin, relay.at_begin)) {
-                relay.begin = other.begin;
-                relay.at_begin = other.at_begin;
-            } else if (is_near(other.begin, relay.end, relay.at_end)) {
-                relay.end = other.end;
-                relay.at_end = other.at_end;
-            } else {
-                continue;
-            }
-            windows_[i--] = windows_.back();
-            windows_.pop_back();
-        }
-        windows_.push_back(relay);
-    }
+bool ArcConics::is_on(const Conic& conic, const Vec2& p) const {
+    return std::abs(conic.gap(p)) <= std::max(blur_, beside_conic * (size_ + conic.distance(0, p)));
 }
 
+bool ArcConics::is_near(const Vec2& a, const Vec2& b) const {
+    return (a - b).squaredNorm() <= tolerance() * tolerance();
+}
+
+// Sources there say no more than the end itself.
+bool ArcConics::is_end(const Vec2& p) const {
+    return is_near(p, ends_.from) || is_near(p, ends_.to);
+}
+
+// Relays give the first ones, in their order. Where intervals end, paths bend.
 void ArcConics::collect_sources(std::size_t site, Relays relays) {
     std::vector<Source>& sources = sources_[site];
     sources.clear();
+    relays_.clear();
     const Vec2 none(0, 0);
-    join_windows(relays);
-    for (const PlanarRelay& relay : windows_) {
+    for (const PlanarRelay& relay : relays) {
         if (relay.sees_all) {
-            sources.push_back({relay.image, relay.weight, {none, none}, {false, false}, false});
-            continue;
+            if (is_end(relay.image)) continue;
+            sources.push_back({relay.image, relay.weight, {none, none}, false});
+        } else {
+            if (is_near(relay.begin, relay.end)) continue;  // Its neighbours say as much.
+            sources.push_back({relay.image,
+                               relay.weight,
+                               {left_of((relay.begin - relay.image).normalized()),
+                                right_of((relay.end - relay.image).normalized())},
+                               false});
         }
-        const Vec2 begin = relay.begin - relay.image, end = relay.end - relay.image;
-        sources.push_back({relay.image, relay.weight, {begin, end}, {true, true}, false});
-        sources.push_back({relay.begin, relay.at_begin, {none, begin}, {false, true}, true});
-        sources.push_back({relay.end, relay.at_end, {end, none}, {true, false}, true});
+        relays_.push_back({&relay, relay.sees_all});
+    }
+    for (std::size_t i = 0; i < relays_.size(); ++i) {
+        if (relays_[i].relay->sees_all) continue;
+        if (const auto next = window_beside(i)) {
+            relays_[*next].is_joined = true;
+            join(site, i, *next);
+        } else {
+            bend(site, i, 1);
+        }
+    }
+    for (std::size_t i = 0; i < relays_.size(); ++i) {
+        if (!relays_[i].is_joined) bend(site, i, 0);
     }
 }
 
-std::array<const ArcConics::Source*, 2> ArcConics::nearest(const Vec2& p) const {
-    std::array<const Source*, 2> best{nullptr, nullptr};
-    for (std::size_t k = 0; k < 2; ++k) {
-        double least = infinity;
-        for (const Source& source : sources_[k]) {
-            if (!source.sees(p)) continue;
-            // Of equally near ones a straight path.
-            const double distance = source.distance(p);
-            const double handicap = source.is_bent ? slack(distance) : 0;
-            if (!(distance + handicap < least)) continue;
-            least = distance + handicap;
-            best[k] = &source;
-        }
-    }
-    return best;
-}
-
-// The point of the bisector opposite the middle of a chord. The left site is nearer on its left.
-std::optional<ArcConics::Middle> ArcConics::find_middle(const Chord& part) const {
-    constexpr int most_steps = 60;
-    const Vec2 along = part.to - part.from;
-    const double length = along.norm();
-    const Vec2 normal(-along.y() / length, along.x() / length);
-    const Vec2 centre = (part.from + part.to) / 2;
-    double low = -length, high = length, at = 0;
-    for (int i = 0; i < most_steps; ++i) {
-        Middle middle{centre + at * normal, {}};
-        middle.sources = nearest(middle.point);
-        if (middle.sources[0] == nullptr || middle.sources[1] == nullptr) return {};
-        const Conic conic = middle.conic();
-        const double gap = conic.gap(middle.point);
-        if (std::abs(gap) <= slack(conic.distance(0, middle.point))) {
-            middle.point = conic.moved_onto(middle.point);
-            return middle;
-        }
-        (gap > 0 ? low : high) = at;
-        const double newton = at - gap / conic.gradient(middle.point).dot(normal);
-        at = newton > low && newton < high ? newton : (low + high) / 2;
+// That on the right, mostly the next one.
+std::optional<std::size_t> ArcConics::window_beside(std::size_t window) const {
+    const Vec2& end = relays_[window].relay->end;
+    for (std::size_t step = 1; step < relays_.size(); ++step) {
+        const std::size_t i =
+            window + step < relays_.size() ? window + step : window + step - relays_.size();
+        if (!relays_[i].is_joined && is_near(relays_[i].relay->begin, end)) return i;
     }
     return {};
 }
 
-// The ends of the part, where they lie on the conic.
-ArcConics::Reached ArcConics::reach_ends(const Conic& conic, const Vec2& from,
-                                         const Chord& part) const {
-    // The gap grows to the right.
-    const Vec2 right = conic.gradient(from);
-    Reached reached{conic, from, right, {from, from}, {infinity, infinity}};
-    for (const Vec2& end : {part.from, part.to}) {
-        const double equal = std::max(blur_, beside_conic * (size_ + conic.distance(0, end)));
-        if (std::abs(conic.gap(end)) <= equal) shorten(reached, end);
-    }
-    return reached;
-}
-
-void ArcConics::shorten(Reached& reached, const std::optional<Vec2>& at) {
-    if (!at) return;
-    const Vec2 step = *at - reached.from;
-    const std::size_t side = cross(reached.right, step) > 0 ? 1 : 0;
-    if (!(step.squaredNorm() < reached.length_sq[side])) return;
-    if (!turns_little(reached.right, reached.conic.gradient(*at))) return;
-    reached.ends[side] = *at;
-    reached.length_sq[side] = step.squaredNorm();
-}
-
-// Where a path from the same site becomes the nearest.
-void ArcConics::stop_at_source(const Source& source, std::size_t site, Reached& reached) const {
-    const Conic& conic = reached.conic;
-    const Vec2& m = reached.from;
-    const double least = conic.distance(site, m);
-    const double equal = slack(least);
-    if (is_near(source.focus, conic.focus[site], least)) {
-        // Paths over a corner are the shortest up to the ray on which straight ones pass it.
-        for (std::size_t k = 0; k < 2 && source.is_bent; ++k) {
-            if (source.has_ray[k]) shorten(reached, conic.on_ray(site, source.rays[k]));
+// Paths that bend where two windows touch matter if one is shorter there, or between the windows if
+// neither sees what lies there.
+void ArcConics::join(std::size_t site, std::size_t left, std::size_t right) {
+    std::vector<Source>& sources = sources_[site];
+    const PlanarRelay &a = *relays_[left].relay, &b = *relays_[right].relay;
+    const Vec2 beyond_a = -sources[left].normals[1], beyond_b = -sources[right].normals[0];
+    const Vec2 none(0, 0);
+    if (std::abs(a.at_end - b.at_begin) > equal_) {
+        if (a.at_end < b.at_begin) {
+            sources.push_back({a.end, a.at_end, {beyond_a, none}, true});
+        } else {
+            sources.push_back({b.begin, b.at_begin, {none, beyond_b}, true});
         }
-        return;
+    } else if (cross(beyond_a, beyond_b) * size_ > equal_) {
+        sources.push_back({a.end, std::min(a.at_end, b.at_begin), {beyond_a, beyond_b}, true});
     }
-    const double h =
-        std::min(size_, std::sqrt(std::max(reached.length_sq[0], reached.length_sq[1])));
-    const double excess = source.distance(m) - least;
-    if (excess > 2 * h + equal) return;  // Excesses change by at most 2 a unit.
-    const Vec2 turn = (m - source.focus).normalized() - (m - conic.focus[site]).normalized();
-    const double bend = h * h / (2 * (m - conic.focus[site]).norm());
-    if (excess - turn.norm() * h - bend > equal) return;
+}
+
+// Paths that bend at an end of an interval, unless they come from a corner of the face.
+void ArcConics::bend(std::size_t site, std::size_t window, std::size_t side) {
+    const PlanarRelay& relay = *relays_[window].relay;
+    const Vec2& at = side == 0 ? relay.begin : relay.end;
+    const double distance = side == 0 ? relay.at_begin : relay.at_end;
+    if (is_end(at)) return;
+    for (const Entry& entry : relays_) {
+        const PlanarRelay& other = *entry.relay;
+        if (other.sees_all && is_near(other.image, at) && other.weight <= distance + equal_) return;
+    }
+    std::array<Vec2, 2> normals{Vec2(0, 0), Vec2(0, 0)};
+    normals[1 - side] = -sources_[site][window].normals[side];
+    sources_[site].push_back({at, distance, normals, true});
+}
+
+// Whether a source sees a point, and the arc behind it.
+bool ArcConics::goes_on(const Source& source, std::size_t site, const Vec2& p) const {
+    return source.outside(1 - site, p) <= tolerance() &&
+           (!source.has_ray(site) || source.outside(site, p) < -tolerance());
+}
+
+// The nearest source; null if none sees the point.
+const ArcConics::Source* ArcConics::nearest(std::size_t site, const Vec2& p, bool behind) const {
+    const Source* best = nullptr;
+    double least = infinity;
+    for (const Source& source : sources_[site]) {
+        if (behind ? !goes_on(source, site, p)
+                   : source.outside(0, p) > tolerance() || source.outside(1, p) > tolerance()) {
+            continue;
+        }
+        // Of equally near ones a straight path.
+        const double distance = source.distance(p) + (source.is_bent ? equal_ : 0);
+        if (!(distance < least)) continue;
+        least = distance;
+        best = &source;
+    }
+    return best;
+}
+
+// Up to the arc's end if that lies on the conic, or to where one of the paths comes to the end of
+// what its source sees.
+ArcConics::Piece ArcConics::begin_piece(const Sources& sources, const Vec2& from,
+                                        const Vec2& end) const {
+    const auto& [a, b] = sources;
+    Piece piece{sources, {{a->focus, b->focus}, {a->weight, b->weight}}, from, {}, {}, {}, {}, {}};
+    for (std::size_t k = 0; k < 2; ++k) {
+        const Vec2 path = from - piece.conic.focus[k];
+        piece.lengths[k] = path.norm();
+        piece.directions[k] = piece.lengths[k] > 0 ? Vec2(path / piece.lengths[k]) : Vec2(0, 0);
+    }
+    if (is_on(piece.conic, end)) piece.to = end;
+    for (std::size_t k = 0; k < 2; ++k) {
+        const Source& source = *sources[k];
+        if (!source.has_ray(k)) continue;
+        if (piece.to && source.outside(k, *piece.to) <= equal_) continue;
+        piece.stop(piece.conic.on_ray(k, source.ray(k)), {});
+    }
+    if (!piece.to) return piece;
+    const Vec2 first = piece.directions[0] - piece.directions[1];
+    const Vec2 last = piece.conic.gradient(*piece.to);
+    if (!(first.dot(last) > 0)) return piece;
+    const Vec2 chord = *piece.to - from;
+    const Vec2 to_apex = chord.dot(last) / cross(first, last) * left_of(first);
+    const bool is_apex = chord.dot(to_apex) > 0 && to_apex.squaredNorm() <= chord.squaredNorm();
+    piece.apex = is_apex ? Vec2(from + to_apex) : *piece.to;
+    return piece;
+}
+
+void ArcConics::Piece::stop(const std::optional<Vec2>& at, const Event& event) {
+    if (!at || !is_before(from, *at) || (to && !is_before(*at, *to))) return;
+    to = *at;
+    next = event;
+}
+
+// Where another path from the same site becomes the nearest.
+void ArcConics::stop_at_source(const Source& source, std::size_t site, Piece& piece) const {
+    const Conic& conic = piece.conic;
+    const Vec2 path = piece.from - source.focus;
+    const double length = path.norm();
+    const double excess = source.weight - conic.weight[site] + (length - piece.lengths[site]);
+    if (piece.apex) {
+        const Vec2 turn = path / length - piece.directions[site];
+        const auto rise = [&](const Vec2& to) {
+            const Vec2 way = to - piece.from;
+            return turn.dot(way) - way.squaredNorm() / (2 * piece.lengths[site]);
+        };
+        if (excess + std::min({0.0, rise(*piece.to), rise(*piece.apex)}) >= -equal_) return;
+    }
     const std::size_t pole = 1 - site;
+    // How fast it becomes nearer behind a point of the conic where both are as near; in units of
+    // what rounding makes of that.
+    const auto gain = [&](const Vec2& p) {
+        const Vec2 from_here = p - conic.focus[site], from_there = p - source.focus;
+        const Vec2 other = (p - conic.focus[pole]).normalized();
+        const double near = from_here.norm(), far = from_there.norm();
+        const Vec2 right = from_here / near - other, then = from_there / far - other;
+        const double turn = cross(right, then) * std::min(near, far) / (2 * tolerance());
+        return site == 0 ? -turn : turn;
+    };
+    const Event event{&source, site};
+    const bool has_same_focus = is_near(source.focus, conic.focus[site]);
+    // On a ray from the source so far both are as near, and touch; behind it this one is nearer.
+    const bool begins_there = !source.is_bent && !has_same_focus && source.has_ray(pole) &&
+                              std::abs(source.outside(pole, conic.focus[site])) <= tolerance();
+    if (goes_on(source, site, piece.from)) {
+        const bool begins_here = begins_there && source.outside(pole, piece.from) >= -tolerance();
+        if (excess <= equal_ && gain(piece.from) > (begins_here ? -1 : 1)) {
+            piece.to = piece.from;
+            piece.next = event;
+            return;
+        }
+    } else if (begins_there && source.outside(pole, piece.from) > 0) {
+        const auto at = conic.on_ray(site, source.ray(pole));
+        if (at && source.distance(*at) <= conic.distance(site, *at) + equal_) piece.stop(at, event);
+    }
+    if (has_same_focus) return;
     const Vec2 c1 = conic.focus[site] - conic.focus[pole];
     const Vec2 c2 = source.focus - conic.focus[pole];
     const double d1 = conic.weight[site] - conic.weight[pole];
@@ -183,56 +255,87 @@ void ArcConics::stop_at_source(const Source& source, std::size_t site, Reached& 
     const Vec2 normal = n1 * c2 - n2 * c1;
     const double norm_sq = normal.squaredNorm(), height = n1 * d2 - n2 * d1;
     const double rest = norm_sq - height * height;
-    if (!(rest >= 0 && norm_sq > 0)) return;
-    const Vec2 across = std::sqrt(rest) * Vec2(-normal.y(), normal.x());
+    if (!(rest > touching * norm_sq)) return;
+    const Vec2 across = std::sqrt(rest) * left_of(normal);
     for (const double sign : {-1.0, 1.0}) {
         const auto met = conic.on_ray(pole, (height * normal + sign * across) / norm_sq);
-        if (!met) continue;
+        if (!met || (piece.to && !piece.is_before(*met, *piece.to))) continue;
         const Vec2 at = conic.moved_onto(*met);
-        if (source.sees(at)) shorten(reached, at);
+        if (goes_on(source, site, at) && gain(at) > 1) piece.stop(at, event);
     }
 }
 
-// \return whether the part, or a part beside it, has a conic now.
-bool ArcConics::split_part(const Chord& part) {
-    const double length = (part.to - part.from).norm();
-    if (length <= shortest_part * size_) return false;
-    if (--parts_left_ < 0) return false;
-    const std::optional<Middle> middle = find_middle(part);
-    if (!middle) {
-        has_failed_ = has_failed_ || length > blur_;
-        return false;
-    }
-    const Conic conic = middle->conic();
-    const Vec2& m = middle->point;
-    Reached reached = reach_ends(conic, m, part);
-    for (std::size_t site = 0; site < 2; ++site) {
-        const Source& here = *middle->sources[site];
+bool ArcConics::begin(const std::array<Relays, 2>& relays, const Chord& ends,
+                      const std::array<double, 2>& distances, double size) {
+    size_ = size;
+    ends_ = ends;
+    equal_ = equal_distances_on_arcs * (size + distances[0]);
+    for (std::size_t k = 0; k < 2; ++k) collect_sources(k, relays[k]);
+    blur_ = least_blur * size_;
+    for (std::size_t i = 0; i < 2; ++i) {
+        const Vec2& end = i == 0 ? ends.from : ends.to;
+        const double most = distances[i] + largest_disagreement * size_;
+        std::array<double, 2> least{infinity, infinity};
         for (std::size_t k = 0; k < 2; ++k) {
-            if (here.has_ray[k]) shorten(reached, conic.on_ray(site, here.rays[k]));
+            const Source* source = nearest(k, end, false);
+            if (source != nullptr) least[k] = source->distance(end);
+            if (i == 0) first_[k] = source;
+            if (!(least[k] <= most)) return false;
         }
-        for (const Source& source : sources_[site]) {
-            if (&source != &here) stop_at_source(source, site, reached);
-        }
-    }
-    const auto& [begin, end] = reached.ends;
-    if (begin == end && length <= blur_) return false;
-    if (begin != part.from) static_cast<void>(split_part({part.from, begin}));
-    if (begin != end) add({end, conic});
-    // Too short a part is its neighbour's.
-    if (end != part.to && !split_part({end, part.to}) && !parts_.empty()) {
-        parts_.back().end = part.to;
+        blur_ = std::max(blur_, 4 * std::abs(least[0] - least[1]));
     }
     return true;
+}
+
+std::span<const ArcConics::Part> ArcConics::follow() {
+    parts_.clear();
+    if (!find_parts() || parts_.empty()) return {};
+    parts_.back().end = ends_.to;
+    return parts_;
+}
+
+// False: distances contradict each other.
+bool ArcConics::find_parts() {
+    Sources sources = first_;
+    for (std::size_t k = 0; k < 2; ++k) {
+        if (goes_on(*sources[k], k, ends_.from)) continue;
+        if (const Source* next = nearest(k, ends_.from, true)) sources[k] = next;
+    }
+    Vec2 from = ends_.from;
+    for (int step = 0; step < most_steps; ++step) {
+        if (sources[0] == nullptr || sources[1] == nullptr) return false;
+        Piece piece = begin_piece(sources, from, ends_.to);
+        for (std::size_t k = 0; k < 2; ++k) {
+            for (const Source& source : sources_[k]) {
+                if (&source == sources[k] || is_out_of_sight(source, piece)) continue;
+                stop_at_source(source, k, piece);
+            }
+        }
+        if (!piece.to || has_no_points(piece.conic)) return false;
+        // Too short a part is its neighbour's.
+        const double shortest = shortest_part * size_;
+        if ((*piece.to - from).squaredNorm() > shortest * shortest) add({*piece.to, piece.conic});
+        from = *piece.to;
+        if (from == ends_.to) return true;
+        if (piece.next.source != nullptr) {
+            sources[piece.next.site] = piece.next.source;
+            continue;
+        }
+        for (std::size_t k = 0; k < 2; ++k) {
+            if (sources[k]->has_ray(k) && sources[k]->outside(k, from) >= -equal_) {
+                sources[k] = nearest(k, from, true);
+            }
+        }
+    }
+    return false;
 }
 
 void ArcConics::add(const Part& part) {
     if (!parts_.empty()) {
         Part& last = parts_.back();
-        const double equal = slack(part.conic.distance(0, part.end));
         const auto is_equal = [&](std::size_t k) {
-            return (last.conic.focus[k] - part.conic.focus[k]).norm() <= equal &&
-                   std::abs(last.conic.weight[k] - part.conic.weight[k]) <= equal;
+            return is_near(last.conic.focus[k], part.conic.focus[k]) &&
+                   std::abs(last.conic.weight[k] - part.conic.weight[k]) <= equal_;
         };
         if (is_equal(0) && is_equal(1)) {
             last.end = part.end;
@@ -240,25 +343,6 @@ void ArcConics::add(const Part& part) {
         }
     }
     parts_.push_back(part);
-}
-
-std::span<const ArcConics::Part> ArcConics::split(const std::array<Relays, 2>& relays,
-                                                  const Chord& ends, double size) {
-    size_ = size;
-    parts_left_ = most_parts;
-    parts_.clear();
-    has_failed_ = false;
-    for (std::size_t k = 0; k < 2; ++k) collect_sources(k, relays[k]);
-    blur_ = least_blur * size_;
-    for (const Vec2& end : {ends.from, ends.to}) {
-        const auto [left, right] = nearest(end);
-        if (left == nullptr || right == nullptr) return {};
-        blur_ = std::max(blur_, 4 * std::abs(left->distance(end) - right->distance(end)));
-    }
-    static_cast<void>(split_part(ends));
-    if (has_failed_ || parts_.empty() || parts_left_ < 0) return {};
-    parts_.back().end = ends.to;
-    return parts_;
 }
 
 }  // namespace agvd

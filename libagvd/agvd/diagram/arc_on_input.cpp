@@ -4,6 +4,7 @@
 // in the face.
 #include "agvd/diagram/arc_on_input.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -18,6 +19,9 @@ constexpr int most_halvings_of_piece = 200;
 constexpr int most_steps_along_edge = 12;
 // A share of a face's longest side: points so near to a side lie on it.
 constexpr double beside_face = 1e-12;
+// A chord is not halved if it is no longer than this many times the distance of its ends from the
+// conic.
+constexpr double most_beside = 8;
 // A crossing moves at most so many lengths of the segment that tells the arc's direction.
 constexpr double farthest_move = 100;
 
@@ -143,7 +147,8 @@ bool ArcMapper::move_crossing(InputSegment& before, InputSegment& behind) const 
     const Motion motion = known.motion();
     const Index h = by_before ? *side : input_.twin[*side];
     const auto corners = face_corners(input_, Surface::face(h));
-    const Vec2 tail = corners[h % 3], along = corners[(h + 1) % 3] - tail;
+    const Vec2& tail = corners[h % 3];
+    const Vec2 along = corners[(h + 1) % 3] - tail;
     const Vec2 start = by_before ? before.at_end : behind.at_begin;
     const double at = crossing_near(moved(motion, conic_), tail, along,
                                     (start - tail).dot(along) / along.squaredNorm());
@@ -171,7 +176,11 @@ bool ArcMapper::stays_in_face(const InputSegment& segment) const {
         segment.at_begin + chord.dot(last) / cross(first, last) * Vec2(-first.y(), first.x());
     for (std::size_t k = 0; k < 3; ++k) {
         const Vec2 side = corners[(k + 1) % 3] - corners[k];
-        if (!(cross(side, apex - corners[k]) >= -beside_face * size * side.norm())) return false;
+        if (cross(side, apex - corners[k]) >= -beside_face * size * side.norm()) continue;
+        // With errors in the distances the arc's ends lie beside the conic.
+        const double beside = std::max(std::abs(conic.gap(segment.at_begin)) / first.norm(),
+                                       std::abs(conic.gap(segment.at_end)) / last.norm());
+        return chord.norm() <= most_beside * beside;
     }
     return true;
 }

@@ -133,26 +133,23 @@ struct Arcs {
     //! \param positions  of these faces in `faces`.
     void append(const Arcs& chunk, std::span<const Index> positions) {
         const Mark at = mark();
-        const auto append_all = [](const auto& from, auto& to) {
-            to.insert(to.end(), from.begin(), from.end());
-        };
-        append_all(chunk.points, points);
-        append_all(chunk.point_distance, point_distance);
-        append_all(chunk.connections, connections);
-        append_all(chunk.parts, parts);
+        append_to<Vec2>(points, chunk.points);
+        append_to<double>(point_distance, chunk.point_distance);
+        append_to<Connection>(connections, chunk.connections);
+        append_to<CellPart>(parts, chunk.parts);
+        append_to<Arc>(arcs, chunk.arcs);
+        append_to<VoronoiVertex>(voronoi_vertices, chunk.voronoi_vertices);
         const auto move = [&](NodeId& node) {
             if (!node.is_voronoi_vertex()) return;
             node = NodeId::of_voronoi_vertex(node.voronoi_vertex() + at.voronoi_vertices);
         };
-        for (Arc arc : chunk.arcs) {
-            move(arc.tail);
-            move(arc.head);
-            arc.first_point += at.points;
-            arcs.push_back(arc);
+        for (Index i = at.arcs; i < arcs.size(); ++i) {
+            move(arcs[i].tail);
+            move(arcs[i].head);
+            arcs[i].first_point += at.points;
         }
-        for (VoronoiVertex voronoi_vertex : chunk.voronoi_vertices) {
-            for (ArcEnd& end : voronoi_vertex.ends) end.word += 2 * at.arcs;
-            voronoi_vertices.push_back(voronoi_vertex);
+        for (Index i = at.voronoi_vertices; i < voronoi_vertices.size(); ++i) {
+            for (ArcEnd& end : voronoi_vertices[i].ends) end.word += 2 * at.arcs;
         }
         for (std::size_t i = 0; i < positions.size(); ++i) {
             FaceArcs& face = faces[positions[i]] = chunk.faces[i];

@@ -1,103 +1,141 @@
-#include "agvd/diagram/diagram.h"
-
-#include <algorithm>
 #include <numeric>
 #include <string>
 
-#include "agvd/diagram/face_relays.h"
+#include "agvd/diagram/diagram.h"
+#include "agvd/diagram/own_places.h"
 #include "agvd/diagram/stages.h"
-#include "agvd/propagation/shape_source.h"
+#include "agvd/diagram/tracer.h"
 
 namespace agvd {
 namespace {
 
-// All stages but drawing the points.
-Diagram build_complex(const StageInput& input, Index num_sites, DiagramParts& parts) {
-    parts.num_sites = num_sites;
-    parts.boundary_loops = boundary_loops(input.surface);
-    label_vertices(input, parts.labels);
-    label_edges(input, parts.labels);
-    cut_faces(input, parts.labels);
-    input.poller.tell(0.5);
-    std::vector<Index> all(input.propagation.mixed_faces.size());
-    std::iota(all.begin(), all.end(), Index{0});
-    parts.arcs.faces.resize(all.size());
-    trace_faces(input, all, parts);
-    input.poller.tell(0.9);
-    parts.joined = join_arcs(parts.labels, parts.arcs, Ticker(input.poller));
-    return absorb_islands(input, parts);
+void check_options(const DiagramOptions& options, std::span<const SiteShape> shapes) {
+    if (options.chord && !(*options.chord > 0)) {
+        throw InvalidOption("the chord is " + std::to_string(*options.chord) +
+                            "; use a length above 0");
+    }
+    if (options.chord && !shapes.empty()) {
+        throw InvalidOption(
+            "arcs are made for sites that are points; leave the chord out where sites are lines or "
+            "regions");
+    }
 }
 
-// The points that own their own places, and their sites.
-struct OwnPlaces {
-    std::vector<SurfacePoint> points;
-    std::vector<Index> sites;
-    Index num_sites;
-};
+// What the engine says.
+EdgeLabels labels_of(const Surface& surface, const Propagation& propagation) {
+    EdgeLabels labels;
+    labels.mixed_index.assign(surface.num_faces(), no_index);
+    for (Index i = 0; i < propagation.mixed_faces.size(); ++i) {
+        labels.mixed_index[propagation.mixed_faces[i]] = i;
+    }
+    labels.vertex_distance = propagation.vertex_distance;
+    labels.point_site.reserve(surface.num_vertices());
+    for (const SiteId site : propagation.vertex_site) labels.point_site.push_back(site.value());
+    labels.edge_rows.assign(surface.num_edges(), {});
+    return labels;
+}
 
-OwnPlaces own_places(const Surface& surface, std::span<const SurfacePoint> points,
-                     const Propagation& propagation) {
-    const std::vector<Index>& sites = propagation.site_of_point;
-    if (sites.empty() && propagation.shapes.empty()) {
-        OwnPlaces all{{points.begin(), points.end()}, std::vector<Index>(points.size()), 0};
-        std::iota(all.sites.begin(), all.sites.end(), Index{0});
-        all.num_sites = size_of(all.sites);
-        return all;
-    }
-    OwnPlaces own{{}, {}, 0};
-    for (const Index site : sites) own.num_sites = std::max(own.num_sites, site + 1);
-    for (const SiteShape& shape : propagation.shapes) {
-        own.num_sites = std::max(own.num_sites, shape.site + 1);
-        for (const Index v : shape_source(surface, shape).vertices) {
-            if (propagation.vertex_site[v].value() != shape.site) continue;
-            own.points.push_back(point_at(surface, v));
-            own.sites.push_back(shape.site);
-        }
-    }
-    for (Index i = 0; i < points.size(); ++i) {
-        if (label_at(surface, propagation, points[i]).site.value() != sites[i]) continue;
-        own.points.push_back(points[i]);
-        own.sites.push_back(sites[i]);
+SitePlaces own_places(const Surface& surface, std::span<const SurfacePoint> points,
+                      const Propagation& propagation, const EdgeLabels& labels) {
+    SitePlaces all = all_places(surface, points, propagation.site_of_point, propagation.shapes);
+    if (all.own_all) return all;
+    SitePlaces own;
+    own.num_sites = all.num_sites;
+    for (Index i = 0; i < all.points.size(); ++i) {
+        if (!owns_its_place(surface, propagation, labels, all, i)) continue;
+        own.points.push_back(all.points[i]);
+        own.sites.push_back(all.sites[i]);
     }
     return own;
+}
+
+// By vertex: 0 for those of an unlisted face, which lies in one cell.
+std::vector<std::uint8_t> vertices_in_mixed_faces(const Surface& surface,
+                                                  const EdgeLabels& labels) {
+    std::vector<std::uint8_t> result(surface.num_vertices(), 1);
+    for (Index f = 0; f < surface.num_faces(); ++f) {
+        if (labels.mixed_index[f] != no_index) continue;
+        for (const Index v : surface.mesh.triangles[f]) result[v] = 0;
+    }
+    return result;
+}
+
+// The lower half-edge of each edge all of whose faces are mixed.
+std::vector<Index> labelled_edges(const StageInput& in, const EdgeLabels& labels) {
+    std::vector<Index> half_edges;
+    Ticker ticker(in.poller);
+    for (const Index face : in.propagation.mixed_faces) {
+        ticker.tick();
+        for (Index h = 3 * face; h < 3 * face + 3; ++h) {
+            const Index twin = in.surface.twin[h];
+            if (twin == no_index ||
+                (h < twin && labels.mixed_index[Surface::face(twin)] != no_index)) {
+                half_edges.push_back(h);
+            }
+        }
+    }
+    return half_edges;
 }
 
 // \param relays  not null: freed when they have been read for the last time.
 Diagram build(const Surface& surface, std::span<const SurfacePoint> sites,
               const Propagation& propagation, const DiagramOptions& options,
               std::vector<Relay>* relays) {
-    if (options.chord && !(*options.chord > 0)) {
-        throw InvalidOption("the chord is " + std::to_string(*options.chord) +
-                            "; use a length above 0");
-    }
-    if (options.chord && !propagation.shapes.empty()) {
-        throw InvalidOption(
-            "arcs are made for sites that are points; leave the chord out where sites are lines or "
-            "regions");
-    }
+    check_options(options, propagation.shapes);
     Poller poller(options.progress);
     poller.poll();
-    const OwnPlaces own = own_places(surface, sites, propagation);
-    const SitePlacement placement(surface, own.points, own.sites);
     DiagramParts parts;
+    parts.labels = labels_of(surface, propagation);
+    const SitePlaces own = own_places(surface, sites, propagation, parts.labels);
+    const SitePlacement placement(surface, own.points, own.sites);
     const StageInput input{surface,       own.points,          own.sites,
                            placement,     propagation,         options.chord_tolerance,
                            options.chord, options.num_threads, poller};
-    Diagram diagram = build_complex(input, own.num_sites, parts);
-    if (options.chord) shape_arcs(input, parts);
-    if (relays != nullptr) std::vector<Relay>().swap(*relays);
-    draw_points(surface, parts, Ticker(poller), diagram);
-    measure_cells(surface, parts, Ticker(poller), diagram);
-    diagram.nearest_site.reserve(surface.num_vertices());
-    for (Index v = 0; v < surface.num_vertices(); ++v) {
-        diagram.nearest_site.push_back(SiteId(parts.labels.point_site[v]));
-    }
-    diagram.nearest_distance = std::move(parts.labels.vertex_distance);
-    poll(options.progress, 1);
-    return diagram;
+    parts.num_sites = own.num_sites;
+    parts.labels.first_crossing_node = surface.num_vertices() + size_of(own.points);
+    std::vector<Index> all(propagation.mixed_faces.size());
+    std::iota(all.begin(), all.end(), Index{0});
+    label_vertices(input, all, vertices_in_mixed_faces(surface, parts.labels), parts.labels);
+    label_edges(input, labelled_edges(input, parts.labels), parts.labels);
+    cut_faces(input, all, parts.labels);
+    poller.tell(0.5);
+    parts.arcs.faces.resize(all.size());
+    trace_faces(input, all, parts);
+    poller.tell(0.9);
+    const auto release = [&] {
+        if (relays != nullptr) std::vector<Relay>().swap(*relays);
+    };
+    return *draw(input, std::move(parts), release);
 }
 
 }  // namespace
+
+std::optional<Diagram> draw(const StageInput& input, DiagramParts parts,
+                            const std::function<void()>& release) {
+    const Surface& surface = input.surface;
+    parts.boundary_loops = boundary_loops(surface);
+    parts.joined = join_arcs(parts.labels, parts.arcs, Ticker(input.poller));
+    std::optional<Diagram> diagram = absorb_islands(input, parts);
+    if (!diagram) return {};
+    if (input.chord) shape_arcs(input, parts);
+    release();
+    measure_cells(surface, parts, Ticker(input.poller), *diagram);
+    // What only these stages read is freed: with the points it would be a third of the memory.
+    std::vector<CellPart>().swap(parts.arcs.parts);
+    std::vector<Connection>().swap(parts.arcs.connections);
+    std::vector<FaceArcs>().swap(parts.arcs.faces);
+    std::vector<Index>().swap(parts.joined.edge_of_arc);
+    std::vector<Index>().swap(parts.labels.mixed_index);
+    if (parts.boundary_loops.empty()) std::vector<Block>().swap(parts.labels.edge_rows);
+    draw_points(surface, parts, Ticker(input.poller), *diagram);
+    diagram->nearest_site.reserve(surface.num_vertices());
+    for (Index v = 0; v < surface.num_vertices(); ++v) {
+        diagram->nearest_site.push_back(SiteId(parts.labels.point_site[v]));
+    }
+    diagram->nearest_distance = std::move(parts.labels.vertex_distance);
+    input.poller.tell(1);
+    return diagram;
+}
 
 Diagram build_diagram(const Surface& surface, std::span<const SurfacePoint> sites,
                       const Propagation& propagation, const DiagramOptions& options) {
@@ -107,6 +145,20 @@ Diagram build_diagram(const Surface& surface, std::span<const SurfacePoint> site
 Diagram build_diagram(const Surface& surface, std::span<const SurfacePoint> sites,
                       Propagation&& propagation, const DiagramOptions& options) {
     return build(surface, sites, propagation, options, &propagation.relays);
+}
+
+TracedDiagram trace_diagram(const Surface& surface, std::span<const SurfacePoint> sites,
+                            const PropagationOptions& propagating, const DiagramOptions& options) {
+    check_options(options, propagating.shapes);
+    if (propagating.engine == Engine::Steiner && !propagating.max_error) {
+        auto traced = trace_behind_front(surface, sites, propagating, options);
+        if (traced) return std::move(*traced);
+    }
+    Propagation propagation = propagate(surface, sites, propagating);
+    const double certified_error = propagation.certified_error;
+    const std::size_t num_relays = propagation.relays.size();
+    return {build_diagram(surface, sites, std::move(propagation), options), certified_error,
+            num_relays};
 }
 
 }  // namespace agvd

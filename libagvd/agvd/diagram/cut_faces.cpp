@@ -173,27 +173,31 @@ void add_cuts(FoundCuts& found, EdgeLabels& labels) {
         std::for_each(triangle.sides.begin(), triangle.sides.end(), move_line);
         labels.cut_triangles.push_back(triangle);
     }
+    const auto before = static_cast<std::ptrdiff_t>(labels.cut_faces.size());
     for (CutFace& face : found.faces) {
         face.triangles.begin += first_triangle;
         labels.cut_faces.push_back(face);
     }
+    std::inplace_merge(labels.cut_faces.begin(), labels.cut_faces.begin() + before,
+                       labels.cut_faces.end(),
+                       [](const CutFace& a, const CutFace& b) { return a.face < b.face; });
 }
 
 }  // namespace
 
-void cut_faces(const StageInput& input, EdgeLabels& labels) {
+void cut_faces(const StageInput& input, std::span<const Index> positions, EdgeLabels& labels) {
     if (input.placement.is_empty()) return;
     constexpr Index grain = 512;
-    const auto& mixed = input.propagation.mixed_faces;
-    const auto count = size_of(mixed);
+    const auto count = static_cast<Index>(positions.size());
     std::vector<FoundCuts> found(num_chunks(count, grain));
     const auto cut_chunk = [&](Index chunk, Index begin, Index end) {
         FaceCutter cutter(input, labels, found[chunk]);
         Ticker ticker(input.poller);
         for (Index i = begin; i < end; ++i) {
-            const auto placed = input.placement.in_face(mixed[i]);
-            if (!placed.empty()) cutter.cut(i, placed);
-            ticker.tick(1 + relays_of(input.propagation, i).size() * placed.size());
+            const Index position = positions[i];
+            const auto placed = input.placement.in_face(input.propagation.mixed_faces[position]);
+            if (!placed.empty()) cutter.cut(position, placed);
+            ticker.tick(1 + relays_of(input.propagation, position).size() * placed.size());
         }
     };
     parallel_chunks(count, grain, input.num_threads, cut_chunk, input.poller);

@@ -178,6 +178,27 @@ struct DiagramOptions {
 [[nodiscard]] Diagram build_diagram(const Surface& surface, std::span<const SurfacePoint> sites,
                                     Propagation&& propagation, const DiagramOptions& options = {});
 
+//! What trace_diagram() makes.
+struct TracedDiagram {
+    Diagram diagram;  //!< As build_diagram() gives it.
+    //! As Propagation::certified_error.
+    double certified_error = std::numeric_limits<double>::infinity();
+    std::size_t most_relays = 0;  //!< Relays held at once.
+};
+
+//! Both in one call, for callers that do not read the propagation: the diagram has the same bytes.
+//! With the Steiner engine, faces are traced and their relays dropped as soon as the front has left
+//! them behind ([meng2023] Algorithm 1), every `lambda` * #F pops, unless an error or a chord is
+//! asked for.
+//!
+//! \throw as propagate() and build_diagram().
+//! Cost: that of both. If islands are absorbed in places where there were none, which nothing
+//! excludes and no mesh has shown, it propagates twice.
+[[nodiscard]] TracedDiagram trace_diagram(const Surface& surface,
+                                          std::span<const SurfacePoint> sites,
+                                          const PropagationOptions& propagating,
+                                          const DiagramOptions& options = {});
+
 //! The same complex with all points on base.input(): Voronoi edges get a point where they cross an
 //! edge of the input, so that consecutive points share a face of it as before. The distances of
 //! these points are interpolated. Labels are those of the input's vertices. With arcs these points

@@ -14,6 +14,7 @@ public:
     void map_edges() {
         to_.edge_points.push_back(0);
         if (!from_.edge_arcs.empty()) to_.edge_arcs.push_back(0);
+        to_.arcs.reserve(from_.arcs.size() + from_.arcs.size() / 8);
         for (Index e = 0; e < from_.edges.size(); ++e) {
             const Index begin = from_.edge_points[e], end = from_.edge_points[e + 1];
             const bool is_closed = from_.edges[e].tail == no_index;
@@ -77,8 +78,12 @@ private:
         for (Index a = from_.edge_arcs[edge]; a < from_.edge_arcs[edge + 1]; ++a) {
             const bool is_last = a + 1 == from_.edge_arcs[edge + 1];
             const BisectorArc& arc = from_.arcs[a];
-            for (Index i = arc.first_point; i < (is_last ? end : from_.arcs[a + 1].first_point);
-                 ++i) {
+            const Index arc_end = is_last ? end : from_.arcs[a + 1].first_point;
+            if (!base_.is_changed(arc.face.value())) {
+                copy_arc(arc, edge, arc_end);
+                continue;
+            }
+            for (Index i = arc.first_point; i < arc_end; ++i) {
                 if (arc.kind == ArcKind::Chord) {
                     map_chord(edge, i);
                 } else {
@@ -87,6 +92,16 @@ private:
             }
             finish_arc(arc);
         }
+    }
+
+    // In a face of the input.
+    void copy_arc(const BisectorArc& arc, Index edge, Index end) {
+        const Index first = arc.first_point;
+        ticker_.tick(end - first);
+        to_.arcs.push_back(arc);
+        to_.arcs.back().first_point = static_cast<Index>(to_.points.size());
+        add(curve_piece(base_.surface(), from_, edge, first).from, from_.point_distance[first]);
+        for (Index i = first + 1; i < end; ++i) add(from_.points[i], from_.point_distance[i]);
     }
 
     // A chord has an arc in each face, too.

@@ -131,6 +131,7 @@ private:
         out_.points.reserve(most);
         out_.point_distance.reserve(most);
         out_.passages.reserve(most);
+        out_.arcs.reserve(parts_.shapes.shapes.size());
     }
 
     void finish_edge() {

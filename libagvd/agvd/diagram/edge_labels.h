@@ -3,6 +3,8 @@
 //! for the faces or triangles on both sides, so that these cannot disagree.
 #pragma once
 
+#include <algorithm>
+
 #include "agvd/core/types.h"
 #include "agvd/propagation/propagate.h"
 
@@ -24,6 +26,15 @@ template <typename T>
 template <typename T>
 [[nodiscard]] Index size_of(const std::vector<T>& list) {
     return static_cast<Index>(list.size());
+}
+
+//! Appends to a list that is large when it is complete: where it has to grow it gets little room to
+//! spare.
+template <typename T>
+void append_to(std::vector<T>& list, std::span<const T> more) {
+    const std::size_t needed = list.size() + more.size();
+    if (needed > list.capacity()) list.reserve(std::max(needed, list.size() + list.size() / 8));
+    list.insert(list.end(), more.begin(), more.end());
 }
 
 //! A line on which labels change: a mesh edge, named by one of its half-edges, or a cut.
@@ -83,6 +94,8 @@ struct CutFace {
 //! or cut. Stretches of one label are nodes of a graph: one that ends at a point is that point;
 //! then come the others, by the crossing that they follow along the edge_half or cut.
 struct EdgeLabels {
+    //! Points have lower numbers as nodes, crossings come behind.
+    Index first_crossing_node = 0;
     std::vector<Index> point_site;        //!< By point; no_index where no site reaches.
     std::vector<double> vertex_distance;  //!< #V.
     std::vector<Index> mixed_index;       //!< #F: position in mixed_faces; no_index: unlisted.
@@ -93,20 +106,29 @@ struct EdgeLabels {
     std::vector<InnerPoint> inner_points;
     std::vector<Cut> cuts;
     std::vector<CutTriangle> cut_triangles;
-    std::vector<CutFace> cut_faces;  //!< By face.
+    std::vector<CutFace> cut_faces;  //!< Ascending by face.
 
     [[nodiscard]] std::span<const Crossing> on_edge(Index edge) const {
         return elements_of(crossings, edge_rows[edge]);
     }
-    [[nodiscard]] Index node_after(Index crossing) const {
-        return static_cast<Index>(point_site.size()) + crossing;
-    }
+    [[nodiscard]] Index node_after(Index crossing) const { return first_crossing_node + crossing; }
+    [[nodiscard]] std::size_t num_nodes() const { return first_crossing_node + crossings.size(); }
     //! \param corners  of the face, in its own frame.
     [[nodiscard]] Vec2 position_of(const CutEnd& end, const std::array<Vec2, 3>& corners) const {
         return end.corner < 3 ? corners[end.corner]
                               : inner_points[end.point - vertex_distance.size()].position;
     }
 };
+
+//! The triangles of a face; none if it is not cut.
+[[nodiscard]] inline std::span<const CutTriangle> cut_triangles_of(const EdgeLabels& labels,
+                                                                   Index face) {
+    const auto found =
+        std::lower_bound(labels.cut_faces.begin(), labels.cut_faces.end(), face,
+                         [](const CutFace& cut, Index wanted) { return cut.face < wanted; });
+    if (found == labels.cut_faces.end() || found->face != face) return {};
+    return elements_of(labels.cut_triangles, found->triangles);
+}
 
 //! Calls callback(crossing, before, site_before, after, site_after) for each crossing of a row with
 //! the nodes on its two sides.

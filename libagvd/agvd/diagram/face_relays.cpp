@@ -7,8 +7,9 @@
 namespace agvd {
 namespace {
 
-// Of parallel paths the unit vector towards the line.
+// Of parallel paths the unit vector towards the line; of a region 0.
 Vec2 direction_of(const Relay& relay) {
+    if (relay.y > 0) return {0, 0};
     return {relay.x, -std::sqrt(std::max(1 - relay.x * relay.x, 0.0))};
 }
 
@@ -122,21 +123,24 @@ Nearest nearest(std::span<const PlanarRelay> relays, const Vec2& p) {
     return best;
 }
 
-PointLabel point_label(const Surface& surface, const Propagation& propagation,
-                       const SurfacePoint& point) {
-    const Index face = point.face.value();
-    for (const SiteShape& shape : propagation.shapes) {
-        if (std::find(shape.faces.begin(), shape.faces.end(), face) == shape.faces.end()) continue;
-        return {SiteId(shape.site), 0};
-    }
-    const std::optional<Index> mixed = mixed_index_of(propagation, face);
-    if (!mixed) return {propagation.vertex_site[surface.mesh.triangles[face][0]], {}};
+PointLabel label_in_face(const Surface& surface, const Propagation& propagation,
+                         std::optional<Index> mixed, SiteId site_of_corners,
+                         const SurfacePoint& point) {
+    if (!mixed) return {site_of_corners, {}};
     std::vector<PlanarRelay> planar;
     for (const Relay& relay : relays_of(propagation, *mixed)) {
         planar.push_back(to_planar(relay, to_face_frame(surface, relay.half_edge)));
     }
-    const Nearest label = nearest(planar, position_in_frame(surface, point, 3 * face));
+    const Nearest label =
+        nearest(planar, position_in_frame(surface, point, 3 * point.face.value()));
     return {SiteId(label.site), label.distance};
+}
+
+PointLabel point_label(const Surface& surface, const Propagation& propagation,
+                       const SurfacePoint& point) {
+    const Index face = point.face.value();
+    return label_in_face(surface, propagation, mixed_index_of(propagation, face),
+                         propagation.vertex_site[surface.mesh.triangles[face][0]], point);
 }
 
 PointLabel label_at(const Surface& surface, const Propagation& propagation,

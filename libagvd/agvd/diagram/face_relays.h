@@ -13,7 +13,7 @@ namespace agvd {
 
 //! A relay in a planar frame shared with other relays.
 struct PlanarRelay {
-    Vec2 image;       //!< Of parallel paths the unit vector towards the line.
+    Vec2 image;       //!< Of parallel paths the unit vector towards the line; of a region 0.
     Vec2 begin, end;  //!< Ends of the visible interval, seen from the image left and right.
     //! Distance from the site to the image; of parallel paths from the line to the origin.
     double weight;
@@ -21,7 +21,7 @@ struct PlanarRelay {
     double at_end;    //!< Distance from the site to `end` through the image.
     Index site;
     bool sees_all;             //!< The image lies in the face: no interval.
-    bool is_parallel = false;  //!< The paths come from a line.
+    bool is_parallel = false;  //!< See agvd::is_parallel().
 };
 
 //! Distance of a point through a relay, and where the last straight piece of the path begins.
@@ -118,6 +118,14 @@ struct PointLabel {
     SiteId site;                     //!< Nearest site; invalid where none reaches.
     std::optional<double> distance;  //!< Through the relays; unknown in faces of one label.
 };
+
+//! What a propagation says at a point of its face: by its relays, or by its one label. Of the
+//! propagation it reads relays.
+//! \param mixed            position of the face in mixed_faces; unset: it is unlisted.
+//! \param site_of_corners  the label of an unlisted face.
+[[nodiscard]] PointLabel label_in_face(const Surface& surface, const Propagation& propagation,
+                                       std::optional<Index> mixed, SiteId site_of_corners,
+                                       const SurfacePoint& point);
 
 //! What a propagation says at a point: by the relays of its face, or by its one label.
 [[nodiscard]] PointLabel point_label(const Surface& surface, const Propagation& propagation,

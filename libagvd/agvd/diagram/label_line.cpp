@@ -180,6 +180,7 @@ void label_line(std::span<const LineRelay> relays, LineId line, const LabelledSe
 void settle_crossings(std::span<const LineRelay> relays, double length,
                       std::span<Crossing> crossings) {
     constexpr int most_steps = 4;
+    constexpr double rounding = 2e-16;  // Share of the distances.
     for (std::size_t i = 0; i < crossings.size(); ++i) {
         Crossing& crossing = crossings[i];
         const Bracket bracket{i == 0 ? 0 : crossings[i - 1].at * length,
@@ -194,6 +195,7 @@ void settle_crossings(std::span<const LineRelay> relays, double length,
             gap = std::abs(gap_here);
             crossing.at = x / length;
             crossing.distance = std::max(a.value, b.value);
+            if (gap <= rounding * a.value) break;
             x -= gap_here / (a.slope - b.slope);
         }
     }

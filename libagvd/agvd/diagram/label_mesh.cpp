@@ -18,21 +18,22 @@ struct ShorterPath {
     double distance;
 };
 
-// Appends the paths to corners that are not fixed.
-void find_shorter_paths(const Surface& surface, const Propagation& propagation,
-                        std::span<const std::uint8_t> is_fixed, Index mixed_index,
+// Appends the paths to corners that are asked for.
+void find_shorter_paths(const StageInput& input, const EdgeLabels& labels,
+                        std::span<const std::uint8_t> is_wanted, Index mixed_index,
                         std::vector<ShorterPath>& out) {
-    const Index face = propagation.mixed_faces[mixed_index];
+    const Surface& surface = input.surface;
+    const Index face = input.propagation.mixed_faces[mixed_index];
     const Triangle& corners = surface.mesh.triangles[face];
-    if ((is_fixed[corners[0]] & is_fixed[corners[1]] & is_fixed[corners[2]]) != 0) return;
+    if ((is_wanted[corners[0]] | is_wanted[corners[1]] | is_wanted[corners[2]]) == 0) return;
     // No path through a relay is shorter than the straight line, which excludes most relays without
     // a square root. A gain of less than this share changes no label.
     constexpr double least_gain = 1e-9;
     std::array<double, 3> limits;
     for (std::size_t k = 0; k < 3; ++k) {
-        limits[k] = (1 - least_gain) * propagation.vertex_distance[corners[k]];
+        limits[k] = (1 - least_gain) * labels.vertex_distance[corners[k]];
     }
-    for (const Relay& relay : relays_of(propagation, mixed_index)) {
+    for (const Relay& relay : relays_of(input.propagation, mixed_index)) {
         const Index h = relay.half_edge;
         const Index k = h - 3 * face;
         const double length = surface.length_of(h);
@@ -50,23 +51,13 @@ void find_shorter_paths(const Surface& surface, const Propagation& propagation,
         const CornerDistances to = corner_distances(relay, length, apex);
         const auto offer = [&](Index corner, double distance) {
             const Index v = corners[corner];
-            if (distance >= limits[corner] || is_fixed[v] != 0) return;
+            if (distance >= limits[corner] || is_wanted[v] == 0) return;
             out.push_back({v, relay.site.value(), distance});
         };
         offer(k, to.tail);
         offer(at_head, to.head);
         offer(at_apex, to.apex);
     }
-}
-
-// By vertex: 1 for those of an unlisted face, which lies in one cell.
-std::vector<std::uint8_t> fixed_vertices(const Surface& surface, const EdgeLabels& labels) {
-    std::vector<std::uint8_t> is_fixed(surface.num_vertices(), 0);
-    for (Index f = 0; f < surface.num_faces(); ++f) {
-        if (labels.mixed_index[f] != no_index) continue;
-        for (const Index v : surface.mesh.triangles[f]) is_fixed[v] = 1;
-    }
-    return is_fixed;
 }
 
 // The label changes on the edges of one chunk.
@@ -129,41 +120,16 @@ void label_some(const StageInput& input, const EdgeLabels& labels,
     }
 }
 
-// The lower half-edge of each edge all of whose faces are mixed.
-std::vector<Index> labelled_edges(const StageInput& in, const EdgeLabels& labels) {
-    std::vector<Index> half_edges;
-    Ticker ticker(in.poller);
-    for (const Index face : in.propagation.mixed_faces) {
-        ticker.tick();
-        for (Index h = 3 * face; h < 3 * face + 3; ++h) {
-            const Index twin = in.surface.twin[h];
-            if (twin == no_index ||
-                (h < twin && labels.mixed_index[Surface::face(twin)] != no_index)) {
-                half_edges.push_back(h);
-            }
-        }
-    }
-    return half_edges;
-}
-
 }  // namespace
 
-void label_vertices(const StageInput& input, EdgeLabels& labels) {
-    const Surface& surface = input.surface;
-    const Propagation& propagation = input.propagation;
-    const auto count = static_cast<Index>(propagation.mixed_faces.size());
-    labels.mixed_index.assign(surface.num_faces(), no_index);
-    for (Index i = 0; i < count; ++i) labels.mixed_index[propagation.mixed_faces[i]] = i;
-    labels.vertex_distance = propagation.vertex_distance;
-    labels.point_site.reserve(surface.num_vertices());
-    for (const SiteId site : propagation.vertex_site) labels.point_site.push_back(site.value());
-
-    const std::vector<std::uint8_t> is_fixed = fixed_vertices(surface, labels);
+void label_vertices(const StageInput& input, std::span<const Index> positions,
+                    std::span<const std::uint8_t> is_wanted, EdgeLabels& labels) {
     constexpr Index grain = 512;
+    const auto count = static_cast<Index>(positions.size());
     std::vector<std::vector<ShorterPath>> found(num_chunks(count, grain));
     const auto find = [&](Index chunk, Index begin, Index end) {
         for (Index i = begin; i < end; ++i) {
-            find_shorter_paths(surface, propagation, is_fixed, i, found[chunk]);
+            find_shorter_paths(input, labels, is_wanted, positions[i], found[chunk]);
         }
     };
     parallel_chunks(count, grain, input.num_threads, find, input.poller);
@@ -178,26 +144,26 @@ void label_vertices(const StageInput& input, EdgeLabels& labels) {
     }
 }
 
-void label_edges(const StageInput& input, EdgeLabels& labels) {
-    labels.edge_rows.assign(input.surface.num_edges(), {});
-    const std::vector<Index> half_edges = labelled_edges(input, labels);
+void label_edges(const StageInput& input, std::span<const Index> half_edges, EdgeLabels& labels) {
     constexpr Index grain = 512;
-    std::vector<FoundRows> found(num_chunks(size_of(half_edges), grain));
+    const auto count = static_cast<Index>(half_edges.size());
+    std::vector<FoundRows> found(num_chunks(count, grain));
     const auto label_chunk = [&](Index chunk, Index begin, Index end) {
-        label_some(input, labels, std::span(half_edges).subspan(begin, end - begin), found[chunk]);
+        label_some(input, labels, half_edges.subspan(begin, end - begin), found[chunk]);
     };
-    parallel_chunks(size_of(half_edges), grain, input.num_threads, label_chunk, input.poller);
-    std::size_t num_crossings = 0;
-    for (const FoundRows& chunk : found) num_crossings += chunk.crossings.size();
-    labels.crossings.reserve(num_crossings + num_crossings / 8);  // And those of cuts.
+    parallel_chunks(count, grain, input.num_threads, label_chunk, input.poller);
+    if (labels.crossings.empty()) {
+        std::size_t num_crossings = 0;
+        for (const FoundRows& chunk : found) num_crossings += chunk.crossings.size();
+        labels.crossings.reserve(num_crossings + num_crossings / 8);  // And those of cuts.
+    }
     for (const FoundRows& chunk : found) {
         input.poller.poll();
         const auto begin = size_of(labels.crossings);
         for (const auto& [edge, row] : chunk.rows) {
             labels.edge_rows[edge] = {begin + row.begin, row.count};
         }
-        labels.crossings.insert(labels.crossings.end(), chunk.crossings.begin(),
-                                chunk.crossings.end());
+        append_to<Crossing>(labels.crossings, chunk.crossings);
     }
 }
 

@@ -56,15 +56,12 @@ public:
         corners_ = face_corners(in_.surface, face_);
         size_ = longest_side(corners_);
         gatherer_.gather_own(position, relays_);
-        vertices_.clear();
-        const std::span<const Arc> arcs = elements_of(arcs_.arcs, found.arcs);
-        are_all_reached_ =
-            std::all_of(arcs.begin(), arcs.end(), [&](const Arc& arc) { return is_reached(arc); });
-        if (!are_all_reached_) gatherer_.gather_all(position, relays_);
         const std::size_t first_vertex = out_.moved_vertices.size();
-        settle_vertices(found.voronoi_vertices);
-        num_drawn_ = 0;
-        for (Index arc = found.arcs.begin; arc < found.arcs.end(); ++arc) split(arc);
+        if (!split_all(found)) {
+            out_.moved_vertices.resize(first_vertex);
+            gatherer_.gather_all(position, relays_);
+            static_cast<void>(split_all(found));
+        }
         for (DrawnArc& drawn : drawn_arcs()) draw(drawn);
         if (any_outside() || any_cross() || !change_areas(found)) {
             vertices_.clear();
@@ -117,28 +114,34 @@ private:
         return {of_site(relays_, arc.left), of_site(relays_, arc.right)};
     }
 
-    // Whether the relays at hand agree with the distances of the arc's ends.
-    [[nodiscard]] bool is_reached(const Arc& arc) const {
-        const Chord ends = ends_of(arc);
-        const double slack = largest_disagreement * size_;
-        for (const Relays& relays : relays_beside(arc)) {
-            if (!(least_reach(relays, ends.from).distance <= distance_at(arc.tail) + slack &&
-                  least_reach(relays, ends.to).distance <= distance_at(arc.head) + slack)) {
-                return false;
-            }
+    // Whether the relays at hand agree with the distances of all ends.
+    [[nodiscard]] bool split_all(const FaceArcs& found) {
+        settle_vertices(found.voronoi_vertices);
+        num_drawn_ = 0;
+        bool are_reached = true;
+        for (Index arc = found.arcs.begin; arc < found.arcs.end(); ++arc) {
+            are_reached = split(arc) && are_reached;
         }
-        return true;
+        return are_reached;
     }
 
-    void split(Index index) {
+    // Whether the relays at hand agree with the distances of the arc's ends.
+    [[nodiscard]] bool split(Index index) {
         const Arc& arc = arcs_.arcs[index];
         const Chord ends = ends_of(arc);
         if (num_drawn_ == drawn_.size()) drawn_.emplace_back();
         DrawnArc& drawn = drawn_[num_drawn_++];
         drawn.arc = index;
-        if (!are_all_reached_ && !is_reached(arc)) return keep(drawn);
-        const auto conics = conics_.split(relays_beside(arc), ends, size_);
-        if (conics.empty()) return keep(drawn);
+        if (!conics_.begin(relays_beside(arc), ends, {distance_at(arc.tail), distance_at(arc.head)},
+                           size_)) {
+            keep(drawn);
+            return false;
+        }
+        const auto conics = conics_.follow();
+        if (conics.empty()) {
+            keep(drawn);
+            return true;
+        }
         drawn.has_conics = true;
         drawn.shapes.clear();
         Vec2 from = ends.from;
@@ -147,6 +150,7 @@ private:
             drawn.shapes.push_back({kind, part.conic, from, part.end, 0});
             from = part.end;
         }
+        return true;
     }
 
     // Of unknown shape.
@@ -155,16 +159,15 @@ private:
         const Chord ends = ends_of(arc);
         drawn.has_conics = false;
         drawn.shapes.assign(1, {ArcKind::Chord, {}, ends.from, ends.to, arc.num_points});
-        drawn.points = points_between(ends, arc);
+        drawn.points.assign(1, ends.from);
+        const auto inner = inner_points(arc);
+        drawn.points.insert(drawn.points.end(), inner.begin(), inner.end());
+        drawn.points.push_back(ends.to);
     }
 
     // As it was.
-    [[nodiscard]] std::vector<Vec2> points_between(const Chord& ends, const Arc& arc) const {
-        std::vector<Vec2> points{ends.from};
-        const auto inner = elements_of(arcs_.points, {arc.first_point, arc.num_points});
-        points.insert(points.end(), inner.begin(), inner.end());
-        points.push_back(ends.to);
-        return points;
+    [[nodiscard]] std::span<const Vec2> inner_points(const Arc& arc) const {
+        return elements_of(arcs_.points, {arc.first_point, arc.num_points});
     }
 
     void draw(DrawnArc& drawn) const {
@@ -172,10 +175,11 @@ private:
         drawn.points.assign(1, drawn.shapes.front().begin);
         for (ArcShape& shape : drawn.shapes) {
             const std::size_t before = drawn.points.size();
-            // With errors in the distances the ends lie beside the conic.
-            const Chord on_it{shape.conic.moved_onto(shape.begin),
-                              shape.conic.moved_onto(shape.end)};
-            if (shape.kind != ArcKind::Line) {
+            if (shape.kind != ArcKind::Line &&
+                shape.conic.most_stray(shape.begin, shape.end) > *in_.chord) {
+                // With errors in the distances the ends lie beside the conic.
+                const Chord on_it{shape.conic.moved_onto(shape.begin),
+                                  shape.conic.moved_onto(shape.end)};
                 add_inner_points(shape.conic, on_it, *in_.chord, 0, drawn.points);
             }
             shape.num_points = static_cast<Index>(drawn.points.size() - before);
@@ -197,14 +201,15 @@ private:
     // Conics of distances with errors may leave the face.
     [[nodiscard]] bool any_outside() const {
         if (in_.propagation.certified_error == 0) return false;
+        std::array<Vec2, 3> sides;
+        for (std::size_t k = 0; k < 3; ++k) {
+            sides[k] = (corners_[(k + 1) % 3] - corners_[k]).normalized();
+        }
+        const double slack = inside_tolerance * size_;
         const auto is_outside = [&](const Vec2& p) {
-            for (std::size_t k = 0; k < 3; ++k) {
-                const Vec2 side = corners_[(k + 1) % 3] - corners_[k];
-                if (cross(side, p - corners_[k]) < -inside_tolerance * size_ * side.norm()) {
-                    return true;
-                }
-            }
-            return false;
+            return cross(sides[0], p - corners_[0]) < -slack ||
+                   cross(sides[1], p - corners_[1]) < -slack ||
+                   cross(sides[2], p - corners_[2]) < -slack;
         };
         for (std::size_t i = 0; i < num_drawn_; ++i) {
             const std::vector<Vec2>& points = drawn_[i].points;
@@ -214,21 +219,31 @@ private:
     }
 
     [[nodiscard]] bool any_cross() {
-        // A conic does not cross itself, but where the ends lie beside it its polyline may.
-        const bool is_exact = in_.propagation.certified_error == 0;
-        if (is_exact && num_drawn_ == 1 && drawn_[0].shapes.size() == 1) return false;
         segments_.clear();
         for (const DrawnArc& drawn : drawn_arcs()) {
+            // Such an arc does not cross itself.
+            const bool is_monotone = goes_forward(drawn.points);
+            const std::size_t first = segments_.size();
             for (std::size_t i = 0; i + 1 < drawn.points.size(); ++i) {
-                segments_.push_back({drawn.points[i], drawn.points[i + 1]});
-            }
-        }
-        for (std::size_t i = 0; i < segments_.size(); ++i) {
-            for (std::size_t j = 0; j < i; ++j) {
-                if (do_cross(segments_[i], segments_[j])) return true;
+                const Chord segment{drawn.points[i], drawn.points[i + 1]};
+                const auto others =
+                    std::span(segments_).first(is_monotone ? first : segments_.size());
+                for (const Chord& other : others) {
+                    if (do_cross(segment, other)) return true;
+                }
+                segments_.push_back(segment);
             }
         }
         return false;
+    }
+
+    // Whether each segment goes in the direction of the whole.
+    [[nodiscard]] static bool goes_forward(std::span<const Vec2> points) {
+        const Vec2 whole = points.back() - points.front();
+        for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+            if (!(whole.dot(points[i + 1] - points[i]) > 0)) return false;
+        }
+        return true;
     }
 
     // False, and nothing changes: a part would be turned inside out.
@@ -237,8 +252,12 @@ private:
         const std::size_t first = out_.area_changes.size();
         for (const DrawnArc& drawn : drawn_arcs()) {
             const Arc& arc = arcs_.arcs[drawn.arc];
+            const Chord old = old_ends_of(arc);
             const double area =
-                (doubled_area(drawn.points) - doubled_area(points_between(old_ends_of(arc), arc))) /
+                (doubled_area(drawn.points.front(),
+                              std::span(drawn.points).subspan(1, drawn.points.size() - 2),
+                              drawn.points.back()) -
+                 doubled_area(old.from, inner_points(arc), old.to)) /
                 2;
             out_.area_changes.push_back({part_of(found, arc.left), area});
             out_.area_changes.push_back({part_of(found, arc.right), -area});
@@ -266,21 +285,29 @@ private:
         return part;
     }
 
-    [[nodiscard]] static double doubled_area(std::span<const Vec2> points) {
+    [[nodiscard]] static double doubled_area(const Vec2& from, std::span<const Vec2> points,
+                                             const Vec2& to) {
         double sum = 0;
-        for (std::size_t i = 0; i + 1 < points.size(); ++i) sum += cross(points[i], points[i + 1]);
-        return sum;
+        const Vec2* last = &from;
+        for (const Vec2& point : points) {
+            sum += cross(*last, point);
+            last = &point;
+        }
+        return sum + cross(*last, to);
     }
 
     void store(const DrawnArc& drawn) {
         out_.shapes.insert(out_.shapes.end(), drawn.shapes.begin(), drawn.shapes.end());
         Index num_points = 0;
         if (drawn.has_conics) {
-            const Relays left = relays_beside(arcs_.arcs[drawn.arc])[0];
             num_points = size_of(drawn.points) - 2;
-            for (Index i = 1; i <= num_points; ++i) {
-                out_.points.push_back(drawn.points[i]);
-                out_.distances.push_back(least_reach(left, drawn.points[i]).distance);
+            out_.points.insert(out_.points.end(), drawn.points.begin() + 1, drawn.points.end() - 1);
+            std::size_t i = 1;
+            for (const ArcShape& shape : drawn.shapes) {
+                for (const std::size_t end = i + shape.num_points + 1; i < end; ++i) {
+                    if (i > num_points) break;
+                    out_.distances.push_back(shape.conic.distance(0, drawn.points[i]));
+                }
             }
         }
         out_.entries.push_back({drawn.arc, num_points, size_of(drawn.shapes), drawn.has_conics});
@@ -297,7 +324,6 @@ private:
     Index face_ = 0;
     std::array<Vec2, 3> corners_;
     double size_ = 0;
-    bool are_all_reached_ = false;     // By the relays of the face itself.
     std::vector<PlanarRelay> relays_;  // By ascending site.
     std::vector<ShapedFaces::MovedVertex> vertices_;
     std::vector<DrawnArc> drawn_;  // The first num_drawn_; others are kept for their memory.

@@ -2,6 +2,7 @@
 //! The stages of a diagram: what they read, and what they make before it is drawn.
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include "agvd/diagram/arc_shapes.h"
@@ -24,6 +25,9 @@ struct StageInput {
     Poller& poller;
 };
 
+//! Of a mixed face whose relays are not needed any more.
+inline constexpr RelayRange dropped_relays{no_index, no_index};
+
 struct DiagramParts {
     Index num_sites = 0;
     std::vector<std::vector<Index>> boundary_loops;  //!< Of the surface: half-edges.
@@ -33,20 +37,26 @@ struct DiagramParts {
     ArcShapes shapes;
 };
 
-//! Labels the vertices. A vertex all of whose faces are mixed takes the nearest site over the
-//! relays of those faces, which may be nearer than the engine knows.
+//! Relabels vertices all of whose faces are mixed: they take the nearest site over the relays of
+//! these faces, which may be nearer than the engine knows.
+//! \param positions  of these faces, ascending by face.
+//! \param is_wanted  #V: 1 for these vertices.
+//! \param labels     those of all corners of these faces are known.
 //! Cost: O(relays) quick steps.
-void label_vertices(const StageInput& input, EdgeLabels& labels);
+void label_vertices(const StageInput& input, std::span<const Index> positions,
+                    std::span<const std::uint8_t> is_wanted, EdgeLabels& labels);
 
-//! Labels the edges all of whose faces are mixed, by the lower envelope of the relays of both sides
-//! and of the edge's ends.
+//! Labels edges all of whose faces are mixed, by the lower envelope of the relays of both sides and
+//! of the edge's ends, which are labelled.
+//! \param half_edges  the lower one of each edge.
 //! Parallel. Cost: O(relays) an edge, O(relays) and a few square roots a crossing.
-void label_edges(const StageInput& input, EdgeLabels& labels);
+void label_edges(const StageInput& input, std::span<const Index> half_edges, EdgeLabels& labels);
 
 //! Cuts faces with sites inside into triangles at them. Sites that lie on edges reach the boundary
 //! by themselves; a site that owns nothing at its own position is left out.
+//! \param positions  ascending by face; the edges of these faces are labelled.
 //! Parallel. Cost: the relays near it, a site inside a mixed face, and sorting the face's relays.
-void cut_faces(const StageInput& input, EdgeLabels& labels);
+void cut_faces(const StageInput& input, std::span<const Index> positions, EdgeLabels& labels);
 
 //! Gives mixed faces their arcs, which are not joined yet.
 //! \param positions  all of them; or those of some faces, to trace them again.
@@ -56,21 +66,31 @@ void trace_faces(const StageInput& input, std::span<const Index> positions, Diag
 //! Makes cells connected: with approximate distances they may have several parts. Gives every part
 //! that is not connected to its site to a cell beside it, and traces the faces around it again,
 //! until nothing changes. This ends, since label changes only vanish.
-//! \return draw_complex() of what comes out.
+//! \return draw_complex() of what comes out; nothing if it would need relays that were dropped.
 //! Cost: that of draw_complex() for most diagrams; on the others that of the cells with islands,
 //! and O(#V + arcs) quick steps.
-[[nodiscard]] Diagram absorb_islands(const StageInput& input, DiagramParts& parts);
+[[nodiscard]] std::optional<Diagram> absorb_islands(const StageInput& input, DiagramParts& parts);
+
+//! The node that holds a point, if it is of the point's site; no_index: none, or an inner point.
+//! \param i  of input.points.
+[[nodiscard]] Index holder_of(const StageInput& input, const EdgeLabels& labels, Index i);
 
 //! Finds the conics that arcs are made of, and draws the arcs by these. Arcs of which the distances
 //! contradict each other, or would cross others, stay as they are.
 //! \param input  with a chord.
-//! Parallel. Cost: O(relays) a conic, and a few square roots a point; where a face has several
-//! arcs, O(points^2) comparisons.
+//! Parallel. Cost: O(relays) quick steps a conic, and a few square roots a point; where a face has
+//! several arcs, O(points^2) comparisons.
 void shape_arcs(const StageInput& input, DiagramParts& parts);
 
 //! The complex without the points of its edges. Cost: O(arcs + boundary).
 [[nodiscard]] Diagram draw_complex(const Surface& surface, const DiagramParts& parts,
                                    Ticker ticker);
+
+//! Joins the parts and draws them, with what else a diagram holds, when all faces are traced.
+//! \param release  called when the relays have been read for the last time.
+//! \return nothing if relays are needed that were dropped.
+[[nodiscard]] std::optional<Diagram> draw(const StageInput& input, DiagramParts parts,
+                                          const std::function<void()>& release);
 
 //! Adds the points of the edges. Cost: that of their number.
 void draw_points(const Surface& surface, const DiagramParts& parts, Ticker ticker,

@@ -99,6 +99,7 @@ public:
 
     void trace(Index mixed_index) {
         begin_face(mixed_index);
+        is_shaped_later_ = in_.chord && propagation_.certified_error < infinity;
         for (Index k = 0; k < 3; ++k) {
             const Index h = 3 * face_ + k;
             sides_[k] = mesh_side(h, corners_[k], corners_[(k + 1) % 3]);
@@ -106,9 +107,10 @@ public:
         trace_triangle(corners_, labels_.point_site[surface_.tail(3 * face_)]);
     }
 
-    void trace_cut(const CutFace& cut) {
-        begin_face(labels_.mixed_index[cut.face]);
-        for (const CutTriangle& triangle : elements_of(labels_.cut_triangles, cut.triangles)) {
+    void trace_cut(Index mixed_index, std::span<const CutTriangle> triangles) {
+        begin_face(mixed_index);
+        is_shaped_later_ = false;
+        for (const CutTriangle& triangle : triangles) {
             std::array<Vec2, 3> corners;
             for (std::size_t k = 0; k < 3; ++k) {
                 corners[k] = labels_.position_of(triangle.points[k], corners_);
@@ -194,7 +196,8 @@ private:
         if (breakpoints_.size() != 2) return false;
         const Breakpoint& from = breakpoints_[0];
         const Breakpoint& to = breakpoints_[1];
-        if (!joins_straight(relays_of(propagation_, mixed_index_), corners_, from, to,
+        if (!is_shaped_later_ &&
+            !joins_straight(relays_of(propagation_, mixed_index_), corners_, from, to,
                             largest_disagreement * longest_side(corners), in_.chord_tolerance)) {
             return false;
         }
@@ -236,11 +239,12 @@ private:
     TriangleSolver solver_{in_.chord_tolerance, out_};
 
     // The face at hand.
+    std::array<Vec2, 3> corners_;
+    std::vector<PlanarRelay> own_relays_, all_relays_;
     Index mixed_index_ = 0;
     Index face_ = 0;
-    std::array<Vec2, 3> corners_;
     bool has_own_relays_ = false, has_all_relays_ = false;
-    std::vector<PlanarRelay> own_relays_, all_relays_;
+    bool is_shaped_later_ = false;  // One arc is drawn by shape_arcs(), so it needs no points.
 
     // The triangle at hand.
     std::array<TriangleSide, 3> sides_;
@@ -258,17 +262,14 @@ void find_arcs(const StageInput& input, const EdgeLabels& labels, std::span<cons
     out.faces.clear();
     FaceTracer tracer(input, labels, out);
     Ticker ticker(input.poller);
-    const auto comes_before = [](const CutFace& cut, Index face) { return cut.face < face; };
-    auto cut = labels.cut_faces.begin();
     for (const Index i : positions) {
         const Arcs::Mark begin = out.mark();
         ticker.tick(1 + relays_of(input.propagation, i).size());
-        const Index face = input.propagation.mixed_faces[i];
-        cut = std::lower_bound(cut, labels.cut_faces.end(), face, comes_before);
-        if (cut != labels.cut_faces.end() && cut->face == face) {
-            tracer.trace_cut(*cut);
-        } else {
+        const auto triangles = cut_triangles_of(labels, input.propagation.mixed_faces[i]);
+        if (triangles.empty()) {
             tracer.trace(i);
+        } else {
+            tracer.trace_cut(i, triangles);
         }
         out.faces.push_back(out.since(begin));
     }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <vector>
 
 #include "agvd/core/error.h"
 #include "agvd/core/number_text.h"
@@ -28,19 +30,23 @@ double MeshBox::longest_side() const {
 }
 
 MeshBox box_of(const MeshView& mesh, int num_threads) {
-    const auto num_faces = static_cast<Index>(mesh.triangles.size());
-    std::vector<MeshBox> boxes(num_chunks(num_faces, pass_grain));
-    const auto measure = [&](Index chunk, Index begin, Index end) {
-        MeshBox box;
-        for (const Triangle& t : mesh.triangles.subspan(begin, end - begin)) {
-            for (const Index v : t) {
-                if (v >= mesh.positions.size() || !mesh.positions[v].allFinite()) continue;
-                box.add(mesh.positions[v]);
-            }
+    // Faces may name vertices all over the memory: their bytes fit into the cache, positions may
+    // not.
+    std::vector<std::uint8_t> is_used(mesh.positions.size(), 0);
+    for (const Triangle& t : mesh.triangles) {
+        for (const Index v : t) {
+            if (v < is_used.size()) is_used[v] = 1;
         }
-        boxes[chunk] = box;
+    }
+    const auto num_vertices = static_cast<Index>(mesh.positions.size());
+    std::vector<MeshBox> boxes(num_chunks(num_vertices, pass_grain));
+    const auto measure = [&](Index chunk, Index begin, Index end) {
+        for (Index v = begin; v < end; ++v) {
+            if (is_used[v] == 0 || !mesh.positions[v].allFinite()) continue;
+            boxes[chunk].add(mesh.positions[v]);
+        }
     };
-    parallel_chunks(num_faces, pass_grain, num_threads, measure);
+    parallel_chunks(num_vertices, pass_grain, num_threads, measure);
     MeshBox whole;
     for (const MeshBox& box : boxes) whole.add(box);
     return whole;

@@ -117,6 +117,13 @@ template <typename Array>
     return result;
 }
 
+//! For each element its place in an order, which holds each once.
+[[nodiscard]] inline std::vector<Index> places_in(std::span<const Index> order) {
+    std::vector<Index> place(order.size());
+    for (Index i = 0; i < order.size(); ++i) place[order[i]] = i;
+    return place;
+}
+
 //! \throw InvalidSites naming the site when its face does not exist or it is off the face.
 void check_sites(const Surface& surface, std::span<const SurfacePoint> sites);
 

@@ -52,6 +52,8 @@ struct Distances {
 
 //! `{}` gives the defaults.
 struct KNearestOptions {
+    SitePoints points = {};                //!< What the points given as sites stand for.
+    std::vector<SiteShape> shapes = {};    //!< Lines and regions, besides the points.
     double max_error = default_max_error;  //!< Relative, in [0, 1); 0: exact in double.
     int num_threads = 0;                   //!< >= 0; 0: all cores. The same bytes for any number.
     Progress progress = {};                //!< Polled during the call; see agvd::poll.
@@ -70,10 +72,11 @@ struct KNearest {
 //! Windows of each site go as far as it may be one of the k nearest: where k others are nearer at a
 //! point, they are so at all points that shortest paths reach through it. Bounds of the k-th
 //! distance come from a search along edges in which a vertex takes k sites.
-//! \param sites  as in propagate(). Of sites at one place all count.
+//! \param sites  as in propagate(). Of sites at one place all count. No line hides what lies beyond
+//!               it.
 //! \param k      >= 1; more than there are sites leaves the rest of each row empty.
 //! \throw InvalidOption  k is 0, or an option is out of range.
-//! \throw InvalidSites   a site names a face that does not exist, or is off the face.
+//! \throw InvalidSites   as propagate().
 //! \throw Cancelled      the progress callback returned false.
 //! Cost: about k times the windows of propagate(), and k sweeps over the edges. Memory: O(k #V).
 [[nodiscard]] KNearest k_nearest_sites(const Surface& surface, std::span<const SurfacePoint> sites,

@@ -9,7 +9,7 @@ namespace {
 
 // A share of the level: reaches that differ by less are equal.
 constexpr double equal_reaches = 1e-12;
-// A share of the level: shorter pieces of a circle are rounding.
+// A share of the level: shorter pieces of a curve are rounding.
 constexpr double shortest_piece = 1e-12;
 // A share of a side: farther from the face, a point is outside.
 constexpr double beside_face = 1e-6;
@@ -23,14 +23,38 @@ struct SightLine {
     [[nodiscard]] double height(const Vec2& p) const { return cross(along, p - origin); }
 };
 
-// A circle, and the points that are seen from its centre: on the left of up to two lines.
-struct LevelCircle {
-    Vec2 centre;
+// A circle, or a line, and the points that are seen from its centre: on the left of up to two
+// lines. Its own places are given by directions: unit vectors from the centre, or ways along the
+// line from its origin.
+struct LevelCurve {
+    Vec2 centre;  // Of a line the unit vector towards the site.
     double radius;
+    SightLine line;  // The nearer side is on its left; along has length 1.
     Index site;
     std::array<SightLine, 2> seen;
     std::size_t num_seen;
 
+    [[nodiscard]] bool is_line() const { return radius == infinity; }
+    [[nodiscard]] Vec2 at(const Vec2& direction) const {
+        if (is_line()) return line.origin + direction;
+        return centre + radius * direction;
+    }
+    [[nodiscard]] Vec2 direction_to(const Vec2& p) const {
+        if (is_line()) return p - line.origin;
+        return (p - centre) / radius;
+    }
+    // How far a direction lies behind another one.
+    [[nodiscard]] double way(const Vec2& from, const Vec2& to) const {
+        return is_line() ? (to - from).dot(line.along) : radius * cross(from, to);
+    }
+    [[nodiscard]] Vec2 between(const Vec2& from, const Vec2& to) const {
+        if (is_line()) return at((from + to) / 2);
+        return centre + radius * (from + to).normalized();
+    }
+    // Whether it reaches p by less than `slack` more.
+    [[nodiscard]] bool reaches(const Vec2& p, double slack) const {
+        return is_line() ? line.height(p) > -slack : (p - centre).norm() < radius + slack;
+    }
     [[nodiscard]] bool sees(const Vec2& p) const {
         return (num_seen < 1 || seen[0].height(p) >= 0) && (num_seen < 2 || seen[1].height(p) >= 0);
     }
@@ -52,8 +76,8 @@ double distance_to_segment(const Vec2& p, const Vec2& a, const Vec2& b) {
 
 enum class PieceKind : std::uint8_t { Kept, Outside, Hidden };
 
-// A piece of a circle between two directions from its centre.
-struct CirclePiece {
+// A piece of a curve between two directions.
+struct CurvePart {
     Vec2 from, to;
     PieceKind kind;
     Index arc = no_index;  // That it is a part of.
@@ -65,17 +89,20 @@ public:
         : corners_(corners), level_(level), arcs_(arcs), first_arc_(size()) {
         for (std::size_t k = 0; k < 3; ++k) {
             sides_[k] = {corners[k], corners[(k + 1) % 3] - corners[k]};
+            size_ = std::max(size_, sides_[k].along.norm());
         }
     }
 
     void run(std::span<const PlanarRelay> relays, bool with_bends) {
         for (const PlanarRelay& relay : relays) add_relay(relay, with_bends);
-        for (const LevelCircle& circle : circles_) {
+        if (is_covered_) return;
+        for (const LevelCurve& curve : curves_) {
             const auto is_within = [&](const Vec2& corner) {
-                return (corner - circle.centre).norm() <= circle.radius;
+                return curve.is_line() ? curve.line.height(corner) >= 0
+                                       : (corner - curve.centre).norm() <= curve.radius;
             };
             if (std::all_of(corners_.begin(), corners_.end(), is_within)) continue;
-            cut(circle);
+            cut(curve);
         }
         join();
     }
@@ -84,24 +111,52 @@ private:
     [[nodiscard]] Index size() const { return static_cast<Index>(arcs_.size()); }
 
     void add_relay(const PlanarRelay& relay, bool with_bends) {
+        const bool is_parallel = relay.is_parallel;
         const double least =
-            relay.sees_all ? 0 : distance_to_segment(relay.image, relay.begin, relay.end);
-        if (!(relay.weight + least < level_)) return;
-        const SightLine before{relay.image, relay.image - relay.begin};
-        const SightLine behind{relay.image, relay.end - relay.image};
+            is_parallel ? std::min(relay.at_begin, relay.at_end)
+            : relay.sees_all
+                ? relay.weight
+                : relay.weight + distance_to_segment(relay.image, relay.begin, relay.end);
+        if (!(least < level_)) return;
+        const Vec2& u = relay.image;
+        if (is_parallel && u == Vec2(0, 0)) {
+            is_covered_ = true;
+            return;
+        }
+        const SightLine before = is_parallel ? SightLine{relay.begin, u}
+                                             : SightLine{relay.image, relay.image - relay.begin};
+        const SightLine behind = is_parallel ? SightLine{relay.end, -u}
+                                             : SightLine{relay.image, relay.end - relay.image};
+        const SightLine no_line{Vec2(0, 0), Vec2(0, 0)};
         const auto add = [&](const Vec2& centre, double weight,
                              const std::array<SightLine, 2>& seen, std::size_t num_seen) {
             if (!(weight < level_)) return;
-            circles_.push_back({centre, level_ - weight, relay.site, seen, num_seen});
+            curves_.push_back({centre, level_ - weight, no_line, relay.site, seen, num_seen});
         };
-        add(relay.image, relay.weight, {before, behind}, relay.sees_all ? 0 : 2);
+        if (is_parallel) {
+            const SightLine line{(relay.weight - level_) * u, {u.y(), -u.x()}};
+            curves_.push_back({u, infinity, line, relay.site, {before, behind}, 2});
+        } else {
+            add(relay.image, relay.weight, {before, behind}, relay.sees_all ? 0 : 2);
+        }
         if (!with_bends || relay.sees_all) return;
-        add(relay.begin, relay.at_begin, {SightLine{relay.image, -before.along}, behind}, 1);
-        add(relay.end, relay.at_end, {SightLine{relay.image, -behind.along}, before}, 1);
+        add(relay.begin, relay.at_begin, {SightLine{before.origin, -before.along}, behind}, 1);
+        add(relay.end, relay.at_end, {SightLine{behind.origin, -behind.along}, before}, 1);
     }
 
-    // Adds the directions in which a circle meets a line.
-    void meet(const LevelCircle& circle, const SightLine& line) {
+    // Adds the directions in which a curve meets a line.
+    void meet(const LevelCurve& curve, const SightLine& line) {
+        if (curve.is_line()) {
+            const double sine = cross(line.along, curve.line.along);
+            if (sine == 0) return;
+            return add_direction(curve,
+                                 curve.line.along * (-line.height(curve.line.origin) / sine));
+        }
+        for_chord(curve, line, [&](const Vec2& v) { add_direction(curve, v); });
+    }
+    // Calls visit(way from the centre of a circle) for both places where it meets a line.
+    template <typename Visit>
+    static void for_chord(const LevelCurve& circle, const SightLine& line, const Visit& visit) {
         const double length = line.along.norm();
         if (!(length > 0)) return;
         const Vec2 along = line.along / length;
@@ -110,10 +165,17 @@ private:
         if (!(half_sq >= 0)) return;
         const Vec2 foot = Vec2(along.y(), -along.x()) * height;
         const double half = std::sqrt(half_sq);
-        add_direction(circle, foot + half * along);
-        add_direction(circle, foot - half * along);
+        visit(foot + half * along);
+        visit(foot - half * along);
     }
-    void meet(const LevelCircle& circle, const LevelCircle& other) {
+    void meet(const LevelCurve& circle, const LevelCurve& other) {
+        if (other.is_line()) return meet(circle, other.line);
+        if (circle.is_line()) {
+            return for_chord(other, circle.line, [&](const Vec2& v) {
+                const Vec2 way = other.centre + v - circle.line.origin;
+                add_direction(circle, circle.line.along * way.dot(circle.line.along));
+            });
+        }
         const Vec2 between = other.centre - circle.centre;
         const double distance_sq = between.squaredNorm();
         if (!(distance_sq > 0)) return;
@@ -126,61 +188,69 @@ private:
         add_direction(circle, at * between + half * across);
         add_direction(circle, at * between - half * across);
     }
-    // Unless the circle is clearly outside the face there: such a change does not matter.
-    void add_direction(const LevelCircle& circle, const Vec2& v) {
+    // Unless the curve is clearly outside the face there: such a change does not matter.
+    void add_direction(const LevelCurve& curve, const Vec2& v) {
         const double length = v.norm();
-        if (!(length > 0)) return;
-        const Vec2 p = circle.centre + v * (circle.radius / length);
+        if (!curve.is_line() && !(length > 0)) return;
+        const Vec2 p =
+            curve.is_line() ? curve.at(v) : Vec2(curve.centre + v * (curve.radius / length));
         for (const SightLine& side : sides_) {
             if (side.height(p) < -beside_face * side.along.squaredNorm()) return;
         }
-        directions_.push_back(v / length);
+        directions_.push_back(curve.is_line() ? v : Vec2(v / length));
     }
 
-    // Cuts a circle at all directions where something may change, and takes the pieces that count.
-    void cut(const LevelCircle& circle) {
-        directions_ = {Vec2(1, 0), Vec2(0, 1), Vec2(-1, 0), Vec2(0, -1)};
-        for (const SightLine& side : sides_) meet(circle, side);
-        for (const LevelCircle& other : circles_) {
-            if (&other != &circle) meet(circle, other);
-            for (std::size_t k = 0; k < other.num_seen; ++k) meet(circle, other.seen[k]);
+    // Cuts a curve at all directions where something may change, and takes the pieces that count.
+    void cut(const LevelCurve& curve) {
+        if (curve.is_line()) {
+            const Vec2 beyond = 4 * (size_ + curve.line.origin.norm()) * curve.line.along;
+            directions_ = {-beyond, beyond};
+        } else {
+            directions_ = {Vec2(1, 0), Vec2(0, 1), Vec2(-1, 0), Vec2(0, -1)};
         }
-        std::sort(directions_.begin(), directions_.end(),
-                  [](const Vec2& a, const Vec2& b) { return pseudo_angle(a) < pseudo_angle(b); });
+        for (const SightLine& side : sides_) meet(curve, side);
+        for (const LevelCurve& other : curves_) {
+            if (&other != &curve) meet(curve, other);
+            for (std::size_t k = 0; k < other.num_seen; ++k) meet(curve, other.seen[k]);
+        }
+        std::sort(directions_.begin(), directions_.end(), [&](const Vec2& a, const Vec2& b) {
+            return curve.is_line() ? a.dot(curve.line.along) < b.dot(curve.line.along)
+                                   : pseudo_angle(a) < pseudo_angle(b);
+        });
         pieces_.clear();
-        for (std::size_t i = 0; i < directions_.size(); ++i) {
+        for (std::size_t i = 0; i < directions_.size(); ++i) {  // Of a line the last way goes back.
             const Vec2& from = directions_[i];
             const Vec2& to = directions_[(i + 1) % directions_.size()];
-            if (!(circle.radius * cross(from, to) > shortest_piece * level_)) continue;
-            const Vec2 middle = circle.centre + circle.radius * (from + to).normalized();
-            pieces_.push_back({from, to, judge(circle, middle)});
+            if (!(curve.way(from, to) > shortest_piece * level_)) continue;
+            pieces_.push_back({from, to, judge(curve, curve.between(from, to))});
         }
-        take_pieces(circle);
+        take_pieces(curve);
     }
 
     // Makes arcs of the pieces that count: an arc of several, where it stays short enough.
-    void take_pieces(const LevelCircle& circle) {
+    void take_pieces(const LevelCurve& curve) {
         const std::size_t count = pieces_.size();
         for (std::size_t i = 0; i < count; ++i) {
-            CirclePiece& piece = pieces_[i];
+            CurvePart& piece = pieces_[i];
             if (piece.kind != PieceKind::Kept) continue;
-            const Vec2 end = circle.centre + circle.radius * piece.to;
+            const Vec2 end = curve.at(piece.to);
             if (i > 0 && pieces_[i - 1].kind == PieceKind::Kept) {
                 FaceArc& last = arcs_.back();
-                const Vec2 start = (last.begin.at - circle.centre) / circle.radius;
-                if (cross(start, piece.to) > 0 && start.dot(piece.to) > longest_arc) {
+                const Vec2 start = curve.direction_to(last.begin.at);
+                if (curve.is_line() ||
+                    (cross(start, piece.to) > 0 && start.dot(piece.to) > longest_arc)) {
                     last.end.at = end;
                     piece.arc = pieces_[i - 1].arc;
                     continue;
                 }
             }
             piece.arc = size();
-            const Vec2 begin = circle.centre + circle.radius * piece.from;
-            arcs_.push_back({circle.centre, circle.radius, circle.site, {begin}, {end}});
+            const Vec2 begin = curve.at(piece.from);
+            arcs_.push_back({curve.centre, curve.radius, curve.site, {begin}, {end}});
         }
         for (std::size_t i = 0; i < count; ++i) {
-            const CirclePiece& before = pieces_[i];
-            const CirclePiece& behind = pieces_[(i + 1) % count];
+            const CurvePart& before = pieces_[i];
+            const CurvePart& behind = pieces_[(i + 1) % count];
             const bool is_kept = before.kind == PieceKind::Kept;
             if (is_kept && behind.kind == PieceKind::Outside) on_side(arcs_[before.arc].end);
             if (behind.kind != PieceKind::Kept) continue;
@@ -189,17 +259,17 @@ private:
         }
     }
 
-    [[nodiscard]] PieceKind judge(const LevelCircle& circle, const Vec2& p) const {
+    [[nodiscard]] PieceKind judge(const LevelCurve& curve, const Vec2& p) const {
         for (const SightLine& side : sides_) {
             if (side.height(p) < 0) return PieceKind::Outside;
         }
-        if (!circle.sees(p)) return PieceKind::Hidden;
-        const auto own = &circle - circles_.data();
-        for (std::ptrdiff_t i = 0; i < std::ssize(circles_); ++i) {
-            const LevelCircle& other = circles_[static_cast<std::size_t>(i)];
+        if (!curve.sees(p)) return PieceKind::Hidden;
+        const auto own = &curve - curves_.data();
+        for (std::ptrdiff_t i = 0; i < std::ssize(curves_); ++i) {
+            const LevelCurve& other = curves_[static_cast<std::size_t>(i)];
             if (i == own || !other.sees(p)) continue;
             const double slack = (i < own ? 1 : -1) * equal_reaches * level_;
-            if ((p - other.centre).norm() < other.radius + slack) return PieceKind::Hidden;
+            if (other.reaches(p, slack)) return PieceKind::Hidden;
         }
         return PieceKind::Kept;
     }
@@ -257,9 +327,11 @@ private:
     std::vector<FaceArc>& arcs_;
     Index first_arc_;
     std::array<SightLine, 3> sides_;
-    std::vector<LevelCircle> circles_;
-    std::vector<Vec2> directions_;     // Of the circle at hand, from its centre.
-    std::vector<CirclePiece> pieces_;  // Of that circle, counter-clockwise.
+    double size_ = 0;          // Of the face.
+    bool is_covered_ = false;  // A region holds the face: no point is as far as the level.
+    std::vector<LevelCurve> curves_;
+    std::vector<Vec2> directions_;   // Of the curve at hand.
+    std::vector<CurvePart> pieces_;  // Of that curve, counter-clockwise.
 };
 
 }  // namespace

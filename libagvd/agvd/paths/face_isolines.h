@@ -15,10 +15,10 @@ struct FaceArcEnd {
     Index side = no_index;  //!< 0 to 2: on that side of the face; no_index: inside.
 };
 
-//! Counter-clockwise about the centre, less than half of the circle.
+//! Counter-clockwise about the centre, less than half of the circle; or straight.
 struct FaceArc {
-    Vec2 centre;
-    double radius;
+    Vec2 centre;    //!< As IsolineArc::centre.
+    double radius;  //!< Likewise.
     Index site;
     FaceArcEnd begin, end;
     Index next = no_index;  //!< The arc that follows in the face.
@@ -26,8 +26,9 @@ struct FaceArc {
 
 //! Appends the boundary of {p in the face: some relay reaches p within `level`}.
 //!
-//! The circles of all relays are cut where they meet the sides of the face, other circles and the
-//! ends of what an image sees; pieces remain that no relay reaches by less.
+//! The circles of all relays, and the lines of those with parallel paths, are cut where they meet
+//! the sides of the face, each other and the ends of what an image sees; pieces remain that no
+//! relay reaches by less.
 //! \param corners  of the face, counter-clockwise.
 //! \param relays   in the same frame. Of those that reach a point equally the first counts.
 //! \param with_bends  whether paths that bend at the end of an interval count: they win nowhere if

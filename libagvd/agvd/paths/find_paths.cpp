@@ -23,6 +23,8 @@ using Way = std::vector<Index>;  // Vertices.
 
 // A path that is longer than the distance by no more than this share is a shortest one.
 constexpr double length_tolerance = 1e-9;
+// A share of a side of a face: shorter paths are rounding.
+constexpr double no_length = 1e-12;
 
 // A vertex near a point, and the length of a path over it.
 struct Start {
@@ -233,27 +235,39 @@ GeodesicPath path_to_site(const Surface& surface, const SiteDistances& distances
     return shortest;
 }
 
-GeodesicPath path_to_site(const Surface& surface, std::span<const SurfacePoint> sites,
-                          const Propagation& propagation, const SurfacePoint& point,
-                          const Progress& progress) {
-    if (!propagation.shapes.empty()) {
-        throw InvalidOption(
-            "paths lead to sites that are points; leave out those that are lines or regions");
-    }
+SitePath path_to_ends(const TracedField& field, const SurfacePoint& point,
+                      const Progress& progress) {
+    const Surface& surface = field.surface;
+    const Propagation& propagation = field.propagation;
     const PointLabel label = label_at(surface, propagation, point);
-    if (!label.site.is_valid()) throw InvalidInput("no path: no site reaches the point");
+    if (!label.site.is_valid()) return {};
     Poller poller(progress);
     Ticker ticker(poller);
-    const TracedField field{surface, sites, propagation};
     if (const auto traced = trace_to_site(field, snapped(surface, point), ticker)) {
         const FaceStrip strip = strip_along(surface, traced->points, traced->faces);
         GeodesicPath path = straighten(surface, strip, ticker);
         const double allowed = std::max(length_tolerance, propagation.certified_error);
-        if (path.length <= label.distance.value_or(infinity) * (1 + allowed)) return path;
+        const double rounding = no_length * surface.length_of(3 * point.face.value());
+        if (path.length + traced->start <=
+            label.distance.value_or(infinity) * (1 + allowed) + rounding) {
+            return {traced->site, std::move(path), traced->start};
+        }
     }
-    return path_to_site(surface, {propagation.vertex_site, propagation.vertex_distance},
-                        {label.site, sites[label.site.value()], label.distance.value_or(0)}, point,
-                        progress);
+    const SiteEnd end = field.ends.nearest_in_space(label.site, point);
+    const double distance = std::max(label.distance.value_or(0) - end.start, 0.0);
+    return {label.site,
+            path_to_site(surface, {propagation.vertex_site, propagation.vertex_distance},
+                         {label.site, end.place, distance}, point, progress),
+            end.start};
+}
+
+GeodesicPath path_to_site(const Surface& surface, std::span<const SurfacePoint> sites,
+                          const Propagation& propagation, const SurfacePoint& point,
+                          const Progress& progress) {
+    const SiteEnds ends(surface, sites, propagation);
+    SitePath found = path_to_ends({surface, propagation, ends}, point, progress);
+    if (!found.site.is_valid()) throw InvalidInput("no path: no site reaches the point");
+    return std::move(found.path);
 }
 
 }  // namespace agvd

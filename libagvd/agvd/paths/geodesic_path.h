@@ -83,14 +83,17 @@ struct SiteGoal {
                                         const SiteGoal& goal, const SurfacePoint& point,
                                         const Progress& progress = {});
 
-//! The same to the point's nearest site. Where the faces on the way have relays, as all have with
-//! PropagationOptions::relay_faces = all_faces(surface), the path follows them: after an exact
-//! propagation it is a shortest path, and its length is the distance up to rounding.
+//! The same to the point's nearest site: to a point of it, to the nearest point of a line, or to
+//! the rim of a region, from inside of which the path has no length. Where the faces on the way
+//! have relays, as all have with PropagationOptions::relay_faces = all_faces(surface), the path
+//! follows them: after an exact propagation it is a shortest path, and its length is the distance,
+//! less what the site starts with, up to rounding. Elsewhere it leads to the place of the site that
+//! is nearest in space.
 //!
 //! \param sites, propagation  propagate(surface, sites).
-//! \throw InvalidInput   no site reaches the point.
-//! \throw InvalidOption  a site is a line or a region.
-//! Cost: along relays O(faces crossed), and O(relays) at each vertex that the path meets.
+//! \throw InvalidInput  no site reaches the point.
+//! Cost: O(sites), and sorting what belongs to shapes, which paths_to_sites() does once for all
+//! points; then along relays O(faces crossed), and O(relays) at each vertex that the path meets.
 [[nodiscard]] GeodesicPath path_to_site(const Surface& surface, std::span<const SurfacePoint> sites,
                                         const Propagation& propagation, const SurfacePoint& point,
                                         const Progress& progress = {});
@@ -111,6 +114,7 @@ struct ShortestPathOptions {
 struct SitePath {
     SiteId site;        //!< Invalid: no site reaches the point, and the path has no points.
     GeodesicPath path;  //!< From the point to the site.
+    double start = 0;   //!< What the site starts with where the path ends.
 };
 
 //! path_to_site() for each point.

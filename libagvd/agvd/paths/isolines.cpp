@@ -102,12 +102,13 @@ private:
             high = std::max(high, distance);
             longest = std::max(longest, surface_.length_of(h));
         }
+        // No point of a face lies farther from the nearest corner.
+        const double reach = longest / std::sqrt(3.0);
         const auto is_lower = [](const FreeLevel& level, double distance) {
             return level.distance < distance;
         };
-        const auto begin =
-            std::lower_bound(levels_.begin(), levels_.end(), low - longest, is_lower);
-        const auto end = std::lower_bound(begin, levels_.end(), high + longest, is_lower);
+        const auto begin = std::lower_bound(levels_.begin(), levels_.end(), low - reach, is_lower);
+        const auto end = std::lower_bound(begin, levels_.end(), high + reach, is_lower);
         return std::span(levels_).subspan(static_cast<std::size_t>(begin - levels_.begin()),
                                           static_cast<std::size_t>(end - begin));
     }
@@ -254,7 +255,8 @@ void append_points_of_arc(const Surface& surface, const IsolineArc& arc, const V
     const Vec2 middle = (begin + end) / 2 - arc.centre;
     const double height = middle.norm();
     // Rounding of a long radius must not split for ever.
-    const bool is_split = arc.radius - height > std::max(tolerance, 1e-14 * arc.radius);
+    const bool is_split =
+        arc.radius < infinity && arc.radius - height > std::max(tolerance, 1e-14 * arc.radius);
     if (!is_split) {
         points.push_back(to_surface(surface, arc.face.value(), begin));
         return;
@@ -268,12 +270,6 @@ void append_points_of_arc(const Surface& surface, const IsolineArc& arc, const V
 
 Isolines build_isolines(const Surface& surface, const Propagation& propagation,
                         std::span<const double> levels, const IsolineOptions& options) {
-    if (!propagation.shapes.empty()) {
-        throw InvalidOption(
-            "lines of equal distance are drawn around points; leave out the sites that are lines "
-            "or "
-            "regions");
-    }
     check_num_threads(options.num_threads);
     return IsolineBuilder(surface, propagation, free_levels(propagation, levels), options).run();
 }

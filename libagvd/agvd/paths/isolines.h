@@ -1,6 +1,7 @@
 //! \file
 //! Lines of equal distance from the sites. In a face they are arcs of circles about the images of
-//! the sites, and those arcs are what is kept: polylines are drawn from them.
+//! the sites, and straight in front of edges of lines and regions; those arcs are what is kept:
+//! polylines are drawn from them.
 //! Held by Isolines in tests/agvd/paths and IsolinesAgainstExact in tests/oracle.
 #pragma once
 
@@ -13,13 +14,15 @@
 
 namespace agvd {
 
-//! A part of a circle in one face, less than half of it. The nearer side, with the image, is on the
-//! left: it runs counter-clockwise about its centre.
+//! A part of a circle in one face, less than half of it, or a straight piece. The nearer side, with
+//! the image, is on the left: a circle runs counter-clockwise about its centre.
 struct IsolineArc {
     FaceId face;  //!< In which it lies.
     SiteId site;  //!< From which its points have the distance.
-    Vec2 centre;  //!< The image of the site or pseudo-source, in the frame of half-edge 3 face.
-    double radius = 0;  //!< Mesh units.
+    //! The image of the site or pseudo-source, in the frame of half-edge 3 face; of a straight
+    //! piece the unit vector towards the site.
+    Vec2 centre;
+    double radius = 0;  //!< Mesh units; infinity: a straight piece.
     Vec2 begin;         //!< First point, in the same frame.
     Vec2 end;           //!< Last point.
 };
@@ -53,7 +56,7 @@ struct IsolineOptions {
 //! \param propagation  propagate(surface, sites) with relays in all faces that levels may cross:
 //!                     PropagationOptions::relay_faces = all_faces(surface).
 //! \param levels       mesh units, finite and above 0, in any order.
-//! \throw InvalidOption  a level is not finite and above 0, or a site is a line or a region.
+//! \throw InvalidOption  a level is not finite and above 0.
 //! \throw InvalidInput   a face that a level may cross has no relays; the text names it.
 //! \throw Cancelled      the progress callback returned false.
 //! Parallel. Cost: O(#F + k^2 log k) for the k relays that are about as near as a level in a face,

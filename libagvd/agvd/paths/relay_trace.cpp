@@ -2,14 +2,14 @@
 // followed from face to face until the image lies in one: there the next relay is asked. It is that
 // of the site, or of a vertex where the path bends. At a vertex on the line all its faces are
 // asked: the image is right on one side of it only, and rounding would choose the side. Relays with
-// errors are asked in every face, since no site or vertex need lie at their images.
+// errors are asked in every face, since no site or vertex need lie at their images. Where parallel
+// paths lead, the line ends at a side of their site.
 #include "agvd/paths/relay_trace.h"
 
 #include <algorithm>
 
 #include "agvd/diagram/face_relays.h"
 #include "agvd/mesh/surface_points.h"
-#include "agvd/paths/face_strip.h"
 
 namespace agvd {
 namespace {
@@ -19,6 +19,8 @@ namespace {
 constexpr double image_in_face = 1e-10;
 // A share of a distance: pieces of a path that are shorter are rounding.
 constexpr double no_piece = 1e-12;
+// A share of a distance: a path with no more left ends at the side that it has come to.
+constexpr double nothing_left = 1e-9;
 
 // The relay that a path arrives through, and the face through which it comes.
 struct Chosen {
@@ -46,9 +48,9 @@ public:
         // Distances fall from piece to piece, but for errors and rounding: the end comes.
         for (std::size_t left = std::size_t{4} * surface_.num_faces() + 64; left > 0; --left) {
             if (chosen.relay == nullptr) return std::nullopt;
-            const bool is_inner = chosen.relay->y >= 0;
-            if (is_inner && ends_at_site(chosen)) return std::move(path_);
-            chosen = is_inner ? go_to_corner(chosen) : go_across(chosen);
+            if (ends_at_site(chosen)) return std::move(path_);
+            chosen = chosen.relay->y >= 0 ? go_to_corner(chosen) : go_across(chosen);
+            if (path_.site.is_valid()) return std::move(path_);
         }
         return std::nullopt;
     }
@@ -79,7 +81,10 @@ private:
             const Reach r = reach(to_planar(relay, Motion()), seen[relay.half_edge % 3]);
             if (!(r.distance < best.distance)) continue;
             const double rounding = no_piece * distance;
-            if (r.last_piece < rounding && r.distance > rounding) continue;
+            if (r.last_piece < rounding && r.distance > rounding &&
+                !field_.ends.of_relay(relay, view, rounding)) {
+                continue;
+            }
             best = {view, &relay, r.from, r.distance};
         }
     }
@@ -89,19 +94,29 @@ private:
         path_.faces.emplace_back(face);
     }
 
-    // Appends the site if the relay is its own: no other has the weight 0.
+    // Appends the site if the relay is its own.
     bool ends_at_site(const Chosen& chosen) {
-        const Relay& relay = *chosen.relay;
-        const SiteId site = relay.site;
-        const Index face = chosen.view.face.value();
-        const auto goal = seen_from(surface_, snapped_site(site), face);
-        if (!goal || relay.weight > no_piece * chosen.distance) return false;
-        go(*goal, face);
-        path_.site = site;
+        const auto end =
+            field_.ends.of_relay(*chosen.relay, chosen.view, no_piece * chosen.distance);
+        if (!end) return false;
+        go(end->place, chosen.view.face.value());
+        path_.site = chosen.relay->site;
+        path_.start = end->start;
         return true;
     }
-    [[nodiscard]] SurfacePoint snapped_site(SiteId site) const {
-        return snapped(surface_, field_.sites[site.value()]);
+    // Whether the path ends where it leaves its face: at a side of the site, if the distance there
+    // is that of the side.
+    // \param way  from the point to there.
+    bool ends_at_side(const Chosen& chosen, Index half_edge, double way) {
+        const std::optional<double> start = field_.ends.at_side(half_edge, chosen.relay->site);
+        if (!start) return false;
+        const double left = chosen.distance - way - *start;
+        const double error = std::max(nothing_left, field_.propagation.certified_error);
+        const double rounding = image_in_face * surface_.length_of(half_edge);
+        if (!(left <= error * chosen.distance + rounding)) return false;
+        path_.site = chosen.relay->site;
+        path_.start = *start;
+        return true;
     }
 
     // To a corner at which the path bends.
@@ -116,10 +131,15 @@ private:
     Chosen go_across(const Chosen& chosen) {
         const Index h = chosen.relay->half_edge;
         ImageLine line{h, position_in_frame(surface_, chosen.view, h), chosen.from};
+        // That of parallel paths is some point behind.
+        if (is_parallel(*chosen.relay)) line.image += line.image - line.from;
         const bool is_exact = field_.propagation.certified_error == 0;
+        double way = 0;
         for (Index left = surface_.num_faces(); left > 0; --left) {
             ticker_.tick();
             const double at = leave(line);
+            way += (Vec2(at * surface_.length_of(line.half_edge), 0) - line.from).norm();
+            if (ends_at_side(chosen, line.half_edge, way)) return {};
             if (const auto corner = corner_met(line, at)) {
                 return choose(point_on(*corner, 0), chosen.distance);
             }

@@ -8,14 +8,15 @@
 
 #include "agvd/core/progress.h"
 #include "agvd/paths/geodesic_path.h"
+#include "agvd/paths/site_ends.h"
 
 namespace agvd {
 
 //! What a path is traced on: propagate(surface, sites) with relays in all faces on the way.
 struct TracedField {
     const Surface& surface;
-    std::span<const SurfacePoint> sites;
     const Propagation& propagation;
+    const SiteEnds& ends;
 };
 
 //! A path as straighten_path takes it.
@@ -23,6 +24,7 @@ struct TracedPath {
     std::vector<SurfacePoint> points;
     std::vector<FaceId> faces;  //!< Of each piece.
     SiteId site;                //!< Where it ends.
+    double start = 0;           //!< The distance of the site there.
 };
 
 //! \param point  snapped.
@@ -31,5 +33,10 @@ struct TracedPath {
 //! errors in the relays O(relays) in all faces.
 [[nodiscard]] std::optional<TracedPath> trace_to_site(const TracedField& field,
                                                       const SurfacePoint& point, Ticker& ticker);
+
+//! A path from a point to its site: the one that is traced, or another one if that has not the
+//! length of the distance. In find_paths.cpp.
+[[nodiscard]] SitePath path_to_ends(const TracedField& field, const SurfacePoint& point,
+                                    const Progress& progress);
 
 }  // namespace agvd

@@ -8,8 +8,8 @@
 #include <string>
 
 #include "agvd/core/parallel.h"
-#include "agvd/diagram/face_relays.h"
 #include "agvd/mesh/surface_points.h"
+#include "agvd/paths/relay_trace.h"
 #include "agvd/propagation/engines.h"
 
 namespace agvd {
@@ -95,15 +95,12 @@ std::vector<SitePath> paths_to_sites(const Surface& surface, std::span<const Sur
     check_num_threads(options.num_threads);
     Poller poller(options.progress);
     const Progress polling = poller.progress();
+    const SiteEnds ends(surface, sites, propagation);
+    const TracedField field{surface, propagation, ends};
     std::vector<SitePath> paths(points.size());
     parallel_each(
         static_cast<Index>(points.size()), paths_of_a_chunk, options.num_threads,
-        [&](Index i) {
-            const SiteId site = label_at(surface, propagation, points[i]).site;
-            if (!site.is_valid()) return;
-            paths[i] = {site, path_to_site(surface, sites, propagation, points[i], polling)};
-        },
-        poller);
+        [&](Index i) { paths[i] = path_to_ends(field, points[i], polling); }, poller);
     return paths;
 }
 

@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "agvd/core/parallel.h"
-#include "agvd/propagation/engines.h"
 #include "agvd/propagation/layout.h"
 #include "agvd/propagation/shape_source.h"
 #include "agvd/propagation/site_placement.h"
@@ -99,11 +98,11 @@ void BoundsSearch::add(const SurfacePoint& point, Index site, double start) {
 
 void BoundsSearch::add(const SiteShape& shape, Index site) {
     const ShapeSource source = shape_source(surface_, shape);
-    for (const Index v : source.vertices) reach(v, site, 0);
+    for (const Index v : source.vertices) reach(v, site, source.start);
     for (const Index h : source.sides) {
         const Vec2& apex = surface_.apex[h];
         if (apex.x() < 0 || apex.x() > surface_.length_of(h)) continue;
-        reach(surface_.tail(Surface::previous(h)), site, apex.y());
+        reach(surface_.tail(Surface::previous(h)), site, source.start + apex.y());
     }
 }
 

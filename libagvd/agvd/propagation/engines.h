@@ -1,23 +1,22 @@
 //! \file
 //! The two engines, which propagate() calls with checked options. To them every point is a site of
 //! its own, and every shape one behind the points: of PropagationOptions::points they read `start`
-//! only, which has an entry for each of them, and of a shape not its site.
+//! only, which has an entry for each of them or none, and of a shape not its site.
 #pragma once
 
 #include <cmath>
 
-#include "agvd/propagation/propagate.h"
+#include "agvd/propagation/retirement.h"
 
 namespace agvd {
+
+//! \throw InvalidSites, InvalidOption  as propagate(), of what it says of sites.
+void check_generators(const Surface& surface, std::span<const SurfacePoint> sites,
+                      const SitePoints& roles, const std::vector<SiteShape>& shapes);
 
 //! If more windows of one site are served through one half-edge, the site is propagated again in
 //! the order of distance. Real meshes stay below 700.
 inline constexpr Index default_work_cap = 1 << 11;
-
-//! The distance that a site starts with. \param starts  of the sites; empty: 0.
-[[nodiscard]] inline double start_of(std::span<const double> starts, Index site) {
-    return starts.empty() ? 0 : starts[site];
-}
 
 //! The window engine: every site on its own, as far as upper bounds of the distances allow. Cost:
 //! about O(n sqrt(n / t)) time for exact distances, O(n) for error-bounded ones, O(n) space.
@@ -43,5 +42,9 @@ inline constexpr Index default_work_cap = 1 << 11;
 [[nodiscard]] Propagation propagate_steiner(const Surface& surface,
                                             std::span<const SurfacePoint> sites,
                                             const PropagationOptions& options);
+
+//! The same without max_error, face by face.
+void retire_steiner(const Surface& surface, std::span<const SurfacePoint> sites,
+                    const PropagationOptions& options, const RetirementSink& sink);
 
 }  // namespace agvd

@@ -40,7 +40,7 @@ struct SitePoints {
     friend bool operator==(const SitePoints&, const SitePoints&) = default;
 };
 
-//! A line or a region as a site, or as a part of one: all of its points are at distance 0.
+//! A line or a region as a site, or as a part of one: all of its points are at its start.
 struct SiteShape {
     //! Edges of the surface, in any order: an open or closed line, or several, which may branch.
     std::vector<Index> edges = {};
@@ -49,6 +49,8 @@ struct SiteShape {
     //! The site that it belongs to, numbered as in SitePoints::site: points and shapes of the same
     //! number are one site.
     Index site = 0;
+    //! Mesh units, finite, >= 0: the distance that it starts with, an additive weight.
+    double start = 0;
 
     //! Whether both say the same in the same words.
     friend bool operator==(const SiteShape&, const SiteShape&) = default;
@@ -89,7 +91,8 @@ inline constexpr double default_max_error = 1e-4;
 //! chords through [begin, end] of the edge
 //! are straight, others bend at the nearer end of the interval. With y >= 0 the image lies in the
 //! (convex) face itself and sees all of it. With y = -infinity the site is a line, or the border of
-//! a region, and the paths are parallel: see is_parallel().
+//! a region, and the paths are parallel: see is_parallel(). With y = infinity a region holds the
+//! face, and `weight` is the distance at all of its points.
 struct Relay {
     //! Of the image, along the half-edge, mesh units. Of parallel paths the component of the unit
     //! vector towards the site along the half-edge.
@@ -106,9 +109,12 @@ struct Relay {
     Index half_edge = no_index;  //!< In whose frame the image lies.
 };
 
-//! Whether a relay stands for parallel paths from a line: with the unit vector u = (x, -sqrt(1 -
-//! x^2)) towards the line, a point p has distance weight - p u, as from an image at infinity.
-[[nodiscard]] inline bool is_parallel(const Relay& relay) { return relay.y == -infinity; }
+//! Whether a relay has no image. It stands for parallel paths from a line: with the unit vector u =
+//! (x, -sqrt(1 - x^2)) towards the line, a point p has distance weight - p u, as from an image at
+//! infinity; or for a region that holds the face, with u = 0.
+[[nodiscard]] inline bool is_parallel(const Relay& relay) {
+    return relay.y == -infinity || relay.y == infinity;
+}
 
 //! [begin, end) of Propagation::relays.
 struct RelayRange {
@@ -139,6 +145,7 @@ struct Propagation {
 
     //! #points, as SitePoints::site; empty: point i is site i, and starts at 0.
     std::vector<Index> site_of_point;
+    std::vector<double> start_of_point;  //!< As SitePoints::start.
 
     std::vector<SiteShape> shapes;  //!< Those of the options: lines and regions among the sites.
 
@@ -206,12 +213,13 @@ private:
 //!
 //! \param sites  surface points, each a site if options.points says nothing else; several may share
 //!               a face or even a position (the least start, then the lower index owns it). A point
-//!               on a line or in a region of options.shapes owns nothing. May be empty if there
-//!               are shapes.
+//!               on a line or in a region of options.shapes that starts no later owns nothing. May
+//!               be empty if there are shapes.
 //! \throw InvalidOption    an option is out of range, or the engine cannot do what it asks.
 //! \throw InvalidSites     a site names a face that does not exist or has coordinates off the face,
-//!                         has no point, or starts at a distance that is out of range; a shape is
-//!                         empty, or names an edge or a face that does not exist.
+//!                         has no point; a site or a shape starts at a distance that is out of
+//!                         range; a shape is empty, or names an edge or a face that does not
+//!                         exist.
 //! \throw ConstraintUnmet  the Steiner engine cannot meet max_error.
 //! \throw Cancelled        the progress callback returned false.
 //! Re-entrant.

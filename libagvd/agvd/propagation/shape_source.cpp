@@ -5,14 +5,29 @@
 #include <utility>
 
 #include "agvd/core/error.h"
+#include "agvd/core/number_text.h"
 #include "agvd/mesh/surface_points.h"
 
 namespace agvd {
 namespace {
 
-bool is_among(const std::vector<Index>& ascending, Index value) {
-    return std::binary_search(ascending.begin(), ascending.end(), value);
-}
+// The least start of the shapes that hold a vertex, an edge or a face.
+class LeastStarts {
+public:
+    void add(const std::vector<Index>& elements, double start) {
+        for (const Index element : elements) starts_.emplace_back(element, start);
+    }
+    void sort() { std::sort(starts_.begin(), starts_.end()); }
+    // Infinity: none holds it.
+    [[nodiscard]] double at(Index element) const {
+        const auto first =
+            std::lower_bound(starts_.begin(), starts_.end(), std::pair(element, 0.0));
+        return first != starts_.end() && first->first == element ? first->second : infinity;
+    }
+
+private:
+    std::vector<std::pair<Index, double>> starts_;  // Sorted.
+};
 
 void check_range(const std::vector<Index>& indices, Index count, std::size_t shape,
                  const char* what) {
@@ -32,6 +47,7 @@ ShapeSource shape_source(const Surface& surface, const SiteShape& shape) {
         return is_among(faces, Surface::face(half_edge));
     };
     ShapeSource source;
+    source.start = shape.start;
     const auto add_side = [&](Index half_edge) {
         if (half_edge != no_index && !is_inside(half_edge)) source.sides.push_back(half_edge);
     };
@@ -50,44 +66,60 @@ ShapeSource shape_source(const Surface& surface, const SiteShape& shape) {
     }
     source.sides = distinct(std::move(source.sides));
     source.vertices = distinct(std::move(source.vertices));
+    source.own_sides = source.sides;
     return source;
+}
+
+std::vector<ShapeSource> sources_of(const Surface& surface, std::span<const SiteShape> shapes) {
+    std::vector<ShapeSource> sources;
+    sources.reserve(shapes.size());
+    for (const SiteShape& shape : shapes) sources.push_back(shape_source(surface, shape));
+    return sources;
+}
+
+std::vector<Index> all_edges_of(const Surface& surface, const SiteShape& shape) {
+    std::vector<Index> edges = shape.edges;
+    for (const Index face : shape.faces) {
+        for (Index h = 3 * face; h < 3 * face + 3; ++h) edges.push_back(surface.edge[h]);
+    }
+    return distinct(std::move(edges));
 }
 
 void check_shapes(const Surface& surface, const std::vector<SiteShape>& shapes) {
     for (std::size_t i = 0; i < shapes.size(); ++i) {
         check_range(shapes[i].edges, surface.num_edges(), i, "edge");
         check_range(shapes[i].faces, surface.num_faces(), i, "face");
-        if (!shapes[i].edges.empty() || !shapes[i].faces.empty()) continue;
-        throw InvalidSites("shape " + std::to_string(i) +
-                           " of the sites has no edge and no face; leave it out");
+        if (shapes[i].edges.empty() && shapes[i].faces.empty()) {
+            throw InvalidSites("shape " + std::to_string(i) +
+                               " of the sites has no edge and no face; leave it out");
+        }
+        if (shapes[i].start >= 0 && shapes[i].start < infinity) continue;
+        throw InvalidSites("shape " + std::to_string(i) + " of the sites starts at the distance " +
+                           number_text(shapes[i].start) + "; use a number of 0 or more");
     }
 }
 
 std::vector<Index> points_off_shapes(const Surface& surface, std::span<const SurfacePoint> points,
+                                     std::span<const double> starts,
                                      const std::vector<SiteShape>& shapes) {
-    std::vector<Index> vertices, edges, faces;
+    LeastStarts of_vertices, of_edges, of_faces;
     for (const SiteShape& shape : shapes) {
-        const std::vector<Index> own = shape_source(surface, shape).vertices;
-        vertices.insert(vertices.end(), own.begin(), own.end());
-        edges.insert(edges.end(), shape.edges.begin(), shape.edges.end());
-        for (const Index face : shape.faces) {
-            faces.push_back(face);
-            for (Index h = 3 * face; h < 3 * face + 3; ++h) edges.push_back(surface.edge[h]);
+        of_vertices.add(shape_source(surface, shape).vertices, shape.start);
+        of_edges.add(all_edges_of(surface, shape), shape.start);
+        of_faces.add(shape.faces, shape.start);
+    }
+    for (LeastStarts* const all : {&of_vertices, &of_edges, &of_faces}) all->sort();
+    const auto least_at = [&](const SurfacePoint& point) {
+        const double in_face = of_faces.at(point.face.value());
+        if (const auto vertex = vertex_of(surface, point)) {
+            return std::min(in_face, of_vertices.at(*vertex));
         }
-    }
-    for (std::vector<Index>* const all : {&vertices, &edges, &faces}) {
-        *all = distinct(std::move(*all));
-    }
+        const auto half_edge = half_edge_of(point);
+        return half_edge ? std::min(in_face, of_edges.at(surface.edge[*half_edge])) : in_face;
+    };
     std::vector<Index> off;
     for (Index i = 0; i < points.size(); ++i) {
-        const SurfacePoint& p = points[i];
-        if (is_among(faces, p.face.value())) continue;
-        if (const auto vertex = vertex_of(surface, p)) {
-            if (is_among(vertices, *vertex)) continue;
-        } else if (const auto half_edge = half_edge_of(p)) {
-            if (is_among(edges, surface.edge[*half_edge])) continue;
-        }
-        off.push_back(i);
+        if (least_at(points[i]) > start_of(starts, i)) off.push_back(i);
     }
     return off;
 }

@@ -1,31 +1,57 @@
 //! \file
-//! Where the shortest paths from a line or a region begin.
+//! Where the shortest paths from points, lines and regions begin, and at which distance.
 #pragma once
 
+#include <algorithm>
+#include <span>
 #include <vector>
 
 #include "agvd/propagation/propagate.h"
 
 namespace agvd {
 
-//! A shape as a source of paths. No path crosses it: from there on its own are shorter.
+//! Whether an ascending list holds a value.
+[[nodiscard]] inline bool is_among(const std::vector<Index>& ascending, Index value) {
+    return std::binary_search(ascending.begin(), ascending.end(), value);
+}
+
+//! The distance that a point starts with. \param starts  of the points; empty: 0.
+[[nodiscard]] inline double start_of(std::span<const double> starts, Index point) {
+    return starts.empty() ? 0 : starts[point];
+}
+
+//! A shape as a source of paths. None of these crosses it: from there on others are shorter.
 struct ShapeSource {
     //! Ascending: the half-edges of its edges, and of its region's border, whose faces lie outside
     //! of its region.
     std::vector<Index> sides;
-    //! Ascending: all vertices at distance 0.
+    //! Ascending: all vertices on it.
     std::vector<Index> vertices;
+    double start = 0;  //!< SiteShape::start.
+    //! Ascending: the sides from which its paths begin: all of them, if no other shape has them.
+    std::vector<Index> own_sides;
 };
 
 //! Cost: O(n log n) of the shape's edges and faces.
 [[nodiscard]] ShapeSource shape_source(const Surface& surface, const SiteShape& shape);
 
-//! \throw InvalidSites  a shape is empty, or names an edge or a face that does not exist.
+//! That of each shape.
+[[nodiscard]] std::vector<ShapeSource> sources_of(const Surface& surface,
+                                                  std::span<const SiteShape> shapes);
+
+//! Ascending: its edges, and those of its faces. Cost: O(n log n).
+[[nodiscard]] std::vector<Index> all_edges_of(const Surface& surface, const SiteShape& shape);
+
+//! \throw InvalidSites  a shape is empty, names an edge or a face that does not exist, or starts at
+//!                       a distance that is out of range.
 void check_shapes(const Surface& surface, const std::vector<SiteShape>& shapes);
 
-//! The points that lie on none of the shapes, by index.
+//! The points that lie on none of the shapes that start no later, by index.
+//! \param starts  of the points; empty: 0.
+//! Cost: O(n log n) of the points and of the shapes' edges and faces.
 [[nodiscard]] std::vector<Index> points_off_shapes(const Surface& surface,
                                                    std::span<const SurfacePoint> points,
+                                                   std::span<const double> starts,
                                                    const std::vector<SiteShape>& shapes);
 
 }  // namespace agvd

@@ -8,8 +8,16 @@
 #include <vector>
 
 #include "agvd/mesh/surface_points.h"
+#include "agvd/propagation/propagate.h"
 
 namespace agvd {
+
+//! A face, and a region that holds it.
+struct PlacedRegion {
+    Index face;
+    Index site;
+    friend auto operator<=>(const PlacedRegion&, const PlacedRegion&) = default;
+};
 
 //! A site that lies in a face or on one of its edges (not at a corner), seen from that face.
 struct PlacedSite {
@@ -25,6 +33,14 @@ void for_each_side(const Surface& surface, const SurfacePoint& point, const Each
     each(point, half_edge);
     if (half_edge == no_index || surface.twin[half_edge] == no_index) return;
     each(across_edge(surface, point, half_edge), surface.twin[half_edge]);
+}
+
+//! A region at all points of its faces.
+//! \param start  of the region.
+[[nodiscard]] inline Relay region_relay(const Surface& surface, const PlacedRegion& region,
+                                        double start) {
+    const Index h = 3 * region.face;
+    return {0, infinity, start, 0, surface.length_of(h), SiteId(region.site), h};
 }
 
 //! The placed sites of each face. A site on an edge is listed once for each side of the edge. A
@@ -55,11 +71,30 @@ public:
         for (const PlacedSite& placed : placed_) holds_site_[placed.point.face.value()] = true;
     }
 
+    //! \param first  the number of the first shape.
+    void add_regions(std::span<const SiteShape> shapes, Index first) {
+        for (const SiteShape& shape : shapes) {
+            for (const Index face : shape.faces) regions_.push_back({face, first});
+            ++first;
+        }
+        std::sort(regions_.begin(), regions_.end());
+        regions_.erase(std::unique(regions_.begin(), regions_.end()), regions_.end());
+    }
+
     //! All sites lie at vertices.
     [[nodiscard]] bool is_empty() const { return placed_.empty(); }
     [[nodiscard]] std::span<const PlacedSite> in_face(Index face) const {
         if (!holds_site_[face]) return {};
         return find_in_face(face);
+    }
+
+    //! Those that hold a face.
+    [[nodiscard]] std::span<const PlacedRegion> regions_of(Index face) const {
+        if (regions_.empty()) return {};
+        const auto [first, last] = std::equal_range(
+            regions_.data(), regions_.data() + regions_.size(), PlacedRegion{face, 0},
+            [](const auto& a, const auto& b) { return a.face < b.face; });
+        return {first, last};
     }
 
 private:
@@ -74,7 +109,8 @@ private:
     }
 
     std::vector<PlacedSite> placed_;  // By (face, site).
-    std::vector<bool> holds_site_;    // #F: a quick test, since most faces hold no site.
+    std::vector<PlacedRegion> regions_;
+    std::vector<bool> holds_site_;  // #F: a quick test, since most faces hold no site.
 };
 
 }  // namespace agvd

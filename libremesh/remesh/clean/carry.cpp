@@ -108,10 +108,11 @@ void check_site(const SurfacePoint& site, std::size_t number, Index num_faces) {
     }
 }
 
-// A face of an edge, and the edge's middle as a point of this face.
+// A face of an edge, the edge's middle as a point of this face, and its place among all middles.
 struct EdgeMiddle {
     double area = -1;
     SurfacePoint middle;
+    Index place = no_index;
 };
 
 }  // namespace
@@ -144,8 +145,12 @@ std::vector<SurfacePoint> to_original(const std::vector<SurfacePoint>& sites, co
                                       const CleanedView& clean) {
     std::vector<SurfacePoint> carried;
     carried.reserve(sites.size());
-    if (clean.face_origin.empty()) {
-        for (const SurfacePoint& site : sites) carried.push_back(normalized(site));
+    if (clean.face_origin.empty() || mesh.triangles.empty()) {
+        for (const SurfacePoint& site : sites) {
+            carried.push_back(normalized(site));
+            if (clean.face_origin.empty()) continue;
+            carried.back().face = FaceId(clean.face_origin[site.face.value()]);
+        }
         return carried;
     }
     Carrier carrier(clean.mesh, clean.welded(mesh), clean.mesh);
@@ -158,8 +163,8 @@ std::vector<SurfacePoint> to_original(const std::vector<SurfacePoint>& sites, co
 
 namespace {
 
-// The edges of the surface that given ones have become, in no order; no_index for those whose faces
-// were split elsewhere. Of equal given ones one counts.
+// The edge of the surface that each given one has become; no_index for those whose faces were split
+// elsewhere or dropped.
 std::vector<Index> carried_edges(std::span<const std::array<Index, 2>> edges, const MeshView& mesh,
                                  const CleanedView& clean, const Surface& surface) {
     std::map<std::pair<Index, Index>, EdgeMiddle> middle_of;
@@ -173,23 +178,29 @@ std::vector<Index> carried_edges(std::span<const std::array<Index, 2>> edges, co
             if (found == middle_of.end()) continue;
             const double area = doubled_normal(mesh.positions, t).norm();
             if (!(area > found->second.area)) continue;
-            found->second = {area, point_on(3 * f + k, 0.5)};
+            found->second.area = area;
+            found->second.middle = point_on(3 * f + k, 0.5);
         }
     }
     std::vector<SurfacePoint> middles;
-    for (const auto& [ends, face] : middle_of) {
+    for (auto& [ends, face] : middle_of) {
         if (face.area < 0) {
             throw InvalidInput("the edge between vertices " + std::to_string(ends.first) + " and " +
                                std::to_string(ends.second) +
                                " is not an edge of the mesh; name the two ends of an edge, "
                                "counted from 0");
         }
-        if (face.area > 0) middles.push_back(face.middle);
+        if (!(face.area > 0)) continue;
+        face.place = static_cast<Index>(middles.size());
+        middles.push_back(face.middle);
     }
+    if (!clean.face_origin.empty()) middles = to_cleaned(middles, mesh, clean);
     std::vector<Index> carried;
-    for (const SurfacePoint& middle :
-         clean.face_origin.empty() ? middles : to_cleaned(middles, mesh, clean)) {
-        const auto half_edge = half_edge_of(middle);
+    carried.reserve(edges.size());
+    for (const auto& [u, v] : edges) {
+        const Index place = middle_of.at(std::minmax(u, v)).place;
+        const auto half_edge =
+            place != no_index ? half_edge_of(middles[place]) : std::optional<Index>();
         carried.push_back(half_edge ? surface.edge[*half_edge] : no_index);
     }
     return carried;
@@ -207,35 +218,50 @@ std::vector<std::uint8_t> carry_edges(std::span<const std::array<Index, 2>> edge
     return is_carried;
 }
 
-agvd::SiteShape carry_shape(std::span<const std::array<Index, 2>> edges,
-                            std::span<const Index> faces, const MeshView& mesh,
-                            const CleanedView& clean, const Surface& surface) {
-    agvd::SiteShape shape;
-    if (!edges.empty()) shape.edges = carried_edges(edges, mesh, clean, surface);
-    if (std::find(shape.edges.begin(), shape.edges.end(), no_index) != shape.edges.end()) {
+std::vector<SiteShape> carry_shapes(std::span<const ShapeView> shapes, const MeshView& mesh,
+                                    const CleanedView& clean, const Surface& surface) {
+    std::vector<std::array<Index, 2>> edges;
+    bool has_faces = false;
+    for (const ShapeView& shape : shapes) {
+        edges.insert(edges.end(), shape.edges.begin(), shape.edges.end());
+        has_faces = has_faces || !shape.faces.empty();
+    }
+    std::vector<Index> carried;
+    if (!edges.empty()) carried = carried_edges(edges, mesh, clean, surface);
+    if (std::find(carried.begin(), carried.end(), no_index) != carried.end()) {
         throw InvalidSites(
-            "cleaning split an edge of a line of the sites; draw the line on the cleaned mesh");
+            "cleaning split or dropped an edge of a line of the sites; draw the line on the "
+            "cleaned mesh");
     }
-    if (faces.empty()) return shape;
-    std::vector<bool> is_inside(mesh.triangles.size(), false);
-    for (const Index face : faces) {
-        if (face >= is_inside.size()) {
-            throw InvalidSites("a region of the sites names face " + std::to_string(face) +
-                               ", but the mesh has only " + std::to_string(is_inside.size()) +
-                               " faces, counted from 0; correct it");
+    const auto num_faces = static_cast<Index>(mesh.triangles.size());
+    const Groups pieces(has_faces ? num_faces : 0, [&](const auto& add) {
+        for (Index f = 0; has_faces && f < surface.num_faces(); ++f) {
+            add(clean.face_origin.empty() ? f : clean.face_origin[f], f);
         }
-        is_inside[face] = true;
-    }
-    for (Index f = 0; f < surface.num_faces(); ++f) {
-        if (is_inside[clean.face_origin.empty() ? f : clean.face_origin[f]]) {
-            shape.faces.push_back(f);
+    });
+    std::vector<SiteShape> result;
+    auto next = carried.begin();
+    for (const ShapeView& shape : shapes) {
+        SiteShape& on_surface = result.emplace_back();
+        const auto end = next + static_cast<std::ptrdiff_t>(shape.edges.size());
+        on_surface.edges = distinct(std::vector<Index>(next, end));
+        next = end;
+        for (const Index face : shape.faces) {
+            if (face >= num_faces) {
+                throw InvalidSites("a region of the sites names face " + std::to_string(face) +
+                                   ", but the mesh has only " + std::to_string(num_faces) +
+                                   " faces, counted from 0; correct it");
+            }
+            const auto own = pieces.of(face);
+            on_surface.faces.insert(on_surface.faces.end(), own.begin(), own.end());
+        }
+        on_surface.faces = distinct(std::move(on_surface.faces));
+        if (on_surface.faces.empty() && !shape.faces.empty()) {
+            throw InvalidSites("cleaning dropped all faces of the region with face " +
+                               std::to_string(shape.faces[0]) + "; use others");
         }
     }
-    if (shape.faces.empty()) {
-        throw InvalidSites("cleaning dropped all faces of the region with face " +
-                           std::to_string(faces[0]) + "; use others");
-    }
-    return shape;
+    return result;
 }
 
 std::vector<std::uint8_t> find_label_borders(std::span<const Index> face_labels,

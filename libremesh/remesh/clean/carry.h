@@ -22,8 +22,8 @@ namespace remesh {
                                                    const MeshView& mesh, const CleanedView& clean);
 
 //! The reverse: points of `clean.mesh` on the mesh that it came from. A point of a part of a face
-//! goes to the closest point of the whole face. Without clean.face_origin the mesh was clean:
-//! coordinates are only divided by their sum. Cost: O(#sites).
+//! goes to the closest point of the whole face. Without clean.face_origin, or without a mesh, faces
+//! have kept their corners: coordinates are only divided by their sum. Cost: O(#sites).
 [[nodiscard]] std::vector<SurfacePoint> to_original(const std::vector<SurfacePoint>& sites,
                                                     const MeshView& mesh, const CleanedView& clean);
 
@@ -38,18 +38,24 @@ namespace remesh {
                                                     const MeshView& mesh, const CleanedView& clean,
                                                     const Surface& surface);
 
-//! A line along edges, or a region of faces, as a shape of sites.
-//! \param edges    pairs of vertices of `mesh`.
-//! \param faces    of `mesh`.
+//! A line along edges, or a region of faces, of a mesh.
+struct ShapeView {
+    std::span<const std::array<Index, 2>> edges;  //!< Pairs of vertices.
+    std::span<const Index> faces;                 //!< In any order.
+};
+
+//! Lines and regions as shapes of sites, with site and start 0.
+//! \param shapes   of `mesh`.
 //! \param clean    of clean_input(mesh); without face_origin the surface is that of the mesh itself.
 //! \param surface  of clean.mesh; it may have been cut along edges.
 //! \throw InvalidInput  a pair is not an edge of the mesh; the text names it.
-//! \throw InvalidSites  there is no such face, or cleaning split an edge of the line or dropped the
+//! \throw InvalidSites  there is no such face, or cleaning split an edge of a line or dropped a
 //!                      whole region; the text names it.
-//! Cost: O(#F log #edges).
-[[nodiscard]] agvd::SiteShape carry_shape(std::span<const std::array<Index, 2>> edges,
-                                          std::span<const Index> faces, const MeshView& mesh,
-                                          const CleanedView& clean, const Surface& surface);
+//! Cost: O(#F log #F + n log n) for n edges and faces of all shapes.
+[[nodiscard]] std::vector<agvd::SiteShape> carry_shapes(std::span<const ShapeView> shapes,
+                                                        const MeshView& mesh,
+                                                        const CleanedView& clean,
+                                                        const Surface& surface);
 
 //! Finds edges between faces of different labels.
 //! \param face_labels  of the faces of the mesh that clean_input() got.

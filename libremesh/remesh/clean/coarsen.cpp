@@ -197,12 +197,12 @@ private:
     }
 
     // The cheapest way to go; its target is no_index if there is none.
-    [[nodiscard]] Choice choose(Index v) const {
+    // \param wings, targets  scratch.
+    [[nodiscard]] Choice choose(Index v, std::vector<Wing>& wings,
+                                std::vector<Index>& targets) const {
         Choice none{0, v, no_index};
         if ((!stays_.empty() && stays_[v] != 0) || around_->of(v).size() > most_faces) return none;
-        std::vector<Wing> wings;
-        std::vector<Index> targets;
-        wings.reserve(most_faces);
+        wings.clear();
         for_each_wing(v, [&](const Wing& wing) { wings.push_back(wing); });
         if (!find_targets(wings, targets)) return none;
         std::array<std::pair<double, Index>, most_faces> costs;
@@ -223,11 +223,16 @@ private:
         around_.emplace(triangles_by_vertex(triangles_, name_.size()));
         std::fill(is_used_.begin(), is_used_.end(), 0);
         std::vector<Choice> choices(name_.size());
-        const auto find = [&](Index v) {
-            choices[v] = around_->of(v).empty() ? Choice{0, v, no_index} : choose(v);
+        const auto find = [&](Index, Index begin, Index end) {
+            std::vector<Wing> wings;
+            std::vector<Index> targets;
+            for (Index v = begin; v < end; ++v) {
+                choices[v] =
+                    around_->of(v).empty() ? Choice{0, v, no_index} : choose(v, wings, targets);
+            }
         };
-        parallel_each(static_cast<Index>(name_.size()), chunk_size, options_.num_threads, find,
-                      poller_);
+        parallel_chunks(static_cast<Index>(name_.size()), chunk_size, options_.num_threads, find,
+                        poller_);
         std::erase_if(choices, [](const Choice& c) { return c.target == no_index; });
         constexpr int mantissa = 16;  // Bits left out of the number of a bucket.
         choices = sort_in_buckets(

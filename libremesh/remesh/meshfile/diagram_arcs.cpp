@@ -1,5 +1,7 @@
 #include "remesh/meshfile/diagram_arcs.h"
 
+#include <algorithm>
+
 #include "remesh/meshfile/formats.h"
 
 namespace remesh {
@@ -35,20 +37,27 @@ void append_arcs(std::string& bytes, const Diagram& diagram, Ticker& ticker) {
     }
 }
 
-void append_foci(VtpWriter& writer, const Surface& surface, std::span<const BisectorArc> cells,
-                 Ticker& ticker) {
-    const auto has_foci = [](const BisectorArc& arc) {
-        return arc.face.is_valid() && arc.kind != ArcKind::Chord;
-    };
+void append_foci(VtpWriter& writer, const Surface& surface,
+                 std::span<const BisectorArc* const> cells, Ticker& ticker) {
+    std::array<std::vector<double>, 2> foci, weights;
+    for (std::size_t k = 0; k < 2; ++k) {
+        foci[k].resize(3 * cells.size());
+        weights[k].resize(cells.size());
+    }
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        ticker.tick();
+        if (cells[i] == nullptr) continue;
+        for (std::size_t k = 0; k < 2; ++k) weights[k][i] = cells[i]->weight[k];
+        if (cells[i]->kind == ArcKind::Chord) continue;
+        const auto in_space = foci_in_space(surface, *cells[i]);
+        for (std::size_t k = 0; k < 2; ++k) {
+            std::copy(in_space[k].begin(), in_space[k].end(), &foci[k][3 * i]);
+        }
+    }
     for (std::size_t k = 0; k < 2; ++k) {
         const std::string side = k == 0 ? "left" : "right";
-        writer.add_array<double>("focus_" + side, "Float64", 3, cells.size(), ticker,
-                                 [&](std::size_t i) -> Vec3 {
-                                     if (!has_foci(cells[i])) return {0, 0, 0};
-                                     return foci_in_space(surface, cells[i])[k];
-                                 });
-        writer.add_array<double>("weight_" + side, "Float64", 1, cells.size(), ticker,
-                                 [&](std::size_t i) { return std::array{cells[i].weight[k]}; });
+        writer.add_numbers<double>("focus_" + side, "Float64", 3, foci[k]);
+        writer.add_numbers<double>("weight_" + side, "Float64", 1, weights[k]);
     }
 }
 

@@ -25,7 +25,8 @@ void append_arcs(std::string& bytes, const Diagram& diagram, Ticker& ticker);
 
 //! Adds focus_left, weight_left, focus_right, weight_right of the cells of a VTP file: foci in
 //! space; 0 where there are none.
-void append_foci(VtpWriter& writer, const Surface& surface, std::span<const BisectorArc> cells,
-                 Ticker& ticker);
+//! \param cells  null for those that are no arcs.
+void append_foci(VtpWriter& writer, const Surface& surface,
+                 std::span<const BisectorArc* const> cells, Ticker& ticker);
 
 }  // namespace remesh

@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "agvd/mesh/surface_points.h"
 #include "remesh/meshfile/atomic_file.h"
 #include "remesh/meshfile/diagram_arcs.h"
 #include "remesh/meshfile/formats.h"
@@ -52,7 +53,7 @@ public:
         }
         Diagram& diagram = out_.diagram;
         diagram.num_sites = static_cast<Index>(diagram.cell_area.size());
-        if (count_.contains("site_point")) take_points();
+        if (count_.contains("site_point") || count_.contains("site_shape")) take_points();
         if (diagram.edge_points.back() != diagram.points.size()) {
             fail("the Voronoi edges do not have all curve points");
         }
@@ -60,11 +61,12 @@ public:
     }
 
 private:
-    // Each cell has a point, or a site would have no place.
+    // Each cell has a point or a shape, or a site would have no place.
     void take_points() {
-        std::vector<bool> has_point(out_.sites.size(), false);
-        for (const Index site : out_.points.site) has_point[site] = true;
-        if (std::find(has_point.begin(), has_point.end(), false) != has_point.end()) {
+        std::vector<bool> has_place(out_.sites.size(), false);
+        for (const Index site : out_.points.site) has_place[site] = true;
+        for (const GivenShape& shape : out_.shapes) has_place[shape.site] = true;
+        if (std::find(has_place.begin(), has_place.end(), false) != has_place.end()) {
             fail("a site has no point");
         }
         out_.sites = std::move(points_);
@@ -99,6 +101,8 @@ private:
             out_.points.site.push_back(index(row_[4], "site"));
             out_.points.start.push_back(row_[5]);
             if (!(row_[5] >= 0)) fail("a point starts at a distance below 0");
+        } else if (element.name == "site_shape") {
+            read_shape(element, i);
         } else if (element.name == "curve_point") {
             read_row(element, i, {"face", "b0", "b1", "b2", "distance"}, {});
             diagram.points.push_back(point());
@@ -112,6 +116,20 @@ private:
         } else {
             skip_element(values_, element, i, file_);
         }
+    }
+
+    void read_shape(const PlyElement& element, std::uint64_t i) {
+        read_row(element, i, {"site", "start"}, {"edges", "faces"});
+        GivenShape shape{.site = index(row_[0], "site"), .start = row_[1]};
+        if (!(shape.start >= 0)) fail("a line or region starts at a distance below 0");
+        const std::vector<double>& ends = lists_[0];
+        if (ends.size() % 2 != 0) fail("an edge of a line has only one end");
+        for (std::size_t k = 0; k < ends.size(); k += 2) {
+            shape.edges.push_back({index(ends[k], "vertex"), index(ends[k + 1], "vertex")});
+        }
+        for (const double face : lists_[1]) shape.faces.push_back(index(face, "face"));
+        if (shape.edges.empty() && shape.faces.empty()) fail("a line or region is empty");
+        out_.shapes.push_back(std::move(shape));
     }
 
     void read_edge(const PlyElement& element, std::uint64_t i) {
@@ -272,6 +290,7 @@ struct DrawnDiagram {
     std::span<const SurfacePoint> sites;
     const Diagram& diagram;
     const SitePoints& points;  // What the sites stand for.
+    std::span<const SiteShape> shapes;
 
     [[nodiscard]] double start_of(Index site) const {
         return points.start.empty() ? 0 : points.start[site];
@@ -336,19 +355,25 @@ LabelledPoints labelled_points(const DrawnDiagram& drawn, Ticker& ticker) {
 // A polyline of a VTP file: a Voronoi edge, or an arc of one.
 struct VtpLine {
     Index edge;
-    Index arc = no_index;
+    const BisectorArc* arc;  // Null for a whole edge.
+    Index begin, end;        // Its points.
+    bool is_closed = false;  // The edge's first point is its last one.
 };
 
 std::vector<VtpLine> vtp_lines(const Diagram& diagram) {
     std::vector<VtpLine> lines;
     for (Index e = 0; e < num_edges(diagram); ++e) {
-        if (diagram.edge_arcs.empty() || diagram.edge_arcs[e] == diagram.edge_arcs[e + 1]) {
-            lines.push_back({e});
-            continue;
+        const std::size_t first = lines.size();
+        const Index begin = diagram.edge_points[e], end = diagram.edge_points[e + 1];
+        if (!diagram.edge_arcs.empty()) {
+            for (Index a = diagram.edge_arcs[e]; a < diagram.edge_arcs[e + 1]; ++a) {
+                const BisectorArc& arc = diagram.arcs[a];
+                if (lines.size() > first) lines.back().end = arc.first_point + 1;
+                lines.push_back({e, &arc, arc.first_point, end});
+            }
         }
-        for (Index a = diagram.edge_arcs[e]; a < diagram.edge_arcs[e + 1]; ++a) {
-            lines.push_back({e, a});
-        }
+        if (lines.size() == first) lines.push_back({e, nullptr, begin, end});
+        lines.back().is_closed = diagram.edges[e].tail == no_index;
     }
     return lines;
 }
@@ -360,17 +385,12 @@ std::string format_vtp_diagram(const DrawnDiagram& drawn, Ticker ticker) {
     const LabelledPoints points = labelled_points(drawn, ticker);
     const std::vector<VtpLine> lines = vtp_lines(diagram);
     VtpWriter writer;
-    const auto add_numbers = [&]<typename T>(const char* name, const char* type,
-                                             const std::vector<T>& numbers) {
-        writer.add_array<T>(name, type, 1, numbers.size(), ticker,
-                            [&](std::size_t i) { return std::array{numbers[i]}; });
-    };
     // Of the cells of the file: sites, lines, faces.
     const auto add_of_lines = [&](const char* name, std::int32_t none, const auto& number_of) {
         std::vector<std::int32_t> numbers(drawn.sites.size(), none);
         for (const VtpLine& line : lines) numbers.push_back(number_of(line));
         numbers.resize(numbers.size() + drawn.surface.num_faces(), none);
-        add_numbers(name, "Int32", numbers);
+        writer.add_numbers<std::int32_t>(name, "Int32", 1, numbers);
     };
     const auto side = [&](SiteId VoronoiEdge::*of_edge) {
         return [&diagram, of_edge](const VtpLine& line) {
@@ -378,8 +398,8 @@ std::string format_vtp_diagram(const DrawnDiagram& drawn, Ticker ticker) {
         };
     };
     writer.begin_section("PointData", " Scalars=\"distance\"");
-    add_numbers("site", "Int32", points.sites);
-    add_numbers("distance", "Float64", points.distances);
+    writer.add_numbers<std::int32_t>("site", "Int32", 1, points.sites);
+    writer.add_numbers<double>("distance", "Float64", 1, points.distances);
     writer.end_section();
     writer.begin_section("CellData");
     add_of_lines("site_left", -1, side(&VoronoiEdge::left));
@@ -388,13 +408,10 @@ std::string format_vtp_diagram(const DrawnDiagram& drawn, Ticker ticker) {
         add_of_lines("edge", -1,
                      [](const VtpLine& line) { return static_cast<std::int32_t>(line.edge); });
         add_of_lines("kind", -1, [&](const VtpLine& line) {
-            return line.arc == no_index ? -1
-                                        : static_cast<std::int32_t>(diagram.arcs[line.arc].kind);
+            return line.arc == nullptr ? -1 : static_cast<std::int32_t>(line.arc->kind);
         });
-        std::vector<BisectorArc> arcs(drawn.sites.size());
-        for (const VtpLine& line : lines) {
-            arcs.push_back(line.arc == no_index ? BisectorArc{} : diagram.arcs[line.arc]);
-        }
+        std::vector<const BisectorArc*> arcs(drawn.sites.size());
+        for (const VtpLine& line : lines) arcs.push_back(line.arc);
         arcs.resize(arcs.size() + drawn.surface.num_faces());
         append_foci(writer, drawn.surface, arcs, ticker);
     }
@@ -402,12 +419,14 @@ std::string format_vtp_diagram(const DrawnDiagram& drawn, Ticker ticker) {
     writer.add_points(points.positions, ticker);
     writer.add_cells("Verts", num_sites, ticker,
                      [&](std::size_t s) { return std::array{first_site + s}; });
+    std::vector<Index> polyline;
     writer.add_cells("Lines", lines.size(), ticker, [&](std::size_t i) {
-        const auto& [edge, arc] = lines[i];
-        if (arc == no_index) return polyline(diagram, edge, first_site + num_sites);
-        std::vector<Index> of_arc = points_of_arc(diagram, edge, arc);
-        for (Index& point : of_arc) point += first_site + num_sites;
-        return of_arc;
+        const VtpLine& line = lines[i];
+        const Index first = first_site + num_sites;
+        polyline.clear();
+        for (Index p = line.begin; p < line.end; ++p) polyline.push_back(first + p);
+        if (line.is_closed) polyline.push_back(first + diagram.edge_points[line.edge]);
+        return std::span<const Index>(polyline);
     });
     writer.add_cells("Polys", drawn.surface.num_faces(), ticker,
                      [&](std::size_t f) { return drawn.surface.mesh.triangles[f]; });
@@ -458,9 +477,36 @@ void append_list(std::string& bytes, const Items& items, const NumberOf& number_
     for (const auto& item : items) append(bytes, number_of(item));
 }
 
+// A point of each site: its first one, or a corner of its first shape.
+std::vector<SurfacePoint> places_of_sites(const DrawnDiagram& drawn) {
+    std::vector<SurfacePoint> places(drawn.diagram.num_sites);
+    for (std::size_t i = drawn.shapes.size(); i-- > 0;) {
+        const SiteShape& shape = drawn.shapes[i];
+        const Index h = shape.edges.empty() ? 3 * shape.faces.front()
+                                            : drawn.surface.edge_half[shape.edges.front()];
+        places[shape.site] = agvd::point_on(h, 0);
+    }
+    for (auto i = static_cast<Index>(drawn.sites.size()); i-- > 0;) {
+        places[drawn.points.site_of(i)] = drawn.sites[i];
+    }
+    return places;
+}
+
+void append_shape(std::string& bytes, const Surface& surface, const SiteShape& shape) {
+    std::vector<Index> ends;
+    for (const Index edge : shape.edges) {
+        const Index h = surface.edge_half[edge];
+        ends.insert(ends.end(), {surface.tail(h), surface.head(h)});
+    }
+    const auto same = [](Index i) { return i; };
+    append_all(bytes, shape.site, shape.start);
+    append_list(bytes, ends, same);
+    append_list(bytes, shape.faces, same);
+}
+
 // Of the elements behind vertices and faces.
 // \param num_points  of sites that are not points themselves.
-std::string diagram_header(const Diagram& diagram, std::size_t num_points) {
+std::string diagram_header(const Diagram& diagram, std::size_t num_points, std::size_t num_shapes) {
     const auto element = [](const char* name, std::size_t count) {
         return std::string("element ") + name + ' ' + std::to_string(count) + '\n';
     };
@@ -475,6 +521,12 @@ std::string diagram_header(const Diagram& diagram, std::size_t num_points) {
                             : "comment points of the sites, and the distances they start with\n" +
                                   element("site_point", num_points) + point +
                                   "property int site\nproperty double start\n") +
+           (num_shapes == 0
+                ? std::string()
+                : "comment lines: pairs of vertices, and regions, at the distance start\n" +
+                      element("site_shape", num_shapes) +
+                      "property int site\nproperty double start\nproperty list uint int edges\n"
+                      "property list uint int faces\n") +
            "comment points of the voronoi edges in turn\n" +
            element("curve_point", diagram.points.size()) + point + "property double distance\n" +
            "comment tail and head: voronoi vertices, -1 for a closed curve\n" +
@@ -490,23 +542,27 @@ std::string diagram_header(const Diagram& diagram, std::size_t num_points) {
 }
 
 std::string format_whole_diagram(const DrawnDiagram& drawn, Ticker ticker) {
+    if (drawn.surface.has_own_lengths) {
+        throw agvd::InvalidOption(
+            "a .agvd file has positions only; of a mesh given by lengths write .vtp, .ply or .obj");
+    }
     const Diagram& diagram = drawn.diagram;
     std::string bytes = format_labelled_mesh(drawn, ticker);
-    const bool are_points = drawn.points.site.empty() && drawn.points.start.empty();
+    const bool are_points =
+        drawn.points.site.empty() && drawn.points.start.empty() && drawn.shapes.empty();
     const auto num_points = static_cast<Index>(are_points ? 0 : drawn.sites.size());
-    bytes.insert(bytes.find("end_header\n"), diagram_header(diagram, num_points));
-    std::vector<Index> first(diagram.num_sites, 0);  // A point of each site.
-    for (auto i = static_cast<Index>(drawn.sites.size()); i-- > 0;) {
-        first[drawn.points.site_of(i)] = i;
-    }
+    bytes.insert(bytes.find("end_header\n"),
+                 diagram_header(diagram, num_points, drawn.shapes.size()));
+    const std::vector<SurfacePoint> places = places_of_sites(drawn);
     for (Index s = 0; s < diagram.num_sites; ++s) {
-        append_point(bytes, drawn.sites[first[s]]);
+        append_point(bytes, places[s]);
         append_all(bytes, diagram.cell_area[s], std::int32_t{diagram.cell_euler[s]});
     }
     for (Index i = 0; i < num_points; ++i) {
         append_point(bytes, drawn.sites[i]);
         append_all(bytes, drawn.points.site_of(i), drawn.start_of(i));
     }
+    for (const SiteShape& shape : drawn.shapes) append_shape(bytes, drawn.surface, shape);
     for (std::size_t p = 0; p < diagram.points.size(); ++p) {
         ticker.tick();
         append_point(bytes, diagram.points[p]);
@@ -552,7 +608,8 @@ DiagramFile read_diagram(const std::filesystem::path& path, const Progress& prog
     Poller poller(progress);
     SourceFile file = load_file(path, poller);
     if (is_gzip(file.bytes)) unpack_gzip(file);
-    DiagramFile result{.mesh = read_ply(file).mesh, .sites = {}, .points = {}, .diagram = {}};
+    DiagramFile result{
+        .mesh = read_ply(file).mesh, .sites = {}, .points = {}, .shapes = {}, .diagram = {}};
     const PlyHeader header = read_ply_header(file);
     file.is_binary = header.byte_order.has_value();
     if (file.is_binary) {
@@ -565,19 +622,21 @@ DiagramFile read_diagram(const std::filesystem::path& path, const Progress& prog
 
 std::string format_diagram(const std::filesystem::path& path, const Surface& surface,
                            std::span<const SurfacePoint> sites, const Diagram& diagram,
-                           const Progress& progress, const SitePoints& points) {
+                           const Progress& progress, const SitePoints& points,
+                           std::span<const SiteShape> shapes) {
     Poller poller(progress);
     const Ticker ticker(poller);
     std::string bytes =
-        require_diagram_format(path).format({surface, sites, diagram, points}, ticker);
+        require_diagram_format(path).format({surface, sites, diagram, points, shapes}, ticker);
     return is_compressed({path}) ? pack_gzip(bytes, ticker) : bytes;
 }
 
 void write_diagram(const std::filesystem::path& path, const Surface& surface,
                    std::span<const SurfacePoint> sites, const Diagram& diagram,
-                   const Progress& progress, const SitePoints& points) {
-    write_file_atomically(path, format_diagram(path, surface, sites, diagram, progress, points),
-                          progress);
+                   const Progress& progress, const SitePoints& points,
+                   std::span<const SiteShape> shapes) {
+    write_file_atomically(
+        path, format_diagram(path, surface, sites, diagram, progress, points, shapes), progress);
 }
 
 void check_diagram_extension(const std::filesystem::path& path) {

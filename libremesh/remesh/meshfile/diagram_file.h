@@ -19,6 +19,10 @@ struct GivenShape {
     std::vector<std::array<Index, 2>> edges = {};  //!< Pairs of vertices of the mesh.
     std::vector<Index> faces = {};                 //!< Of the mesh.
     Index site = 0;                                //!< The site that it belongs to.
+    double start = 0;                              //!< As SiteShape::start.
+
+    //! Whether both say the same in the same words.
+    friend bool operator==(const GivenShape&, const GivenShape&) = default;
 };
 
 //! What was read from a file of sites.
@@ -43,8 +47,8 @@ enum class Repeats { Told, Allowed };
 //!     r FACE FACE ...     a region: triangles
 //!
 //! Behind each may stand `site N`, the site that it belongs to (on all lines, or on none: then
-//! each line is a site), and behind a point `start D`, the distance that it starts with (0 where it
-//! is missing). Whether vertices of a line are joined is not checked.
+//! each line is a site), and `start D`, the distance that it starts with (0 where it is missing).
+//! Whether vertices of a line are joined is not checked.
 //!
 //! FACE is a triangle of read_mesh's result: where a file has larger polygons, each of them counts
 //! as many triangles as it was split into (see MeshFile::face_polygon). A vertex site lies in the
@@ -101,6 +105,7 @@ struct DiagramFile {
     TriangleMesh mesh;                //!< That the diagram lies on.
     std::vector<SurfacePoint> sites;  //!< On the mesh; in the order of the cells if each is a site.
     SitePoints points;                //!< What they stand for.
+    std::vector<GivenShape> shapes;   //!< Lines and regions among the sites.
     Diagram diagram;                  //!< With the points of its edges.
 };
 
@@ -131,21 +136,25 @@ struct DiagramFile {
 //! - agvd: everything, for read_diagram: such a PLY, and as elements of their own the sites and the
 //!   complex. The header's comments explain them.
 //!
-//! \param sites   those that the diagram was built from.
+//! \param sites   those that the diagram was built from: points; in .agvd with the shapes besides.
 //! \param points  what they stand for.
+//! \param shapes  of the surface; it has an edge once only between two vertices.
 //! \throw IoError  the extension is unknown or the file cannot be written; says which and
 //!        why.
+//! \throw InvalidOption  .agvd of a surface that is given by lengths.
 //! \throw Cancelled  the progress callback returned false; an old file is unchanged.
 void write_diagram(const std::filesystem::path& path, const Surface& surface,
                    std::span<const SurfacePoint> sites, const Diagram& diagram,
-                   const Progress& progress = {}, const SitePoints& points = {});
+                   const Progress& progress = {}, const SitePoints& points = {},
+                   std::span<const SiteShape> shapes = {});
 
 //! The bytes that write_diagram writes, for write_files_atomically.
 //! \throw IoError, Cancelled  as write_diagram.
 [[nodiscard]] std::string format_diagram(const std::filesystem::path& path, const Surface& surface,
                                          std::span<const SurfacePoint> sites,
                                          const Diagram& diagram, const Progress& progress = {},
-                                         const SitePoints& points = {});
+                                         const SitePoints& points = {},
+                                         std::span<const SiteShape> shapes = {});
 
 //! \throw IoError  write_diagram does not know the extension; the text lists the known ones.
 void check_diagram_extension(const std::filesystem::path& path);

@@ -29,6 +29,16 @@ void append(std::string& bytes, T value, std::endian order = std::endian::little
     bytes.append(raw.data(), raw.size());
 }
 
+//! Appends the values of a list, little endian.
+template <typename T>
+void append_numbers(std::string& bytes, std::span<const T> values) {
+    if constexpr (std::endian::native == std::endian::little) {
+        bytes.append(reinterpret_cast<const char*>(values.data()), values.size_bytes());
+    } else {
+        for (const T value : values) append(bytes, value);
+    }
+}
+
 //! Appends some values, little endian.
 template <typename... Numbers>
 void append_all(std::string& bytes, Numbers... numbers) {

@@ -76,12 +76,14 @@ public:
                 const std::string_view kind = scan.word();
                 if (kind == "l" || kind == "r") {
                     result.shapes.push_back(kind == "l" ? read_line(scan) : read_region(scan));
-                    result.shapes.back().site = read_role(scan, Kind::Shape).site;
+                    const Role role = read_role(scan);
+                    result.shapes.back().site = role.site;
+                    result.shapes.back().start = role.start;
                     return;
                 }
                 starts_.push_back(start_);
                 result.sites.push_back(read_site(kind, scan));
-                const Role role = read_role(scan, Kind::Point);
+                const Role role = read_role(scan);
                 result.points.site.push_back(role.site);
                 result.points.start.push_back(role.start);
             });
@@ -195,14 +197,13 @@ private:
                              in_quotes(kind), "; correct the line or begin it with #");
     }
 
-    enum class Kind { Point, Shape };
     struct Role {
         Index site;
         double start;
     };
 
-    // The site that a line of the file belongs to, and the start of a point.
-    Role read_role(TextScanner& scan, Kind kind) {
+    // The site that a line of the file belongs to, and its start.
+    Role read_role(TextScanner& scan) {
         std::optional<Index> site;
         double start = 0;
         while (scan.has_word()) {
@@ -215,11 +216,11 @@ private:
                                          "; number the sites from 0");
                 }
                 site = static_cast<Index>(value);
-            } else if (key == "start" && kind == Kind::Point) {
+            } else if (key == "start") {
                 start = scan.number("a distance");
                 if (!(start >= 0 && std::isfinite(start))) {
                     file_.fail_unusable(at,
-                                        "the point starts at a distance that is not finite or "
+                                        "the site starts at a distance that is not finite or "
                                         "below 0; adding one number to all changes no cell");
                 }
             } else {

@@ -2,6 +2,7 @@
 //! What both formats of VTK share, and VTK's XML. Private to the writers of meshes and diagrams.
 #pragma once
 
+#include <array>
 #include <map>
 #include <span>
 
@@ -49,10 +50,28 @@ public:
     void add_array(const std::string& name, const char* type, std::size_t num_components,
                    std::size_t num_rows, Ticker& ticker, const RowOf& row_of) {
         std::string& bytes = begin_array(name, type, num_components);
+        std::array<T, 64> some;
+        std::size_t count = 0;
+        const auto store = [&] {
+            append_numbers<T>(bytes, std::span(some).first(count));
+            count = 0;
+        };
         for (std::size_t i = 0; i < num_rows; ++i) {
             ticker.tick();
-            for (const auto value : row_of(i)) append(bytes, static_cast<T>(value));
+            for (const auto value : row_of(i)) {
+                if (count == some.size()) store();
+                some[count++] = static_cast<T>(value);
+            }
         }
+        store();
+        end_array();
+    }
+
+    //! An array of all the numbers, row after row.
+    template <typename T>
+    void add_numbers(const std::string& name, const char* type, std::size_t num_components,
+                     std::span<const T> numbers) {
+        append_numbers<T>(begin_array(name, type, num_components), numbers);
         end_array();
     }
 

@@ -7,6 +7,7 @@
 #include "agvd/mesh/surface_points.h"
 #include "remesh/clean/carry.h"
 #include "remesh/clean/soup.h"
+#include "remesh/clean/space_order.h"
 #include "remesh/pipeline/locked.h"
 
 namespace remesh::detail {
@@ -39,6 +40,8 @@ CleanedInput clean_stage(const InputMesh& input, const StageContext& context) {
     result.cleaned = clean.counts;
     result.welded_slit_length = clean.slit_length;
     const Progress half = progress_at(Stage::Clean, options, cleaned_fraction / 2);
+    Poller poller(half);
+    const bool is_reordered = order_in_space(clean, Ticker(poller));
     CleanedInput cleaned;
     cleaned.given = input.view;
     if (!clean.welded_positions.empty()) {
@@ -57,6 +60,7 @@ CleanedInput clean_stage(const InputMesh& input, const StageContext& context) {
         cleaned.face_origin = std::move(clean.face_origin);
     } else {
         clean.vertex_origin = std::vector<Index>();
+        if (is_reordered) cleaned.face_origin = std::move(clean.face_origin);
         clean.face_origin = std::vector<Index>();
         if (input.owned != nullptr) {
             *input.owned = {};

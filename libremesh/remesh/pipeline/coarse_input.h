@@ -20,7 +20,7 @@ namespace remesh::detail {
 [[nodiscard]] std::vector<std::uint8_t> vertices_that_stay(const Surface& surface,
                                                            std::span<const Index> origin);
 
-//! The input on a mesh of some 32 faces for each sample (see coarsen), nowhere farther from it than
+//! The input on a mesh of some 16 faces for each sample (see coarsen), nowhere farther from it than
 //! a fiftieth of the spacing, root mean square; creases and boundary are those of the input.
 //! \param spacing  of the sites, mesh units.
 //! \param cleaned  outlives the result.

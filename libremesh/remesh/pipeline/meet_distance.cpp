@@ -21,6 +21,10 @@ constexpr Index query_grain = 1024;
 // Share of the limit from which edges get shorter, and that they aim at.
 constexpr double too_far = 0.75, aimed_share = 0.6;
 
+// Edges get no shorter than this share of themselves in one round: where the surface is missed, not
+// met badly, their length tells little, and a large face of the input would get millions.
+constexpr double least_factor = 0.5;
+
 constexpr int max_rounds = 16;
 // Each run places its vertices anew, and other points may be too far then. After so many rounds
 // edges get shorter everywhere, too.
@@ -101,7 +105,7 @@ private:
         if (distance > found.distance.largest) found.distance = {distance, false, point};
         if (distance < too_far * limit_) return;
         const Index other = nearest.point.face.value();
-        const double factor = std::sqrt(aimed_share * limit_ / distance);
+        const double factor = std::max(least_factor, std::sqrt(aimed_share * limit_ / distance));
         const double length = mean_side(result_.mesh, is_input ? other : face);
         // Edges may be longer than they were meant to be: the shorter of both counts.
         for (const Index v : input_.mesh.triangles[is_input ? face : other]) {

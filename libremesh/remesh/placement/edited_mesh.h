@@ -179,38 +179,21 @@ public:
             if (walk.is_cut_off) return false;
             vertex.point = walk.end;
         }
-        locate(vertex);
-        const Vertex before = vertices_[v];
-        std::vector<Vec3> normals;
-        for (const Index f : faces_at(v)) normals.push_back(normal_of(face(f).corner));
-        vertices_[v] = vertex;
-        bool helps = true;
-        for (std::size_t i = 0; i < normals.size() && helps; ++i) {
-            const Triangle& t = face(faces_at(v)[i]).corner;
-            helps =
-                quality_of(t) > worst + gain && is_gentle(faces_at(v)[i], normals[i], normal_of(t));
-        }
-        if (helps && vertex.mobility == Mobility::Boundary) {
-            vertices_[v] = before;
-            const double bend_before = largest_bend_at(v);
-            vertices_[v] = vertex;
-            const auto [previous, next] = hard_neighbours(v);
-            const Index curve = vertex.place.curve;
-            helps = (previous == no_index || keeps_bend(curve, previous, v, bend_before)) &&
-                    (next == no_index || keeps_bend(curve, v, next, bend_before));
-        }
-        vertices_[v] = before;
-        if (!helps) return false;
-        put_vertex(v, vertex);
-        measure_around(v);
-        return true;
+        const bool is_on_curve = vertex.mobility == Mobility::Boundary;
+        const double bend_before = is_on_curve ? largest_bend_at(v) : 0;
+        return replace(v, vertex, [&] {
+            return std::all_of(
+                       faces_at(v).begin(), faces_at(v).end(),
+                       [&](Index f) { return quality_of(face(f).corner) > worst + gain; }) &&
+                   (!is_on_curve || keeps_bend_at(v, bend_before));
+        });
     }
     //! Puts a vertex off its point of the surface. Its triangles may get worse.
     bool put_offset(Index v, const Vec3& offset) {
         if (mobility(v) >= Mobility::Node) return false;
         Vertex vertex = vertices_[v];
         vertex.offset = offset;
-        return replace(v, vertex);
+        return replace(v, vertex, [] { return true; });
     }
     //! The way from a vertex's point of the surface to its position.
     [[nodiscard]] const Vec3& offset(Index v) const { return vertices_[v].offset; }
@@ -312,19 +295,20 @@ private:
     [[nodiscard]] Vec3 normal_of(const Triangle& t) const {
         return (at(t[1]) - at(t[0])).cross(at(t[2]) - at(t[0]));
     }
-    // Unless a normal would turn too far. A sliver's may.
-    bool replace(Index v, Vertex vertex) {
+    // Unless a normal would turn too far (a sliver's may), or `is_fine`, which sees the mesh with
+    // the vertex there, says no.
+    template <typename Check>
+    bool replace(Index v, Vertex vertex, const Check& is_fine) {
         locate(vertex);
-        const Vertex before = vertices_[v];
         std::vector<Vec3> normals;
         for (const Index f : faces_at(v)) normals.push_back(normal_of(face(f).corner));
-        vertices_[v] = vertex;
-        bool is_kept = true;
+        std::swap(vertices_[v], vertex);
+        bool is_kept = is_fine();
         for (std::size_t i = 0; i < normals.size() && is_kept; ++i) {
             const Index f = faces_at(v)[i];
             is_kept = is_gentle(f, normals[i], normal_of(face(f).corner));
         }
-        vertices_[v] = before;
+        std::swap(vertices_[v], vertex);
         if (!is_kept) return false;
         put_vertex(v, vertex);
         measure_around(v);
@@ -437,6 +421,14 @@ private:
         const double length = (at(to) - at(from)).norm();
         return bend(curve, from, to) <=
                std::max(most_before, std::min(largest_bend * length, most_bend * mean_length_));
+    }
+
+    // Of both edges at a vertex on a curve.
+    [[nodiscard]] bool keeps_bend_at(Index v, double most_before) const {
+        const Index curve = vertices_[v].place.curve;
+        const auto [before, after] = hard_neighbours(v);
+        return (before == no_index || keeps_bend(curve, before, v, most_before)) &&
+               (after == no_index || keeps_bend(curve, v, after, most_before));
     }
 
     const MeshCurves& curves_;

@@ -13,13 +13,13 @@
 #include "agvd/mesh/closest_point.h"
 #include "agvd/mesh/surface_points.h"
 #include "agvd/mesh/topology.h"
+#include "remesh/clean/space_order.h"
 #include "remesh/curves/glue.h"
 #include "remesh/curves/walk.h"
 #include "remesh/dual/reduce_vertices.h"
 #include "remesh/sites/levels.h"
 #include "remesh/sites/sampling.h"
 #include "remesh/sites/site_dual.h"
-#include "remesh/sites/site_order.h"
 
 namespace remesh {
 namespace {
@@ -314,9 +314,7 @@ private:
         }
         level.sites = take(level.sites, order);
         level.weights = take(level.weights, order);
-        std::vector<Index> number(order.size());
-        for (Index i = 0; i < order.size(); ++i) number[order[i]] = i;
-        level.triangles = rename_vertices(level.triangles, number);
+        level.triangles = rename_vertices(level.triangles, places_in(order));
         std::ranges::sort(level.triangles, {}, [](const Triangle& t) {
             return std::pair(std::min({t[0], t[1], t[2]}), t);
         });

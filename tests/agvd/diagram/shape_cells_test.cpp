@@ -12,6 +12,7 @@
 #include "agvd/diagram/face_relays.h"
 #include "agvd/mesh/surface_points.h"
 #include "support/checks.h"
+#include "support/developable.h"
 #include "support/line_sites.h"
 #include "support/points.h"
 #include "support/random_meshes.h"
@@ -21,6 +22,9 @@ using namespace agvd;
 using namespace line_sites;
 
 namespace {
+
+// Where a part of a line starts too late, what is left of its cell may not be connected.
+constexpr int parts_with_starts = 6;
 
 // Lines and regions that have no vertex in common, and points.
 struct MixedSites {
@@ -118,18 +122,27 @@ TEST(CellsOfLines, EndAtTheParabola) {
     }
 }
 
+// Of every second seed shapes and points have starts.
 TEST(CellsOfLines, AreThoseOfTheFormulaInThePlane) {
     int count = 0, num_shapes = 0;
-    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    for (std::uint64_t seed = 0; seed < 40; ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
-        const Surface surface = uneven_square(14, seed);
-        const auto [points, shapes] = mixed_sites(surface, seed);
+        const Surface surface = uneven_square(14, seed / 2);
+        auto [points, shapes] = mixed_sites(surface, seed / 2);
+        SitePoints roles;
+        if (seed % 2 == 1) {
+            roles.start = {0, 0.03, 0, 0.05};
+            for (SiteShape& shape : shapes) shape.start = 0.02 * (shape.site - 3);
+        }
         num_shapes += static_cast<int>(shapes.size());
         const Propagation propagation =
-            propagate(surface, points, {.shapes = shapes, .max_error = 0});
+            propagate(surface, points, {.points = roles, .shapes = shapes, .max_error = 0});
         const Diagram diagram = build_diagram(surface, points, propagation);
-        checks::expect_valid_complex(surface, diagram);
+        checks::expect_valid_complex(surface, diagram, seed % 2 == 1 ? parts_with_starts : 1);
         EXPECT_EQ(diagram.num_sites, 4 + shapes.size());
+        const auto start_of_point = [&](Index s) {
+            return roles.start.empty() ? 0 : roles.start[s];
+        };
         for (Index e = 0; e < diagram.edges.size(); ++e) {
             if (!diagram.edges[e].right.is_valid()) continue;
             for (Index i = diagram.edge_points[e]; i < diagram.edge_points[e + 1]; ++i) {
@@ -137,16 +150,54 @@ TEST(CellsOfLines, AreThoseOfTheFormulaInThePlane) {
                 for (const SiteId s : {diagram.edges[e].left, diagram.edges[e].right}) {
                     const double distance =
                         s.value() < 4
-                            ? (position(surface.mesh.view(), points[s.value()]) - p).norm()
-                            : in_plane(surface, shapes[s.value() - 4], p);
+                            ? start_of_point(s.value()) +
+                                  (position(surface.mesh.view(), points[s.value()]) - p).norm()
+                            : shapes[s.value() - 4].start +
+                                  in_plane(surface, shapes[s.value() - 4], p);
                     ASSERT_NEAR(diagram.point_distance[i], distance, 1e-10);
                     ++count;
                 }
             }
         }
     }
-    EXPECT_GT(num_shapes, 40);
-    EXPECT_GT(count, 5000);
+    EXPECT_GT(num_shapes, 80);
+    EXPECT_GT(count, 10000);
+}
+
+// Two lines on a prism and two on a pyramid, one with a start: the points of the bisector are as
+// far from both by the formula of the plane.
+TEST(CellsOfLines, AreThoseOfTheFormulaOnDevelopableSurfaces) {
+    const developable::Unrolled prism = developable::prism(12, 9);
+    const developable::Unrolled pyramid = developable::pyramid(11, 8);
+    struct Case {
+        const developable::Unrolled& on;
+        SiteShape a, b;
+    };
+    const std::vector<Case> cases{
+        {prism, prism.line({24, 36, 48, 60}), prism.line({78, 79, 80, 68}, 1)},
+        {prism, prism.line({13, 26, 39}), prism.line({43, 44}, 1)},
+        {pyramid, pyramid.line({1, 12, 23, 34}), pyramid.line({28, 29, 30, 41}, 1)},
+        {pyramid, pyramid.line({0, 5, 16}), pyramid.line({66, 67, 68}, 1)}};
+    for (Case c : cases) {
+        for (const double start : {0.0, 0.1}) {
+            c.b.start = start;
+            const Surface& surface = c.on.surface;
+            const Diagram diagram = build_diagram(
+                surface, {}, propagate(surface, {}, {.shapes = {c.a, c.b}, .max_error = 0}));
+            checks::expect_valid_complex(surface, diagram);
+            int count = 0;
+            for (Index e = 0; e < diagram.edges.size(); ++e) {
+                if (!diagram.edges[e].right.is_valid()) continue;
+                for (Index i = diagram.edge_points[e]; i < diagram.edge_points[e + 1]; ++i) {
+                    const double to_a = c.on.distance(c.a, diagram.points[i]);
+                    EXPECT_NEAR(to_a, c.on.distance(c.b, diagram.points[i]) + start, 1e-11);
+                    EXPECT_NEAR(diagram.point_distance[i], to_a, 1e-11);
+                    ++count;
+                }
+            }
+            EXPECT_GT(count, 10);
+        }
+    }
 }
 
 TEST(CellsOfLines, AreACellComplexOnRandomMeshes) {
@@ -155,12 +206,16 @@ TEST(CellsOfLines, AreACellComplexOnRandomMeshes) {
         for (std::uint64_t seed = 0; seed < 10; ++seed) {
             SCOPED_TRACE(std::string(family) + " seed " + std::to_string(seed));
             const Surface surface = build_surface(random_meshes::make(family, seed).view());
-            const auto [points, shapes] = mixed_sites(surface, seed);
+            auto [points, shapes] = mixed_sites(surface, seed);
+            for (SiteShape& shape : shapes) {
+                if (seed % 2 == 1) shape.start = 0.02 * (shape.site - 3);
+            }
             std::vector<PropagationOptions> all{{.max_error = 0}, {}, {.engine = Engine::Steiner}};
             for (PropagationOptions& options : all) {
                 options.shapes = shapes;
                 checks::expect_valid_complex(
-                    surface, build_diagram(surface, points, propagate(surface, points, options)));
+                    surface, build_diagram(surface, points, propagate(surface, points, options)),
+                    seed % 2 == 1 ? parts_with_starts : 1);
                 ++count;
             }
         }
@@ -200,6 +255,35 @@ TEST(CellsOfLines, HaveBordersOfEqualDistances) {
         }
     }
     EXPECT_GT(count, 5000);
+}
+
+// Other sites lie at all vertices of an edge, and of a region: what is left are its middle parts.
+TEST(CellsOfLines, NeedNoVertexOfTheLine) {
+    const Surface surface = build_surface(shapes::grid(1).view());
+    Index diagonal = 0;
+    while (surface.twin[surface.edge_half[diagonal]] == no_index) ++diagonal;
+    const Index h = surface.edge_half[diagonal];
+    for (const Engine engine : {Engine::Window, Engine::Steiner}) {
+        const std::vector<SurfacePoint> ends{point_at(surface, surface.tail(h)),
+                                             point_at(surface, surface.head(h))};
+        const PropagationOptions options{.shapes = {{.edges = {diagonal}, .site = 2, .start = 0.2}},
+                                         .engine = engine};
+        const Diagram diagram = build_diagram(surface, ends, propagate(surface, ends, options));
+        checks::expect_valid_complex(surface, diagram);
+        EXPECT_NEAR(diagram.cell_area[0], diagram.cell_area[1], 0.02);
+        EXPECT_GT(diagram.cell_area[2], 0.5);
+    }
+    std::vector<SurfacePoint> corners;
+    for (const Index v : surface.mesh.triangles[0]) corners.push_back(point_at(surface, v));
+    const Diagram diagram = build_diagram(
+        surface, corners,
+        propagate(surface, corners,
+                  {.shapes = {{.faces = {0}, .site = 3, .start = 0.3}}, .max_error = 0}),
+        {.chord_tolerance = 1e-4});
+    checks::expect_valid_complex(surface, diagram);
+    // In the face all but sectors of radius .3; beyond the diagonal hyperbolas and a parabola bound
+    // it.
+    EXPECT_GT(diagram.cell_area[3], 0.5 - std::numbers::pi * 0.3 * 0.3 / 2);
 }
 
 TEST(CellsOfLines, AreTheSameForAnyNumberOfThreads) {

@@ -6,9 +6,14 @@
 #include <numbers>
 
 #include "agvd/core/error.h"
+#include "agvd/diagram/face_relays.h"
 #include "agvd/mesh/surface_points.h"
+#include "agvd/paths/face_strip.h"
+#include "support/developable.h"
 #include "support/exact_field.h"
+#include "support/line_sites.h"
 #include "support/points.h"
+#include "support/random_meshes.h"
 #include "support/shapes.h"
 
 using namespace agvd;
@@ -21,10 +26,24 @@ double angle_of(const IsolineArc& arc) {
     return std::atan2(cross(a, b), a.dot(b));
 }
 
+bool is_straight(const IsolineArc& arc) { return arc.radius == infinity; }
+
+double length_of(const IsolineArc& arc) {
+    return is_straight(arc) ? (arc.end - arc.begin).norm() : arc.radius * angle_of(arc);
+}
+
 double length_of(const Isolines& isolines) {
     double length = 0;
-    for (const IsolineArc& arc : isolines.arcs) length += arc.radius * angle_of(arc);
+    for (const IsolineArc& arc : isolines.arcs) length += length_of(arc);
     return length;
+}
+
+// As in exact_everywhere().
+Propagation everywhere(const Surface& surface, std::span<const SurfacePoint> sites,
+                       const SitePoints& points, const std::vector<SiteShape>& shapes) {
+    return propagate(
+        surface, sites,
+        {.points = points, .shapes = shapes, .max_error = 0, .relay_faces = all_faces(surface)});
 }
 
 // A square of which the vertices inside are moved.
@@ -55,9 +74,15 @@ void expect_chains(const Surface& surface, const Isolines& isolines, double size
         ASSERT_LT(first, end);
         for (Index i = first; i < end; ++i) {
             const IsolineArc& arc = isolines.arcs[i];
-            EXPECT_GT(angle_of(arc), 0);
-            EXPECT_NEAR((arc.begin - arc.centre).norm(), arc.radius, 1e-12 * size);
-            EXPECT_NEAR((arc.end - arc.centre).norm(), arc.radius, 1e-12 * size);
+            if (is_straight(arc)) {
+                EXPECT_GT(cross(arc.end - arc.begin, arc.centre), 0);
+                EXPECT_NEAR((arc.end - arc.begin).dot(arc.centre), 0, 1e-12 * size);
+                EXPECT_NEAR(arc.centre.norm(), 1, 1e-12);
+            } else {
+                EXPECT_GT(angle_of(arc), 0);
+                EXPECT_NEAR((arc.begin - arc.centre).norm(), arc.radius, 1e-12 * size);
+                EXPECT_NEAR((arc.end - arc.centre).norm(), arc.radius, 1e-12 * size);
+            }
             const bool is_last = i + 1 == end;
             if (is_last && !isolines.lines[line].is_closed) continue;
             const IsolineArc& next = isolines.arcs[is_last ? first : i + 1];
@@ -153,6 +178,163 @@ TEST(Isolines, OnAPrismAreCirclesWhenUnrolled) {
         }
     }
     for (const int count : num_points) EXPECT_GT(count, 8);
+}
+
+// Two parallels and two half circles; around a square region four sides and four quarters.
+TEST(Isolines, OfASegmentAndASquareAreParallelsAndArcs) {
+    const Surface surface = build_surface(shapes::grid(10).view());
+    SiteShape segment, square;
+    for (Index e = 0; e < surface.num_edges(); ++e) {
+        const Index h = surface.edge_half[e];
+        const Vec3 middle =
+            (surface.mesh.positions[surface.tail(h)] + surface.mesh.positions[surface.head(h)]) / 2;
+        if (middle.y() == 0.5 && std::abs(middle.x() - 0.5) < 0.2) segment.edges.push_back(e);
+    }
+    for (Index f = 0; f < surface.num_faces(); ++f) {
+        const Vec3 centre = position(surface.mesh.view(), {FaceId(f), {.3, .3, .4}});
+        if (std::abs(centre.x() - 0.5) < 0.1 && std::abs(centre.y() - 0.5) < 0.1) {
+            square.faces.push_back(f);
+        }
+    }
+    ASSERT_EQ(segment.edges.size(), 4u);
+    ASSERT_EQ(square.faces.size(), 8u);
+    // One passes through vertices.
+    const std::vector<double> levels{0.03, 0.1, 0.2, 0.28};
+    for (const SiteShape& shape : {segment, square}) {
+        const double straight = 0.8;
+        const Isolines isolines =
+            build_isolines(surface, everywhere(surface, {}, {}, {shape}), levels);
+        expect_chains(surface, isolines, 1);
+        ASSERT_EQ(isolines.lines.size(), levels.size());
+        for (std::size_t line = 0; line < levels.size(); ++line) {
+            EXPECT_TRUE(isolines.lines[line].is_closed);
+            double parallels = 0, round = 0;
+            for (Index i = isolines.line_arcs[line]; i < isolines.line_arcs[line + 1]; ++i) {
+                const IsolineArc& arc = isolines.arcs[i];
+                (is_straight(arc) ? parallels : round) += length_of(arc);
+                for (const Vec2& end : {arc.begin, arc.end}) {
+                    const Vec3 p =
+                        position(surface.mesh.view(), to_surface(surface, arc.face.value(), end));
+                    EXPECT_NEAR(line_sites::in_plane(surface, shape, p), levels[line],
+                                1e-9 * levels[line]);
+                }
+            }
+            EXPECT_NEAR(parallels, straight, 1e-9);
+            EXPECT_NEAR(round, 2 * std::numbers::pi * levels[line], 1e-9);
+        }
+    }
+}
+
+// Points, groups, starts, lines and regions at once.
+TEST(Isolines, OfAllKindsOfSitesLieAtTheirLevels) {
+    Index num_straight = 0, num_round = 0;
+    for (std::uint64_t seed = 0; seed < 12; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        const Surface surface = line_sites::uneven_square(11, seed);
+        const auto points = points::scattered(surface, 3, seed);
+        const SitePoints roles{.site = {1, 0, 1}, .start = {0.05, 0, 0.1}};
+        std::vector<SiteShape> shapes{
+            line_sites::random_line(surface, 1 + static_cast<Index>(seed), seed),
+            line_sites::random_region(surface, 4, seed + 100)};
+        shapes[0].site = 2;
+        shapes[1].site = seed % 2 == 0 ? 3 : 0;
+        shapes[0].start = seed % 3 == 0 ? 0.04 : 0;
+        shapes[1].start = seed % 4 == 0 ? 0.06 : 0;
+        const Propagation propagation = everywhere(surface, points, roles, shapes);
+        const auto levels = levels_every(propagation, 0.021);
+        ASSERT_GT(levels.size(), 4u);
+        const Isolines isolines = build_isolines(surface, propagation, levels);
+        expect_chains(surface, isolines, 1);
+        for (const IsolineArc& arc : isolines.arcs) ++(is_straight(arc) ? num_straight : num_round);
+        const DrawnIsolines drawn = draw_isolines(surface, isolines, 1e-3);
+        for (std::size_t line = 0; line < isolines.lines.size(); ++line) {
+            const double level = levels[isolines.lines[line].level];
+            for (Index i = drawn.offsets[line]; i < drawn.offsets[line + 1]; ++i) {
+                const Vec3 p = position(surface.mesh.view(), drawn.points[i]);
+                double nearest = infinity;
+                for (std::size_t k = 0; k < points.size(); ++k) {
+                    const Vec3 site = position(surface.mesh.view(), points[k]);
+                    nearest = std::min(nearest, roles.start[k] + (p - site).norm());
+                }
+                for (const SiteShape& shape : shapes) {
+                    nearest =
+                        std::min(nearest, shape.start + line_sites::in_plane(surface, shape, p));
+                }
+                ASSERT_NEAR(nearest, level, 1e-9 * level);
+            }
+            if (isolines.lines[line].is_closed) continue;
+            for (const Index i : {drawn.offsets[line], drawn.offsets[line + 1] - 1}) {
+                const Vec3 p = position(surface.mesh.view(), drawn.points[i]);
+                EXPECT_LT(std::min({p.x(), p.y(), 1 - p.x(), 1 - p.y()}), 1e-9);
+            }
+        }
+    }
+    EXPECT_GT(num_straight, 3000);
+    EXPECT_GT(num_round, 3000);
+}
+
+// Lines along ridges and rings of a prism and of a pyramid.
+TEST(Isolines, OfLinesOnDevelopableSurfacesAreThoseOfThePlane) {
+    const developable::Unrolled prism = developable::prism(12, 9);
+    const developable::Unrolled pyramid = developable::pyramid(11, 8);
+    const std::vector<std::pair<const developable::Unrolled*, std::vector<Index>>> cases{
+        {&prism, {24, 36, 48, 60}},       {&prism, {49, 50, 51, 52, 53}},
+        {&prism, {24, 25, 37, 38}},       {&pyramid, {1, 12, 23, 34}},
+        {&pyramid, {0, 5, 16}},           {&pyramid, {34, 35, 36, 37}},
+        {&pyramid, {40, 29, 30, 31, 42}},
+    };
+    for (const auto& [on, vertices] : cases) {
+        const Surface& surface = on->surface;
+        const SiteShape line = on->line(vertices);
+        ASSERT_EQ(line.edges.size() + 1, vertices.size());
+        const Propagation propagation = everywhere(surface, {}, {}, {line});
+        const auto levels = levels_every(propagation, 0.17);
+        const Isolines isolines = build_isolines(surface, propagation, levels);
+        expect_chains(surface, isolines, 1);
+        const DrawnIsolines drawn = draw_isolines(surface, isolines, 1e-3);
+        std::vector<int> num_points(levels.size(), 0);
+        for (std::size_t l = 0; l < isolines.lines.size(); ++l) {
+            const double level = levels[isolines.lines[l].level];
+            for (Index i = drawn.offsets[l]; i < drawn.offsets[l + 1]; ++i) {
+                ASSERT_NEAR(on->distance(line, drawn.points[i]), level, 1e-9 * level);
+                ++num_points[isolines.lines[l].level];
+            }
+        }
+        for (const int count : num_points) EXPECT_GT(count, 4);
+    }
+}
+
+TEST(Isolines, OfLinesOnClosedSurfacesAreClosed) {
+    for (const char* family : random_meshes::families()) {
+        for (std::uint64_t seed = 0; seed < 6; ++seed) {
+            SCOPED_TRACE(std::string(family) + " seed " + std::to_string(seed));
+            const Surface surface = build_surface(random_meshes::make(family, seed).view());
+            const auto shapes =
+                line_sites::numbered({line_sites::random_line(surface, 6, seed),
+                                      line_sites::random_region(surface, 3, seed + 9)},
+                                     2);
+            const auto points = points::scattered(surface, 2, seed);
+            const Propagation propagation =
+                everywhere(surface, points, {.start = {0, 0.1}}, shapes);
+            double farthest = 0;
+            for (const double d : propagation.vertex_distance) {
+                if (d < infinity) farthest = std::max(farthest, d);
+            }
+            const Isolines isolines =
+                build_isolines(surface, propagation, levels_every(propagation, farthest / 7));
+            EXPECT_FALSE(isolines.lines.empty());
+            for (std::size_t line = 0; line < isolines.lines.size(); ++line) {
+                if (isolines.lines[line].is_closed) continue;
+                const IsolineArc& first = isolines.arcs[isolines.line_arcs[line]];
+                const IsolineArc& last = isolines.arcs[isolines.line_arcs[line + 1] - 1];
+                EXPECT_TRUE(is_on_boundary(
+                    surface,
+                    snapped(surface, to_surface(surface, first.face.value(), first.begin))));
+                EXPECT_TRUE(is_on_boundary(
+                    surface, snapped(surface, to_surface(surface, last.face.value(), last.end))));
+            }
+        }
+    }
 }
 
 TEST(Isolines, OfClosedSurfacesAreClosed) {

@@ -12,13 +12,47 @@ using namespace agvd;
 
 namespace {
 
-// Against a propagation from each site alone.
-void expect_ranks(const Surface& surface, std::span<const SurfacePoint> sites, Index k) {
-    std::vector<std::vector<double>> alone;
-    for (const SurfacePoint& site : sites) {
-        alone.push_back(propagate(surface, std::span(&site, 1), {.max_error = 0}).vertex_distance);
+// Distances from one site alone: of its points, and of each of its shapes in a run of its own.
+std::vector<double> distances_from(Index site, const Surface& surface,
+                                   std::span<const SurfacePoint> points,
+                                   const KNearestOptions& options) {
+    std::vector<double> nearest(surface.num_vertices(), infinity);
+    const auto take = [&](std::span<const SurfacePoint> own, PropagationOptions propagating) {
+        propagating.max_error = 0;
+        const Propagation found = propagate(surface, own, propagating);
+        for (Index v = 0; v < nearest.size(); ++v) {
+            nearest[v] = std::min(nearest[v], found.vertex_distance[v]);
+        }
+    };
+    const SitePoints& roles = options.points;
+    for (Index i = 0; i < points.size(); ++i) {
+        if (roles.site_of(i) != site) continue;
+        PropagationOptions alone;
+        if (!roles.start.empty()) alone.points.start = {roles.start[i]};
+        take(points.subspan(i, 1), alone);
     }
-    const KNearest found = k_nearest_sites(surface, sites, k, {.max_error = 0});
+    for (SiteShape shape : options.shapes) {
+        if (shape.site != site) continue;
+        shape.site = 0;
+        take({}, {.shapes = {shape}});
+    }
+    return nearest;
+}
+
+// Against a propagation from each site alone.
+void expect_ranks(const Surface& surface, std::span<const SurfacePoint> points, Index k,
+                  KNearestOptions options = {}) {
+    Index num_sites = 0;
+    for (Index i = 0; i < points.size(); ++i) {
+        num_sites = std::max(num_sites, options.points.site_of(i) + 1);
+    }
+    for (const SiteShape& shape : options.shapes) num_sites = std::max(num_sites, shape.site + 1);
+    std::vector<std::vector<double>> alone;
+    for (Index site = 0; site < num_sites; ++site) {
+        alone.push_back(distances_from(site, surface, points, options));
+    }
+    options.max_error = 0;
+    const KNearest found = k_nearest_sites(surface, points, k, options);
     EXPECT_EQ(found.k, k);
     EXPECT_EQ(found.certified_error, 0);
     ASSERT_EQ(found.site.size(), std::size_t{k} * surface.num_vertices());
@@ -72,6 +106,42 @@ TEST(KNearest, CountSitesAtOnePlace) {
     EXPECT_EQ(found.site[2 * 3 + 1], SiteId(2));
 }
 
+TEST(KNearest, SitesMayBeGroupsAndHaveStarts) {
+    const Surface surface = build_surface(shapes::jitter(shapes::torus(24, 12), 0.06, 2).view());
+    const auto points = points::scattered(surface, 18, 4);
+    KNearestOptions options;
+    for (Index i = 0; i < points.size(); ++i) {
+        options.points.site.push_back(i % 5);
+        options.points.start.push_back(i % 4 * 0.05);
+    }
+    for (const Index k : {1u, 2u, 4u, 6u}) expect_ranks(surface, points, k, options);
+}
+
+// What lies behind a line is seen, other than in a diagram.
+TEST(KNearest, SitesMayBeLinesAndRegions) {
+    const Surface surface = build_surface(shapes::grid(12).view());
+    KNearestOptions options;
+    options.shapes.resize(3);
+    for (Index edge = 0; edge < surface.num_edges(); ++edge) {
+        const Index h = surface.edge_half[edge];
+        const Vec3 &a = surface.mesh.positions[surface.tail(h)],
+                   &b = surface.mesh.positions[surface.head(h)];
+        if (a.x() == 0.5 && b.x() == 0.5) options.shapes[0].edges.push_back(edge);
+        if (a.y() == 0.25 && b.y() == 0.25 && std::max(a.x(), b.x()) < 0.4) {
+            options.shapes[1].edges.push_back(edge);
+        }
+    }
+    options.shapes[2].faces = {0, 1, 2, 3};
+    ASSERT_EQ(options.shapes[0].edges.size(), 12u);
+    ASSERT_GT(options.shapes[1].edges.size(), 2u);
+    const auto points = points::scattered(surface, 6, 4);
+    options.shapes[0].site = 6;
+    options.shapes[1].site = 7;
+    options.shapes[2].site = 2;  // With a point.
+    options.shapes[1].start = 0.1;
+    for (const Index k : {1u, 3u, 8u}) expect_ranks(surface, points, k, options);
+}
+
 TEST(KNearest, FirstIsThatOfPropagate) {
     const Surface surface = build_surface(shapes::jitter(shapes::sphere(4), 0.02, 1).view());
     const auto sites = points::scattered(surface, 60, 4);
@@ -99,4 +169,7 @@ TEST(KNearest, RefuseNone) {
     EXPECT_THROW((void)k_nearest_sites(surface, sites, 1, {.max_error = 1}), InvalidOption);
     EXPECT_THROW((void)k_nearest_sites(surface, std::array{SurfacePoint{FaceId(12), {}}}, 1),
                  InvalidSites);
+    KNearestOptions options;
+    options.points.site = {1};
+    EXPECT_THROW((void)k_nearest_sites(surface, sites, 1, options), InvalidSites);
 }

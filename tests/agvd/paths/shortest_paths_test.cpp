@@ -6,13 +6,17 @@
 #include <numbers>
 
 #include "agvd/core/error.h"
+#include "agvd/diagram/face_relays.h"
 #include "agvd/intrinsic/intrinsic_triangulation.h"
 #include "agvd/mesh/surface_points.h"
 #include "agvd/paths/distances.h"
 #include "agvd/paths/isolines.h"
+#include "support/developable.h"
 #include "support/exact_field.h"
 #include "support/geodesics.h"
+#include "support/line_sites.h"
 #include "support/points.h"
+#include "support/random_meshes.h"
 #include "support/shapes.h"
 
 using namespace agvd;
@@ -88,6 +92,126 @@ TEST(ShortestPaths, OnASquareAreTheStraightLinesToTheNearestSite) {
         EXPECT_LT((position(mesh.view(), path.points.front()) - from).norm(), 1e-15);
         EXPECT_LT((position(mesh.view(), path.points.back()) - to).norm(), 1e-15);
     }
+}
+
+// Points in groups and with starts, lines and regions with starts.
+TEST(ShortestPaths, LeadToSitesOfAllKinds) {
+    int num_to_points = 0, num_to_shapes = 0, num_inside = 0;
+    for (std::uint64_t seed = 0; seed < 12; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        const Surface surface = line_sites::uneven_square(11, seed);
+        const auto sites = points::scattered(surface, 4, seed);
+        const SitePoints roles{.site = {1, 0, 1, 0}, .start = {0.05, 0, 0.1, 0.02}};
+        const double start = seed % 2 == 0 ? 0 : 0.03;
+        std::vector<SiteShape> shapes{
+            line_sites::random_line(surface, 1 + static_cast<Index>(seed), seed),
+            line_sites::random_line(surface, 4, seed + 50),
+            line_sites::random_region(surface, 5, seed + 100)};
+        for (const Index i : {0u, 1u, 2u}) {
+            shapes[i].site = i == 1 ? 0 : i + 1;
+            shapes[i].site = std::min(shapes[i].site, Index{2});
+            shapes[i].start = i * start;
+        }
+        for (const double max_error : {0.0, 1e-3}) {
+            const Propagation propagation = propagate(surface, sites,
+                                                      {.points = roles,
+                                                       .shapes = shapes,
+                                                       .max_error = max_error,
+                                                       .relay_faces = all_faces(surface)});
+            const auto starts = points::scattered(surface, 80, seed + 7);
+            const auto paths = paths_to_sites(surface, sites, propagation, starts);
+            const auto at = [&](const SurfacePoint& p) { return position(surface.mesh.view(), p); };
+            for (std::size_t i = 0; i < starts.size(); ++i) {
+                SCOPED_TRACE(i);
+                const Vec3 from = at(starts[i]);
+                double nearest = infinity;
+                for (std::size_t k = 0; k < sites.size(); ++k) {
+                    nearest = std::min(nearest, roles.start[k] + (from - at(sites[k])).norm());
+                }
+                for (const SiteShape& shape : shapes) {
+                    nearest =
+                        std::min(nearest, shape.start + line_sites::in_plane(surface, shape, from));
+                }
+                const auto& [site, path, at_end] = paths[i];
+                const double tolerance = (max_error + 1e-12) * nearest + 1e-15;
+                ASSERT_NEAR(path.length + at_end, nearest, tolerance);
+                const Vec3 to = at(path.points.back());
+                EXPECT_NEAR((at(path.points.front()) - from).norm(), 0, 1e-14);
+                EXPECT_NEAR((to - from).norm(), path.length, 1e-12);
+                bool is_at_point = false, is_on_shape = false;
+                for (Index k = 0; k < sites.size(); ++k) {
+                    is_at_point =
+                        is_at_point || (SiteId(roles.site[k]) == site && at_end == roles.start[k] &&
+                                        (to - at(sites[k])).norm() < 1e-14);
+                }
+                for (const SiteShape& shape : shapes) {
+                    is_on_shape =
+                        is_on_shape || (SiteId(shape.site) == site && at_end == shape.start &&
+                                        line_sites::in_plane(surface, shape, to) < 1e-14);
+                }
+                EXPECT_TRUE(is_at_point || is_on_shape);
+                num_to_points += is_at_point ? 1 : 0;
+                num_to_shapes += is_on_shape ? 1 : 0;
+                num_inside += path.length == 0 ? 1 : 0;
+            }
+        }
+    }
+    EXPECT_GT(num_to_points, 50);
+    EXPECT_GT(num_to_shapes, 500);
+    EXPECT_GT(num_inside, 5);
+}
+
+TEST(ShortestPaths, ToLinesOnDevelopableSurfacesAreStraight) {
+    const developable::Unrolled prism = developable::prism(12, 9);
+    const developable::Unrolled pyramid = developable::pyramid(11, 8);
+    const std::vector<std::pair<const developable::Unrolled*, std::vector<Index>>> cases{
+        {&prism, {24, 36, 48, 60}},
+        {&prism, {24, 25, 37, 38}},
+        {&pyramid, {1, 12, 23, 34}},
+        {&pyramid, {40, 29, 30, 31, 42}}};
+    for (const auto& [on, vertices] : cases) {
+        const Surface& surface = on->surface;
+        SiteShape line = on->line(vertices);
+        line.start = 0.25;
+        const Propagation propagation = propagate(
+            surface, {}, {.shapes = {line}, .max_error = 0, .relay_faces = all_faces(surface)});
+        const auto starts = points::scattered(surface, 60, 8);
+        const auto paths = paths_to_sites(surface, {}, propagation, starts);
+        for (std::size_t i = 0; i < starts.size(); ++i) {
+            EXPECT_EQ(paths[i].start, 0.25);
+            const double distance = on->distance(line, starts[i]);
+            if (distance > 1e-15) expect_shortest(surface, paths[i].path, distance);
+            EXPECT_LT(on->distance(line, paths[i].path.points.back()), 1e-14);
+        }
+    }
+}
+
+TEST(ShortestPaths, ToLinesOnRandomMeshesHaveTheDistances) {
+    int count = 0;
+    for (const char* family : random_meshes::families()) {
+        for (std::uint64_t seed = 0; seed < 4; ++seed) {
+            SCOPED_TRACE(std::string(family) + " seed " + std::to_string(seed));
+            const Surface surface = build_surface(random_meshes::make(family, seed).view());
+            std::vector<SiteShape> shapes =
+                line_sites::numbered({line_sites::random_line(surface, 6, seed),
+                                      line_sites::random_region(surface, 3, seed + 9)});
+            shapes[1].start = 0.1;
+            const Propagation propagation = propagate(
+                surface, {}, {.shapes = shapes, .max_error = 0, .relay_faces = all_faces(surface)});
+            const auto starts = points::scattered(surface, 20, seed);
+            const auto paths = paths_to_sites(surface, {}, propagation, starts);
+            for (std::size_t i = 0; i < starts.size(); ++i) {
+                const PointLabel label = label_at(surface, propagation, starts[i]);
+                ASSERT_EQ(paths[i].site.is_valid(), label.site.is_valid());
+                if (!label.site.is_valid()) continue;
+                const double distance = label.distance.value();
+                EXPECT_NEAR(paths[i].path.length + paths[i].start, distance,
+                            1e-12 * distance + 1e-15);
+                ++count;
+            }
+        }
+    }
+    EXPECT_GT(count, 300);
 }
 
 TEST(ShortestPaths, OnAPrismAreStraightWhenUnrolled) {

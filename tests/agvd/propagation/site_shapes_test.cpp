@@ -8,8 +8,10 @@
 #include <string>
 
 #include "agvd/core/error.h"
+#include "agvd/diagram/face_relays.h"
 #include "agvd/mesh/surface_points.h"
 #include "agvd/propagation/propagate.h"
+#include "support/developable.h"
 #include "support/dirty_shapes.h"
 #include "support/line_sites.h"
 #include "support/points.h"
@@ -72,6 +74,129 @@ TEST(SiteShapes, HaveTheirDistanceInThePlane) {
         }
     }
     EXPECT_EQ(count, 30 * 4 * 13 * 13);
+}
+
+// Of a line that two sites have the first owns it. With a start the other one does.
+TEST(SiteShapes, MayShareEdges) {
+    int num_shared = 0;
+    for (std::uint64_t seed = 0; seed < 30; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        const Surface surface = uneven_square(12, seed);
+        const SiteShape line = random_line(surface, 12, seed);
+        SiteShape part = random_line(surface, 5, seed + 100);
+        part.edges.insert(part.edges.end(), line.edges.begin() + 3, line.edges.begin() + 8);
+        SiteShape region = random_region(surface, 6, seed + 200);
+        for (Index h = 3 * region.faces[0]; h < 3 * region.faces[0] + 3; ++h) {
+            part.edges.push_back(surface.edge[h]);
+        }
+        std::vector<SiteShape> shapes = numbered({line, part, region, line});
+        const bool is_late = seed % 2 == 0;
+        if (is_late) shapes[0].start = 0.05;
+        const Propagation found = propagate(surface, {}, {.shapes = shapes, .max_error = 0});
+        for (Index v = 0; v < surface.num_vertices(); ++v) {
+            const Vec3& p = surface.mesh.positions[v];
+            std::vector<double> distance;
+            for (const SiteShape& shape : shapes) {
+                distance.push_back(shape.start + in_plane(surface, shape, p));
+            }
+            const double least = *std::min_element(distance.begin(), distance.end());
+            ASSERT_NEAR(found.vertex_distance[v], least, 1e-13) << v;
+            ASSERT_NEAR(distance[found.vertex_site[v].value()], least, 1e-13) << v;
+            if (distance[3] > 0) continue;
+            const auto first = std::find(distance.begin(), distance.end(), 0.0);
+            EXPECT_EQ(found.vertex_site[v].value(), first - distance.begin()) << v;
+            EXPECT_EQ(first == distance.begin(), !is_late) << v;
+            ++num_shared;
+        }
+    }
+    EXPECT_GT(num_shared, 200);
+}
+
+// A line and a region with starts, of which others own parts; a point on the line that starts
+// earlier.
+TEST(SiteShapes, MayStartAtADistance) {
+    int num_inside = 0;
+    for (std::uint64_t seed = 0; seed < 30; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        const Surface surface = uneven_square(12, seed);
+        std::vector<SiteShape> shapes =
+            numbered({random_line(surface, 9, seed), random_line(surface, 9, seed + 100),
+                      random_region(surface, 12, seed + 200)},
+                     3);
+        shapes[0].start = 0.07;
+        shapes[1].start = seed % 2 == 0 ? 0 : 0.2;
+        shapes[2].start = 0.11;
+        auto points = points::scattered(surface, 3, seed);
+        points[0] = point_on(surface.edge_half[shapes[0].edges[0]], 0.3);
+        points[1] = {FaceId(shapes[2].faces[0]), {0.3, 0.3, 0.4}};
+        const std::vector<double> starts{0.02, 0.05, 0.1};
+        const auto least_at = [&](const Vec3& p, std::vector<double>& distance) {
+            distance.clear();
+            for (std::size_t i = 0; i < points.size(); ++i) {
+                distance.push_back(starts[i] +
+                                   (position(surface.mesh.view(), points[i]) - p).norm());
+            }
+            for (const SiteShape& shape : shapes) {
+                distance.push_back(shape.start + in_plane(surface, shape, p));
+            }
+            return *std::min_element(distance.begin(), distance.end());
+        };
+        std::vector<double> distance;
+        for (const double max_error : {0.0, 1e-4}) {
+            const Propagation found = propagate(surface, points,
+                                                {.points = {.start = starts},
+                                                 .shapes = shapes,
+                                                 .max_error = max_error,
+                                                 .relay_faces = all_faces(surface)});
+            EXPECT_LE(found.certified_error, max_error);
+            for (Index v = 0; v < surface.num_vertices(); ++v) {
+                const double least = least_at(surface.mesh.positions[v], distance);
+                const double tolerance = 1e-13 + max_error * least;
+                ASSERT_NEAR(found.vertex_distance[v], least, tolerance) << v;
+                ASSERT_NEAR(distance[found.vertex_site[v].value()], least, tolerance) << v;
+            }
+            for (const SurfacePoint& p : points::scattered(surface, 200, seed + 5)) {
+                const double least = least_at(position(surface.mesh.view(), p), distance);
+                const PointLabel label = label_at(surface, found, p);
+                const double tolerance = 1e-13 + max_error * least;
+                ASSERT_NEAR(label.distance.value(), least, tolerance);
+                ASSERT_NEAR(distance[label.site.value()], least, tolerance);
+                num_inside += label.site == SiteId(5) && least == 0.11 ? 1 : 0;
+            }
+        }
+        const Propagation near = propagate(surface, points,
+                                           {.points = {.start = starts},
+                                            .shapes = shapes,
+                                            .engine = Engine::Steiner,
+                                            .steiner_points = 31});
+        for (Index v = 0; v < surface.num_vertices(); ++v) {
+            const double least = least_at(surface.mesh.positions[v], distance);
+            ASSERT_NEAR(near.vertex_distance[v], least, 1e-3);
+        }
+    }
+    EXPECT_GT(num_inside, 50);
+}
+
+// Lines along ridges, rings and diagonals of a prism and of a pyramid.
+TEST(SiteShapes, HaveTheirDistanceOnDevelopableSurfaces) {
+    const developable::Unrolled prism = developable::prism(12, 9);
+    const developable::Unrolled pyramid = developable::pyramid(11, 8);
+    const std::vector<std::pair<const developable::Unrolled*, std::vector<Index>>> cases{
+        {&prism, {24, 36, 48, 60}},   {&prism, {49, 50, 51, 52, 53}},  {&prism, {24, 37, 50}},
+        {&prism, {24, 25, 37, 38}},   {&pyramid, {1, 12, 23, 34}},     {&pyramid, {0, 5, 16}},
+        {&pyramid, {34, 35, 36, 37}}, {&pyramid, {40, 29, 30, 31, 42}}};
+    for (const auto& [on, vertices] : cases) {
+        const SiteShape line = on->line(vertices);
+        ASSERT_EQ(line.edges.size() + 1, vertices.size());
+        for (const double max_error : {0.0, 1e-4}) {
+            const Propagation found =
+                propagate(on->surface, {}, {.shapes = {line}, .max_error = max_error});
+            for (Index v = 0; v < on->surface.num_vertices(); ++v) {
+                const double exact = on->distance(line, point_at(on->surface, v));
+                ASSERT_NEAR(found.vertex_distance[v], exact, 1e-13 + max_error * exact) << v;
+            }
+        }
+    }
 }
 
 TEST(SiteShapes, AreNearerThanPointsOnThemByTheSquareOfTheirSpacing) {
@@ -187,6 +312,8 @@ TEST(SiteShapes, AreChecked) {
     EXPECT_THROW((void)propagated({.edges = {16}, .site = 2}), InvalidSites);
     EXPECT_THROW((void)propagated({.faces = {8}, .site = 2}), InvalidSites);
     EXPECT_THROW((void)propagated({.edges = {0}, .site = 3}), InvalidSites);
+    EXPECT_THROW((void)propagated({.edges = {0}, .site = 2, .start = -1}), InvalidSites);
+    EXPECT_THROW((void)propagated({.edges = {0}, .site = 2, .start = infinity}), InvalidSites);
     EXPECT_THROW(
         (void)propagated({.edges = {0}, .site = 2}, {.engine = Engine::Steiner, .max_error = 0.1}),
         InvalidOption);

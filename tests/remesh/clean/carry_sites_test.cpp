@@ -195,3 +195,51 @@ TEST(CarrySites, DecimalsAreMadeToSumToOne) {
     expect_barycentric(cleaned);
     EXPECT_EQ(std::count(cleaned[1].barycentric.begin(), cleaned[1].barycentric.end(), 0.0), 1);
 }
+
+// Faces of the tetrahedron are 3, 1, 2 of the given mesh, whose corners are apart.
+TEST(CarryShapes, LinesAndRegionsKeepTheirPlaces) {
+    const Case c = shuffled_tetrahedron();
+    const Surface surface = build_surface(c.clean.mesh.view());
+    // Two edges of face 1, one of them twice; then faces 1 and 3 with an edge of face 2.
+    const std::vector<std::array<Index, 2>> line{{3, 4}, {5, 4}, {4, 3}}, other{{6, 7}};
+    const std::vector<Index> region{3, 1};
+    const std::vector<remesh::ShapeView> given{{line, {}}, {other, region}};
+    const auto shapes = remesh::carry_shapes(given, c.mesh.view(), c.clean, surface);
+    ASSERT_EQ(shapes.size(), 2u);
+    EXPECT_TRUE(shapes[0].faces.empty());
+    ASSERT_EQ(shapes[0].edges.size(), 2u);
+    ASSERT_EQ(shapes[1].edges.size(), 1u);
+    const auto is_edge = [&](Index edge, Index a, Index b) {
+        const Index h = surface.edge_half[edge];
+        const Vec3 &tail = surface.mesh.positions[surface.tail(h)],
+                   &head = surface.mesh.positions[surface.head(h)];
+        const Vec3 &p = c.mesh.positions[a], &q = c.mesh.positions[b];
+        return (tail == p && head == q) || (tail == q && head == p);
+    };
+    for (const auto& [a, b] : {line[0], line[1]}) {
+        EXPECT_TRUE(is_edge(shapes[0].edges[0], a, b) || is_edge(shapes[0].edges[1], a, b));
+    }
+    EXPECT_TRUE(is_edge(shapes[1].edges[0], 6, 7));
+    EXPECT_EQ(shapes[1].faces, (std::vector<Index>{0, 1}));
+}
+
+TEST(CarryShapes, UnusableOnesAreNamed) {
+    const Case c = shuffled_tetrahedron();
+    const Surface surface = build_surface(c.clean.mesh.view());
+    const auto complaint = [&](std::vector<std::array<Index, 2>> line, std::vector<Index> region) {
+        try {
+            (void)remesh::carry_shapes(std::vector<remesh::ShapeView>{{line, region}},
+                                       c.mesh.view(), c.clean, surface);
+        } catch (const InvalidInput& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    EXPECT_EQ(complaint({{3, 4}}, {1}), "");
+    EXPECT_NE(complaint({{3, 4}, {3, 6}}, {}).find("between vertices 3 and 6"), std::string::npos);
+    EXPECT_NE(complaint({}, {1, 4}).find("face 4, but the mesh has only 4 faces"),
+              std::string::npos);
+    EXPECT_NE(complaint({}, {0}).find("dropped all faces of the region with face 0"),
+              std::string::npos);
+    EXPECT_EQ(complaint({}, {0, 2}), "");
+}

@@ -80,8 +80,8 @@ TEST_F(ReadSites, PointsMayBelongToSitesAndStartAtDistances) {
     expect_error<agvd::IoError>("v 0\nv 1 site 0\n", "line 2: only some lines say");
     expect_error<agvd::IoError>("v 0 site -1\n", "there is no site -1");
     expect_error<agvd::IoError>("v 0 start x\n", "expected a distance");
-    expect_error<agvd::InvalidInput>("v 0 start -1\n", "line 1: the point starts");
-    expect_error<agvd::InvalidInput>("v 0 start inf\n", "line 1: the point starts");
+    expect_error<agvd::InvalidInput>("v 0 start -1\n", "line 1: the site starts");
+    expect_error<agvd::InvalidInput>("v 0 start inf\n", "line 1: the site starts");
     expect_error<agvd::InvalidInput>("v 0 site 0\nv 1 site 2\n", "no point belongs to site 1");
 }
 
@@ -104,7 +104,9 @@ TEST_F(ReadSites, LinesAndRegionsAreSites) {
     EXPECT_EQ(one.points.start, (std::vector<double>{2}));
     expect_error<agvd::IoError>("l 1\n", "a line has two vertices");
     expect_error<agvd::IoError>("r\n", "a region has one face");
-    expect_error<agvd::IoError>("l 0 1 start 2\n", "expected the end of the line");
+    EXPECT_EQ(read_all("l 0 1 start 2\nr 3 start .5\n").shapes[0].start, 2);
+    EXPECT_EQ(read_all("l 0 1 start 2\nr 3 start .5\n").shapes[1].start, 0.5);
+    expect_error<agvd::InvalidInput>("l 0 1 start -1\n", "line 1: the site starts");
     expect_error<agvd::IoError>("l 0 1 site 0\nv 1\n", "only some lines say");
     expect_error<agvd::InvalidInput>("l 0 1 site 1\n", "no point belongs to site 0");
     expect_error<agvd::InvalidInput>("l 0 9\n", "vertex 9");

@@ -157,6 +157,41 @@ TEST_F(WriteDiagram, AgvdKeepsThePointsOfSitesAndTheirStarts) {
     EXPECT_NE(bytes("d.vtp").find("NumberOfVerts=\"4\""), std::string::npos);
 }
 
+// Site 1 has no point: its place is the first end of its line.
+TEST_F(WriteDiagram, AgvdKeepsLinesAndRegions) {
+    sites_.resize(2);
+    const SitePoints points{.site = {0, 2}};
+    std::vector<SiteShape> shapes{{.edges = {3, 1}, .site = 1, .start = 0.5},
+                                  {.faces = {1}, .site = 2}};
+    remesh::write_diagram(at("d.agvd"), surface_, sites_, diagram_, {}, points, shapes);
+    const remesh::DiagramFile back = remesh::read_diagram(at("d.agvd"));
+    EXPECT_EQ(back.diagram.num_sites, 3u);
+    EXPECT_EQ(back.sites, sites_);
+    EXPECT_TRUE(back.points == points);
+    ASSERT_EQ(back.shapes.size(), 2u);
+    for (std::size_t i = 0; i < 2; ++i) {
+        const Index h = surface_.edge_half[shapes[0].edges[i]];
+        EXPECT_EQ(back.shapes[0].edges[i], (std::array{surface_.tail(h), surface_.head(h)}));
+    }
+    EXPECT_EQ(back.shapes[0].site, 1u);
+    EXPECT_EQ(back.shapes[0].start, 0.5);
+    EXPECT_TRUE(back.shapes[1] == (remesh::GivenShape{.faces = {1}, .site = 2}));
+    EXPECT_EQ(back.mesh.triangles, surface_.mesh.triangles);
+    shapes[0].site = 2;
+    remesh::write_diagram(at("d.agvd"), surface_, sites_, diagram_, {}, points, shapes);
+    EXPECT_THROW((void)remesh::read_diagram(at("d.agvd")), InvalidInput) << "site 1 has no place";
+}
+
+TEST_F(WriteDiagram, SitesOfAgvdMayAllBeLines) {
+    const std::vector<SiteShape> shapes{
+        {.edges = {0}, .site = 1}, {.edges = {4}, .site = 0}, {.faces = {0}, .site = 2}};
+    remesh::write_diagram(at("d.agvd"), surface_, {}, diagram_, {}, {}, shapes);
+    const remesh::DiagramFile back = remesh::read_diagram(at("d.agvd"));
+    EXPECT_TRUE(back.sites.empty());
+    EXPECT_EQ(back.shapes.size(), 3u);
+    EXPECT_EQ(back.diagram.cell_area, diagram_.cell_area);
+}
+
 // Edge 0 is a hyperbola in face 0; the closed curve a line, a chord and a line.
 class WriteArcs : public WriteDiagram {
 protected:

@@ -109,6 +109,18 @@ TEST(MeasureDistance, WhereItIsTooFarEdgesGetShorter) {
     EXPECT_TRUE(measure(input, result, 1.1, most).is_within);
 }
 
+// A plate that the result misses altogether, by a hundred edges: they are not why it is far.
+TEST(MeasureDistance, EdgesGetNoShorterThanHalfAtOnce) {
+    const TriangleMesh input = shapes::grid(4);
+    const TriangleMesh result = shapes::moved(shapes::grid(40), {0, 0, 2});
+    std::vector<double> most(input.positions.size(), 9);
+    (void)measure(input, result, 1e-3, most);
+    for (const double length : most) {
+        EXPECT_GT(length, 0.5 / 40);
+        EXPECT_LT(length, 0.75 / 40);
+    }
+}
+
 // A fin across the valley: its corners lie on the other surface, and no sample meets it.
 TEST(MeasureDistance, WhatLiesBetweenTheSamplesIsFoundToo) {
     const TriangleMesh valley = plate(true);

@@ -5,8 +5,8 @@
 
 #include "binding/arrays.h"
 #include "binding/bindings.h"
+#include "binding/given_sites.h"
 #include "binding/python_progress.h"
-#include "given_surface.h"
 
 namespace python {
 namespace {
@@ -29,36 +29,26 @@ std::vector<double> of_given_vertices(const cli::GivenSurface& given,
 }
 
 py::array_t<double> run_distances_at(const Doubles& positions, const Indices& triangles,
-                                     const Indices& faces, const Doubles& barycentric,
-                                     const Doubles& weights, const std::vector<Indices>& lines,
-                                     const std::vector<Indices>& regions, const Indices& barriers,
-                                     const Doubles& side_lengths, const Indices& target_faces,
-                                     const Doubles& target_barycentric, bool has_targets,
-                                     double radius, double max_error, bool keep_slits,
+                                     const GivenSites& sites, const cli::SurfaceOptions& as_surface,
+                                     const Indices& target_faces, const Doubles& target_barycentric,
+                                     bool has_targets, double radius, double max_error,
                                      int num_threads, const py::object& function) {
     const agvd::MeshView mesh = view_of(positions, triangles);
-    const std::vector<SurfacePoint> sites = points_of(faces, barycentric);
-    const auto shapes = shapes_of(lines, regions, static_cast<Index>(sites.size()));
-    const std::vector<double> starts = vector_of(weights);
-    const auto cut = edges_of(barriers);
-    const std::vector<double> lengths = vector_of(side_lengths);
     std::vector<SurfacePoint> targets;
     if (has_targets) targets = points_of(target_faces, target_barycentric);
     PythonProgress progress(function, {{"clean", 1}, {"propagate", 3}});
     return to_array<double>(progress.run([&] {
-        const remesh::CleanOptions cleaning{
-            .keep_slits = keep_slits, .num_threads = num_threads, .progress = progress.of("clean")};
-        const cli::GivenSurface given = lengths.empty()
-                                            ? cli::GivenSurface(mesh, cleaning, cut)
-                                            : cli::GivenSurface(mesh, lengths, cleaning);
-        const agvd::Distances found = agvd::find_distances(given.surface(), given.to_surface(sites),
-                                                           given.to_surface(targets),
-                                                           {.points = {.start = starts},
-                                                            .shapes = given.to_surface(shapes),
-                                                            .max_distance = radius,
-                                                            .max_error = max_error,
-                                                            .num_threads = num_threads,
-                                                            .progress = progress.of("propagate")});
+        const cli::GivenSurface given =
+            cli::given_surface(mesh, as_surface, num_threads, progress.of("clean"));
+        const GivenSites::OnSurface on_surface = sites.on(given);
+        const agvd::Distances found =
+            agvd::find_distances(given.surface(), on_surface.points, given.to_surface(targets),
+                                 {.points = sites.roles,
+                                  .shapes = on_surface.shapes,
+                                  .max_distance = radius,
+                                  .max_error = max_error,
+                                  .num_threads = num_threads,
+                                  .progress = progress.of("propagate")});
         return has_targets ? found.point_distance : of_given_vertices(given, found);
     }));
 }
@@ -87,19 +77,19 @@ Ranks of_given_vertices(const cli::GivenSurface& given, const agvd::KNearest& fo
 }
 
 py::tuple run_nearest_sites(const Doubles& positions, const Indices& triangles,
-                            const Indices& faces, const Doubles& barycentric, Index k,
-                            double max_error, bool keep_slits, int num_threads,
-                            const py::object& function) {
+                            const GivenSites& sites, const cli::SurfaceOptions& as_surface, Index k,
+                            double max_error, int num_threads, const py::object& function) {
     const agvd::MeshView mesh = view_of(positions, triangles);
-    const std::vector<SurfacePoint> sites = points_of(faces, barycentric);
     PythonProgress progress(function, {{"clean", 1}, {"propagate", 3}});
     Ranks ranks = progress.run([&] {
-        const cli::GivenSurface given(mesh, {.keep_slits = keep_slits,
-                                             .num_threads = num_threads,
-                                             .progress = progress.of("clean")});
+        const cli::GivenSurface given =
+            cli::given_surface(mesh, as_surface, num_threads, progress.of("clean"));
+        const GivenSites::OnSurface on_surface = sites.on(given);
         return of_given_vertices(given,
-                                 agvd::k_nearest_sites(given.surface(), given.to_surface(sites), k,
-                                                       {.max_error = max_error,
+                                 agvd::k_nearest_sites(given.surface(), on_surface.points, k,
+                                                       {.points = sites.roles,
+                                                        .shapes = on_surface.shapes,
+                                                        .max_error = max_error,
                                                         .num_threads = num_threads,
                                                         .progress = progress.of("propagate")}));
     });
@@ -110,17 +100,13 @@ py::tuple run_nearest_sites(const Doubles& positions, const Indices& triangles,
 
 void bind_distances(py::module_& module) {
     module.def("distances_at", &run_distances_at, py::arg("positions").noconvert(),
-               py::arg("triangles").noconvert(), py::arg("faces").noconvert(),
-               py::arg("barycentric").noconvert(), py::arg("weights").noconvert(), py::arg("lines"),
-               py::arg("regions"), py::arg("barriers").noconvert(),
-               py::arg("side_lengths").noconvert(), py::arg("target_faces").noconvert(),
-               py::arg("target_barycentric").noconvert(), py::arg("has_targets"), py::arg("radius"),
-               py::arg("max_error"), py::arg("keep_slits"), py::arg("num_threads"),
-               py::arg("progress"));
+               py::arg("triangles").noconvert(), py::arg("sites"), py::arg("surface"),
+               py::arg("target_faces").noconvert(), py::arg("target_barycentric").noconvert(),
+               py::arg("has_targets"), py::arg("radius"), py::arg("max_error"),
+               py::arg("num_threads"), py::arg("progress"));
     module.def("nearest_sites", &run_nearest_sites, py::arg("positions").noconvert(),
-               py::arg("triangles").noconvert(), py::arg("faces").noconvert(),
-               py::arg("barycentric").noconvert(), py::arg("k"), py::arg("max_error"),
-               py::arg("keep_slits"), py::arg("num_threads"), py::arg("progress"));
+               py::arg("triangles").noconvert(), py::arg("sites"), py::arg("surface"), py::arg("k"),
+               py::arg("max_error"), py::arg("num_threads"), py::arg("progress"));
 }
 
 }  // namespace python

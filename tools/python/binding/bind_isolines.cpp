@@ -5,8 +5,8 @@
 
 #include "binding/arrays.h"
 #include "binding/bindings.h"
+#include "binding/given_sites.h"
 #include "binding/python_progress.h"
-#include "given_surface.h"
 
 namespace python {
 namespace {
@@ -53,24 +53,18 @@ DrawnLines compute(const agvd::Surface& surface, const agvd::Propagation& propag
     return lines;
 }
 
-py::dict run_isolines(const Doubles& positions, const Indices& triangles, const Indices& faces,
-                      const Doubles& barycentric, const std::vector<double>& levels, double step,
-                      std::optional<double> tolerance, double max_error, bool keep_slits,
+py::dict run_isolines(const Doubles& positions, const Indices& triangles, const GivenSites& sites,
+                      const cli::SurfaceOptions& as_surface, const std::vector<double>& levels,
+                      double step, std::optional<double> tolerance, double max_error,
                       int num_threads, const py::object& function) {
     const agvd::MeshView mesh = view_of(positions, triangles);
-    const std::vector<SurfacePoint> sites = points_of(faces, barycentric);
     PythonProgress progress(function, {{"clean", 1}, {"propagate", 4}, {"isolines", 1}});
     DrawnLines lines = progress.run([&] {
-        const cli::GivenSurface given(mesh, {.keep_slits = keep_slits,
-                                             .num_threads = num_threads,
-                                             .progress = progress.of("clean")});
+        const cli::GivenSurface given =
+            cli::given_surface(mesh, as_surface, num_threads, progress.of("clean"));
         const agvd::Surface& surface = given.surface();
-        const agvd::Propagation propagation =
-            agvd::propagate(surface, given.to_surface(sites),
-                            {.max_error = max_error,
-                             .relay_faces = agvd::all_faces(surface),
-                             .num_threads = num_threads,
-                             .progress = progress.of("propagate")});
+        const agvd::Propagation propagation = sites.propagate_everywhere(
+            surface, sites.on(given), max_error, num_threads, progress.of("propagate"));
         return compute(surface, propagation, {levels, step, tolerance},
                        {.num_threads = num_threads, .progress = progress.of("isolines")});
     });
@@ -86,9 +80,8 @@ py::dict run_isolines(const Doubles& positions, const Indices& triangles, const 
 
 void bind_isolines(py::module_& module) {
     module.def("isolines", &run_isolines, py::arg("positions").noconvert(),
-               py::arg("triangles").noconvert(), py::arg("faces").noconvert(),
-               py::arg("barycentric").noconvert(), py::arg("levels"), py::arg("step"),
-               py::arg("tolerance"), py::arg("max_error"), py::arg("keep_slits"),
+               py::arg("triangles").noconvert(), py::arg("sites"), py::arg("surface"),
+               py::arg("levels"), py::arg("step"), py::arg("tolerance"), py::arg("max_error"),
                py::arg("num_threads"), py::arg("progress"));
 }
 

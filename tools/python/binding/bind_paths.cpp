@@ -3,8 +3,8 @@
 #include "agvd/propagation/propagate.h"
 #include "binding/arrays.h"
 #include "binding/bindings.h"
+#include "binding/given_sites.h"
 #include "binding/python_progress.h"
-#include "given_surface.h"
 
 namespace python {
 namespace {
@@ -37,28 +37,21 @@ py::dict to_dict(DrawnPaths drawn) {
 
 py::dict run_paths_to_sites(const Doubles& positions, const Indices& triangles,
                             const Indices& faces, const Doubles& barycentric,
-                            const Indices& site_faces, const Doubles& site_barycentric,
-                            double max_error, bool keep_slits, int num_threads,
-                            const py::object& function) {
+                            const GivenSites& sites, const cli::SurfaceOptions& as_surface,
+                            double max_error, int num_threads, const py::object& function) {
     const agvd::MeshView mesh = view_of(positions, triangles);
     const std::vector<SurfacePoint> starts = points_of(faces, barycentric);
-    const std::vector<SurfacePoint> given_sites = points_of(site_faces, site_barycentric);
     PythonProgress progress(function, {{"clean", 1}, {"propagate", 4}, {"paths", 1}});
     return to_dict(progress.run([&] {
-        const cli::GivenSurface given(mesh, {.keep_slits = keep_slits,
-                                             .num_threads = num_threads,
-                                             .progress = progress.of("clean")});
+        const cli::GivenSurface given =
+            cli::given_surface(mesh, as_surface, num_threads, progress.of("clean"));
         const agvd::Surface& surface = given.surface();
-        const std::vector<SurfacePoint> sites = given.to_surface(given_sites);
-        const agvd::Propagation propagation =
-            agvd::propagate(surface, sites,
-                            {.max_error = max_error,
-                             .relay_faces = agvd::all_faces(surface),
-                             .num_threads = num_threads,
-                             .progress = progress.of("propagate")});
+        const GivenSites::OnSurface on_surface = sites.on(given);
+        const agvd::Propagation propagation = sites.propagate_everywhere(
+            surface, on_surface, max_error, num_threads, progress.of("propagate"));
         DrawnPaths drawn;
         for (const agvd::SitePath& path :
-             agvd::paths_to_sites(surface, sites, propagation, given.to_surface(starts),
+             agvd::paths_to_sites(surface, on_surface.points, propagation, given.to_surface(starts),
                                   {.num_threads = num_threads, .progress = progress.of("paths")})) {
             drawn.add(surface.mesh.view(), path.path);
             drawn.sites.push_back(path.site);
@@ -69,16 +62,15 @@ py::dict run_paths_to_sites(const Doubles& positions, const Indices& triangles,
 
 py::dict run_paths_between(const Doubles& positions, const Indices& triangles, const Indices& faces,
                            const Doubles& barycentric, const Indices& end_faces,
-                           const Doubles& end_barycentric, double max_error, bool keep_slits,
-                           int num_threads, const py::object& function) {
+                           const Doubles& end_barycentric, const cli::SurfaceOptions& as_surface,
+                           double max_error, int num_threads, const py::object& function) {
     const agvd::MeshView mesh = view_of(positions, triangles);
     const std::vector<SurfacePoint> starts = points_of(faces, barycentric);
     const std::vector<SurfacePoint> ends = points_of(end_faces, end_barycentric);
     PythonProgress progress(function, {{"clean", 1}, {"paths", 5}});
     return to_dict(progress.run([&] {
-        const cli::GivenSurface given(mesh, {.keep_slits = keep_slits,
-                                             .num_threads = num_threads,
-                                             .progress = progress.of("clean")});
+        const cli::GivenSurface given =
+            cli::given_surface(mesh, as_surface, num_threads, progress.of("clean"));
         const std::vector<SurfacePoint> from = given.to_surface(starts);
         const std::vector<SurfacePoint> to = given.to_surface(ends);
         std::vector<agvd::PointPair> pairs;
@@ -100,13 +92,12 @@ py::dict run_paths_between(const Doubles& positions, const Indices& triangles, c
 void bind_paths(py::module_& module) {
     module.def("paths_to_sites", &run_paths_to_sites, py::arg("positions").noconvert(),
                py::arg("triangles").noconvert(), py::arg("faces").noconvert(),
-               py::arg("barycentric").noconvert(), py::arg("site_faces").noconvert(),
-               py::arg("site_barycentric").noconvert(), py::arg("max_error"), py::arg("keep_slits"),
-               py::arg("num_threads"), py::arg("progress"));
+               py::arg("barycentric").noconvert(), py::arg("sites"), py::arg("surface"),
+               py::arg("max_error"), py::arg("num_threads"), py::arg("progress"));
     module.def("paths_between", &run_paths_between, py::arg("positions").noconvert(),
                py::arg("triangles").noconvert(), py::arg("faces").noconvert(),
                py::arg("barycentric").noconvert(), py::arg("end_faces").noconvert(),
-               py::arg("end_barycentric").noconvert(), py::arg("max_error"), py::arg("keep_slits"),
+               py::arg("end_barycentric").noconvert(), py::arg("surface"), py::arg("max_error"),
                py::arg("num_threads"), py::arg("progress"));
 }
 

@@ -16,7 +16,15 @@ once, and gives the same bytes for any number of threads. Ctrl-C ends a call in 
 import sys as _sys
 
 from . import examples, tiles
-from ._diagrams import BisectorArcs, Voronoi, cut_cells, geodesic_distance, nearest_sites, voronoi
+from ._diagrams import (
+    BisectorArcs,
+    Voronoi,
+    compare,
+    cut_cells,
+    geodesic_distance,
+    nearest_sites,
+    voronoi,
+)
 from ._evaluation import evaluate
 from ._files import read, write
 from ._isolines import Isolines, isolines
@@ -59,6 +67,7 @@ __all__ = [
     "Voronoi",
     "__version__",
     "clean",
+    "compare",
     "cut_cells",
     "evaluate",
     "examples",

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+import os
 from dataclasses import dataclass
 from typing import Any
 
@@ -9,7 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _arrays, _kinds, _remesh
-from ._remesh import InvalidInput, InvalidOption, InvalidSites
+from ._given import all_sites, surface_of
+from ._remesh import InvalidOption
 from ._stages import Progress, take_sites
 
 
@@ -100,94 +103,16 @@ class Voronoi:
         return self.neighbours[self.neighbour_offsets[site]:self.neighbour_offsets[site + 1]]
 
 
-def _common(engine: str, max_error: float | None, keep_slits: bool,
-            threads: int) -> tuple[str, float | None, bool, int]:
+def _common(engine: str, max_error: float | None, threads: int) -> tuple[str, float | None, int]:
     return (engine, None if max_error is None else _arrays.number(max_error, "max_error"),
-            bool(keep_slits),
             _arrays.whole(threads, "threads", 0, 2**31 - 1))
-
-
-def _weights(weights: Any, count: int) -> NDArray[np.float64]:
-    if weights is None:
-        return np.empty(0)
-    given = np.asarray(weights)
-    if given.dtype.kind not in "fiu" or given.shape != (count,):
-        raise InvalidOption(f"weights has the shape {given.shape} and holds {given.dtype}; give a "
-                            f"number for each of the {count} points")
-    return np.require(given, np.float64, ["C", "A"])
-
-
-def _groups(groups: Any, count: int) -> _arrays.Indices:
-    given = _arrays.integers([] if groups is None else groups, "groups")
-    if groups is not None and given.shape != (count,):
-        raise InvalidOption(f"groups has the shape {given.shape}; give the site of each of the "
-                            f"{count} points")
-    wrong = _arrays.first_outside(given, count)
-    if wrong is not None:
-        raise InvalidSites(f"point {wrong} belongs to site {given[wrong]}, but {count} points "
-                           "make no more sites, counted from 0")
-    return _arrays.to_indices(given)
-
-
-def _shapes(mesh: _kinds.Given, lines: Any, regions: Any
-            ) -> tuple[list[_arrays.Indices], list[_arrays.Indices]]:
-    """Chains of vertices and sets of faces."""
-    def take(given: Any, name: str, least: int, count: int, many: str) -> list[_arrays.Indices]:
-        taken = []
-        for i, shape in enumerate([] if given is None else given):
-            numbers = _arrays.integers(shape, f"{name}[{i}]")
-            if numbers.ndim != 1 or len(numbers) < least:
-                raise InvalidSites(f"{name}[{i}] has the shape {numbers.shape}; give {least} or "
-                                   f"more {many}")
-            wrong = _arrays.first_outside(numbers, count)
-            if wrong is not None:
-                raise InvalidSites(f"{name}[{i}] names {numbers[wrong]}, but the mesh has only "
-                                   f"{count} {many}, counted from 0; correct it")
-            taken.append(_arrays.to_indices(numbers))
-        return taken
-    return (take(lines, "lines", 2, len(mesh.V), "vertices"),
-            take(regions, "regions", 1, len(mesh.F), "faces"))
-
-
-def _points(mesh: _kinds.Given, sites: Any, shapes: tuple[list[_arrays.Indices], ...]
-            ) -> tuple[_arrays.Indices, _arrays.Floats]:
-    """Sites that are points; with lines or regions there may be none."""
-    if sites is None and any(shapes):
-        return np.empty(0, np.uint32), np.empty((0, 3))
-    return take_sites(mesh, sites)
-
-
-def _barriers(barriers: Any, mesh: _kinds.Given) -> _arrays.Indices:
-    given = _arrays.integers([] if barriers is None else barriers, "barriers")
-    if given.size == 0:
-        given = given.reshape(0, 2)
-    if given.ndim != 2 or given.shape[1] != 2:
-        raise InvalidInput(f"barriers has the shape {given.shape}; give a row of two vertices for "
-                           "each edge")
-    wrong = _arrays.first_outside(given, len(mesh.V))
-    if wrong is not None:
-        raise InvalidInput(f"barrier {wrong // 2} names vertex {given.ravel()[wrong]}, but the "
-                           f"mesh has only {len(mesh.V)} vertices, counted from 0; correct it")
-    return _arrays.to_indices(given)
-
-
-def _lengths(edge_lengths: Any, barriers: Any, mesh: _kinds.Given) -> _arrays.Floats:
-    if edge_lengths is None:
-        return np.empty(0)
-    given = np.asarray(edge_lengths)
-    if given.dtype.kind not in "fiu" or given.shape != mesh.F.shape:
-        raise InvalidInput(f"edge_lengths has the shape {given.shape} and holds {given.dtype}; "
-                           "give the lengths of the three sides of each face, "
-                           f"{mesh.F.shape}")
-    if barriers is not None:
-        raise InvalidOption("edge_lengths and barriers do not go together; leave one out")
-    return np.require(given, np.float64, ["C", "A"])
 
 
 def voronoi(V: Any, F: Any = None, sites: Any = None, max_error: float | None = None, *,
             groups: Any = None, weights: Any = None, lines: Any = None, regions: Any = None,
             barriers: Any = None, edge_lengths: Any = None, engine: str = "window",
-            chord: float | None = None, keep_slits: bool = False, threads: int = 0,
+            chord: float | None = None, file: str | os.PathLike[str] | None = None,
+            keep_slits: bool = False, threads: int = 0,
             progress: Progress | None = None) -> Voronoi:
     """The geodesic Voronoi diagram of sites on a surface.
 
@@ -201,6 +126,7 @@ def voronoi(V: Any, F: Any = None, sites: Any = None, max_error: float | None = 
     lines: sites that are lines along edges: of each its vertices, every one joined to the next by an
     edge. Their numbers follow those of the points; sites may then be None.
     regions: sites that are regions, at distance 0 inside: of each its faces. Their numbers follow.
+    groups and weights may go on with those of the lines and of the regions.
     barriers: edges that no path crosses (m x 2 vertices). The mesh is cut along them; of a vertex
     on them the nearest side counts, and a site there is on the side of its face.
     edge_lengths: in place of those between the positions, which then are for drawing only (#F x 3
@@ -210,6 +136,8 @@ def voronoi(V: Any, F: Any = None, sites: Any = None, max_error: float | None = 
     engine: ``"window"`` or ``"steiner"``: see the README.
     chord: polylines stray from the bisectors by at most this length, and the result has ``arcs``;
     None: by a hundredth of each chord, without arcs.
+    file: the diagram is also written to it: ``.agvd`` (for compare()), ``.vtp``, ``.ply`` or ``.obj``,
+    as ``agvd diagram -o`` writes them.
     keep_slits: open edges at one place, such as the two sides of a slit, are not welded.
 
     >>> V, F = remesh.examples.sphere(3)
@@ -226,16 +154,40 @@ def voronoi(V: Any, F: Any = None, sites: Any = None, max_error: float | None = 
     ((2,), [0, 1])
     """
     mesh = _kinds.take(V, F)
-    shapes = _shapes(mesh, lines, regions)
-    faces, barycentric = _points(mesh, sites, shapes)
-    name, error, slits, num_threads = _common(engine, max_error, keep_slits, threads)
+    name, error, num_threads = _common(engine, max_error, threads)
     found = _remesh.voronoi(
-        mesh.V, mesh.F, faces, barycentric, _groups(groups, len(faces)),
-        _weights(weights, len(faces)), *shapes, _barriers(barriers, mesh),
-        _lengths(edge_lengths, barriers, mesh), name, error,
-        None if chord is None else _arrays.number(chord, "chord"), slits, num_threads, progress)
+        mesh.V, mesh.F, all_sites(mesh, sites, groups, weights, lines, regions),
+        surface_of(mesh, barriers, edge_lengths, keep_slits), name, error,
+        None if chord is None else _arrays.number(chord, "chord"),
+        "" if file is None else os.fspath(file), num_threads, progress)
     arcs = found.pop("arcs", None)
     return Voronoi(**found, arcs=None if arcs is None else BisectorArcs(**arcs))
+
+
+def compare(a: str | os.PathLike[str], b: str | os.PathLike[str] = "exact", *,
+            spacing: float = 0.01, samples: int = 100_000, points: int = 20_000, threads: int = 0,
+            progress: Progress | None = None) -> dict[str, Any]:
+    """Measures how far the diagram of a file is from another one of the same mesh and sites: what
+    ``agvd compare --report`` writes.
+
+    a, b: ``.agvd`` files, of voronoi(file=...) or ``agvd diagram``; b may be ``"exact"``: the exact
+    diagram of a's mesh and sites.
+    spacing: between points of a loop, in mean cell radii. samples: number of points at which cells
+    are compared. points: largest number of points of bisectors at which exact distances are
+    measured; 0: none.
+
+    >>> import tempfile
+    >>> V, F = remesh.examples.sphere(3)
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     _ = remesh.voronoi(V, F, [0, 1], regions=[[300]], file=folder + "/cells.agvd")
+    ...     figures = remesh.compare(folder + "/cells.agvd")
+    >>> figures["sites"], figures["frechet"]["unmatched_loops"]
+    (3, 0)
+    """
+    return dict(json.loads(_remesh.compare(
+        os.fspath(a), os.fspath(b), _arrays.number(spacing, "spacing"),
+        _arrays.whole(samples, "samples", 1), _arrays.whole(points, "points", 0),
+        _arrays.whole(threads, "threads", 0, 2**31 - 1), progress)))
 
 
 def cut_cells(V: Any, F: Any = None, sites: Any = None, max_error: float | None = None, *,
@@ -256,12 +208,9 @@ def cut_cells(V: Any, F: Any = None, sites: Any = None, max_error: float | None 
     (True, [0, 1], True)
     """
     mesh = _kinds.take(V, F)
-    shapes = _shapes(mesh, lines, regions)
-    faces, barycentric = _points(mesh, sites, shapes)
-    return _remesh.cut_cells(mesh.V, mesh.F, faces, barycentric, _groups(groups, len(faces)),
-                             _weights(weights, len(faces)), shapes[0], shapes[1],
-                             _barriers(barriers, mesh), _lengths(edge_lengths, barriers, mesh),
-                             *_common(engine, max_error, keep_slits, threads), progress)
+    return _remesh.cut_cells(mesh.V, mesh.F, all_sites(mesh, sites, groups, weights, lines, regions),
+                             surface_of(mesh, barriers, edge_lengths, keep_slits),
+                             *_common(engine, max_error, threads), progress)
 
 
 def geodesic_distance(V: Any, F: Any = None, sources: Any = None, max_error: float | None = None, *,
@@ -284,31 +233,30 @@ def geodesic_distance(V: Any, F: Any = None, sources: Any = None, max_error: flo
     True
     """
     mesh = _kinds.take(V, F)
-    shapes = _shapes(mesh, lines, regions)
-    faces, barycentric = _points(mesh, sources, shapes)
+    given = all_sites(mesh, sources, None, weights, lines, regions)
+    surface = surface_of(mesh, barriers, edge_lengths, keep_slits)
+    name, error, num_threads = _common(engine, max_error, threads)
     if targets is not None or radius is not None:
         if engine != "window":
             raise InvalidOption(f"targets and radius need engine='window', not {engine!r}")
-        _, error, slits, num_threads = _common(engine, max_error, keep_slits, threads)
-        to = (faces, barycentric) if targets is None else take_sites(mesh, targets)
+        to = take_sites(mesh, [0] if targets is None else targets)
         return _remesh.distances_at(
-            mesh.V, mesh.F, faces, barycentric, _weights(weights, len(faces)), *shapes,
-            _barriers(barriers, mesh), _lengths(edge_lengths, barriers, mesh), *to, targets is not None,
+            mesh.V, mesh.F, given, surface, *to, targets is not None,
             float("inf") if radius is None else _arrays.number(radius, "radius"),
-            1e-4 if error is None else error, slits, num_threads, progress)
-    return _remesh.geodesic_distance(mesh.V, mesh.F, faces, barycentric,
-                                     _weights(weights, len(faces)), shapes[0], shapes[1],
-                                     _barriers(barriers, mesh), _lengths(edge_lengths, barriers, mesh),
-                                     *_common(engine, max_error, keep_slits, threads), progress)
+            1e-4 if error is None else error, num_threads, progress)
+    return _remesh.geodesic_distance(mesh.V, mesh.F, given, surface, name, error, num_threads,
+                                     progress)
 
 
 def nearest_sites(V: Any, F: Any = None, sites: Any = None, k: int = 1, max_error: float = 1e-4, *,
-                  keep_slits: bool = False, threads: int = 0, progress: Progress | None = None
+                  groups: Any = None, weights: Any = None, lines: Any = None, regions: Any = None,
+                  barriers: Any = None, edge_lengths: Any = None, keep_slits: bool = False,
+                  threads: int = 0, progress: Progress | None = None
                   ) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
     """The k nearest sites of each vertex along the surface, and their distances: two arrays #V x k,
     the nearest first; -1 and infinity where fewer sites reach.
 
-    sites, max_error, keep_slits: as for voronoi().
+    All else: as for voronoi(). No line hides what lies beyond it.
 
     >>> V, F = remesh.examples.sphere(3)
     >>> sites, distances = remesh.nearest_sites(V, F, [0, 1, 2], k=2)
@@ -316,9 +264,10 @@ def nearest_sites(V: Any, F: Any = None, sites: Any = None, k: int = 1, max_erro
     (0, 0.0, True)
     """
     mesh = _kinds.take(V, F)
-    faces, barycentric = take_sites(mesh, sites)
     count = _arrays.whole(k, "k", 1)
     found, distances = _remesh.nearest_sites(
-        mesh.V, mesh.F, faces, barycentric, count, _arrays.number(max_error, "max_error"),
-        bool(keep_slits), _arrays.whole(threads, "threads", 0, 2**31 - 1), progress)
+        mesh.V, mesh.F, all_sites(mesh, sites, groups, weights, lines, regions),
+        surface_of(mesh, barriers, edge_lengths, keep_slits), count,
+        _arrays.number(max_error, "max_error"), _arrays.whole(threads, "threads", 0, 2**31 - 1),
+        progress)
     return found.reshape(-1, count), distances.reshape(-1, count)

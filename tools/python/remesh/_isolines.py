@@ -9,8 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _arrays, _kinds, _remesh
+from ._given import all_sites, surface_of
 from ._remesh import InvalidOption
-from ._stages import Progress, take_sites
+from ._stages import Progress
 
 
 @dataclass(frozen=True)
@@ -41,18 +42,19 @@ class Isolines:
 
 def isolines(V: Any, F: Any = None, sites: Any = None, levels: Any = None, *,
              every: float | None = None, tolerance: float | None = None, max_error: float = 0,
-             keep_slits: bool = False, threads: int = 0,
-             progress: Progress | None = None) -> Isolines:
+             groups: Any = None, weights: Any = None, lines: Any = None, regions: Any = None,
+             barriers: Any = None, edge_lengths: Any = None, keep_slits: bool = False,
+             threads: int = 0, progress: Progress | None = None) -> Isolines:
     """The lines at which the distance along the surface from the nearest site is one of the levels.
 
-    sites: as for voronoi().
+    sites, groups, weights, lines, regions, barriers, edge_lengths, keep_slits: as for voronoi().
     levels: distances in mesh units; or every: a line at each multiple of this distance, up to the
     largest distance of a vertex.
     tolerance: largest distance of the polylines from the arcs of circles that they are drawn from,
-    in mesh units; None: 0.0001 of the bounding box's diagonal. The points lie on the arcs.
+    in mesh units; None: 0.0001 of the bounding box's diagonal. The points lie on the arcs. In front
+    of edges of lines and regions they are straight.
     max_error: largest error of the distances, as a share of the exact ones; 0: points are at their
     level up to 1e-9 of it.
-    keep_slits: as for voronoi().
 
     >>> V, F = remesh.examples.sphere(4)
     >>> sorted(set(remesh.isolines(V, F, [0], every=1.0).levels.tolist()))
@@ -65,10 +67,10 @@ def isolines(V: Any, F: Any = None, sites: Any = None, levels: Any = None, *,
                                         for level in np.atleast_1d(np.asarray(levels))]
     if levels is not None and not wanted:
         raise InvalidOption("there is no level; give one or more in levels=")
-    faces, barycentric = take_sites(mesh, sites)
     return Isolines(**_remesh.isolines(
-        mesh.V, mesh.F, faces, barycentric, wanted,
+        mesh.V, mesh.F, all_sites(mesh, sites, groups, weights, lines, regions),
+        surface_of(mesh, barriers, edge_lengths, keep_slits), wanted,
         0.0 if every is None else _arrays.number(every, "every"),
         None if tolerance is None else _arrays.number(tolerance, "tolerance"),
-        _arrays.number(max_error, "max_error"), bool(keep_slits),
+        _arrays.number(max_error, "max_error"),
         _arrays.whole(threads, "threads", 0, 2**31 - 1), progress))

@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _arrays, _kinds, _remesh
-from ._remesh import InvalidSites
+from ._given import all_sites, surface_of
+from ._remesh import InvalidOption, InvalidSites
 from ._stages import Progress, take_sites
 
 
@@ -27,7 +28,8 @@ class Paths:
     points: NDArray[np.float64]
     #: #paths + 1: path i is ``points[offsets[i]:offsets[i+1]]``.
     offsets: NDArray[np.int64]
-    #: #paths: the length along the surface, in mesh units; infinity: no site reaches the start.
+    #: #paths: the length along the surface, in mesh units, without weights; infinity: no site reaches
+    #: the start.
     lengths: NDArray[np.float64]
     #: #paths, int64: the site to which each leads, -1: none reaches its start; empty with ``ends``.
     sites: NDArray[np.int64]
@@ -39,15 +41,18 @@ class Paths:
 
 
 def paths(V: Any, F: Any = None, starts: Any = None, sites: Any = None, *, ends: Any = None,
-          max_error: float = 0, keep_slits: bool = False, threads: int = 0,
-          progress: Progress | None = None) -> Paths:
+          max_error: float = 0, groups: Any = None, weights: Any = None, lines: Any = None,
+          regions: Any = None, barriers: Any = None, edge_lengths: Any = None,
+          keep_slits: bool = False, threads: int = 0, progress: Progress | None = None) -> Paths:
     """The shortest paths along a surface, from each start to its nearest site, or from start i to
     end i.
 
     starts: vertices, points, or faces and barycentric coordinates, as ``sites`` of voronoi().
     sites, ends: likewise; one of them is given, and ends are as many as starts.
     max_error: a path is at most this share longer than the shortest one; 0: it is the shortest.
-    keep_slits: as for voronoi().
+    groups, weights, lines, regions: of sites, as for voronoi(). Paths end at the nearest point of a
+    line, and at the rim of a region.
+    barriers, edge_lengths, keep_slits: as for voronoi().
 
     >>> V, F = remesh.examples.sphere(4)
     >>> path = remesh.paths(V, F, [0], ends=[1])  # pole to pole
@@ -55,15 +60,23 @@ def paths(V: Any, F: Any = None, starts: Any = None, sites: Any = None, *, ends:
     True
     """
     mesh = _kinds.take(V, F)
-    if (sites is None) == (ends is None):
+    has_sites = any(given is not None for given in (sites, lines, regions))
+    if has_sites == (ends is not None):
         raise InvalidSites("paths lead to sites, or to ends of their own; give one of sites= and "
                            "ends=")
+    if ends is not None and not (groups is None and weights is None):
+        raise InvalidOption("groups and weights are of sites; leave them out with ends=")
     begin = take_sites(mesh, starts)
-    to = take_sites(mesh, sites if ends is None else ends)
-    if ends is not None and len(begin[0]) != len(to[0]):
+    surface = surface_of(mesh, barriers, edge_lengths, keep_slits)
+    error = _arrays.number(max_error, "max_error")
+    num_threads = _arrays.whole(threads, "threads", 0, 2**31 - 1)
+    if ends is None:
+        to_sites = all_sites(mesh, sites, groups, weights, lines, regions)
+        return Paths(**_remesh.paths_to_sites(mesh.V, mesh.F, *begin, to_sites, surface, error,
+                                               num_threads, progress))
+    to = take_sites(mesh, ends)
+    if len(begin[0]) != len(to[0]):
         raise InvalidSites(f"there are {len(begin[0])} starts and {len(to[0])} ends; give as many "
                            "of both")
-    run = _remesh.paths_to_sites if ends is None else _remesh.paths_between
-    return Paths(**run(mesh.V, mesh.F, *begin, *to, _arrays.number(max_error, "max_error"),
-                       bool(keep_slits), _arrays.whole(threads, "threads", 0, 2**31 - 1),
-                       progress))
+    return Paths(**_remesh.paths_between(mesh.V, mesh.F, *begin, *to, surface, error,
+                                          num_threads, progress))

@@ -74,37 +74,43 @@ def page(positions: _Floats, triangles: _Indices, result_positions: _Floats,
          result_name: str, label_name: str, labels: _Floats, result_labels: _Floats,
          progress: _Progress) -> str: ...
 def has_viewer() -> bool: ...
-def voronoi(positions: _Floats, triangles: _Indices, faces: _Indices, barycentric: _Floats,
-            groups: _Indices, weights: _Floats, lines: list[_Indices], regions: list[_Indices],
-            barriers: _Indices, side_lengths: _Floats, engine: str, max_error: float | None, chord: float | None,
-            keep_slits: bool, num_threads: int, progress: _Progress) -> dict[str, Any]: ...
-def cut_cells(positions: _Floats, triangles: _Indices, faces: _Indices, barycentric: _Floats,
-              groups: _Indices, weights: _Floats, lines: list[_Indices], regions: list[_Indices],
-              barriers: _Indices, side_lengths: _Floats,
-              engine: str, max_error: float | None, keep_slits: bool, num_threads: int,
+class GivenSites:
+    def __init__(self, faces: _Indices, barycentric: _Floats, groups: _Indices, weights: _Floats,
+                 lines: list[_Indices], regions: list[_Indices]) -> None: ...
+
+class SurfaceOptions:
+    def __init__(self, keep_slits: bool, barriers: _Indices, side_lengths: _Floats) -> None: ...
+
+def voronoi(positions: _Floats, triangles: _Indices, sites: GivenSites, surface: SurfaceOptions,
+            engine: str, max_error: float | None, chord: float | None, file: str,
+            num_threads: int, progress: _Progress) -> dict[str, Any]: ...
+def compare(a: str, b: str, spacing: float, samples: int, points: int, num_threads: int,
+            progress: _Progress) -> str: ...
+def cut_cells(positions: _Floats, triangles: _Indices, sites: GivenSites, surface: SurfaceOptions,
+              engine: str, max_error: float | None, num_threads: int,
               progress: _Progress) -> tuple[_Floats, _Indices, _Numbers, _Numbers]: ...
-def geodesic_distance(positions: _Floats, triangles: _Indices, faces: _Indices,
-                      barycentric: _Floats, weights: _Floats, lines: list[_Indices],
-                      regions: list[_Indices], barriers: _Indices, side_lengths: _Floats, engine: str, max_error: float | None,
-                      keep_slits: bool, num_threads: int, progress: _Progress) -> _Floats: ...
+def geodesic_distance(positions: _Floats, triangles: _Indices, sites: GivenSites,
+                      surface: SurfaceOptions, engine: str, max_error: float | None,
+                      num_threads: int, progress: _Progress) -> _Floats: ...
 def paths_to_sites(positions: _Floats, triangles: _Indices, faces: _Indices,
-                   barycentric: _Floats, site_faces: _Indices, site_barycentric: _Floats,
-                   max_error: float, keep_slits: bool, num_threads: int,
+                   barycentric: _Floats, sites: GivenSites, surface: SurfaceOptions,
+                   max_error: float, num_threads: int,
                    progress: _Progress) -> dict[str, Any]: ...
 def paths_between(positions: _Floats, triangles: _Indices, faces: _Indices, barycentric: _Floats,
-                  end_faces: _Indices, end_barycentric: _Floats, max_error: float,
-                  keep_slits: bool, num_threads: int, progress: _Progress) -> dict[str, Any]: ...
-def distances_at(positions: _Floats, triangles: _Indices, faces: _Indices, barycentric: _Floats,
-                 weights: _Floats, lines: list[_Indices], regions: list[_Indices],
-                 barriers: _Indices, side_lengths: _Floats, target_faces: _Indices, target_barycentric: _Floats, has_targets: bool,
-                 radius: float, max_error: float, keep_slits: bool, num_threads: int,
+                  end_faces: _Indices, end_barycentric: _Floats, surface: SurfaceOptions,
+                  max_error: float, num_threads: int,
+                  progress: _Progress) -> dict[str, Any]: ...
+def distances_at(positions: _Floats, triangles: _Indices, sites: GivenSites,
+                 surface: SurfaceOptions, target_faces: _Indices, target_barycentric: _Floats,
+                 has_targets: bool, radius: float, max_error: float, num_threads: int,
                  progress: _Progress) -> _Floats: ...
-def nearest_sites(positions: _Floats, triangles: _Indices, faces: _Indices, barycentric: _Floats,
-                  k: int, max_error: float, keep_slits: bool, num_threads: int,
+def nearest_sites(positions: _Floats, triangles: _Indices, sites: GivenSites,
+                  surface: SurfaceOptions, k: int, max_error: float, num_threads: int,
                   progress: _Progress) -> tuple[_Numbers, _Floats]: ...
-def isolines(positions: _Floats, triangles: _Indices, faces: _Indices, barycentric: _Floats,
-             levels: list[float], step: float, tolerance: float | None, max_error: float,
-             keep_slits: bool, num_threads: int, progress: _Progress) -> dict[str, Any]: ...
+def isolines(positions: _Floats, triangles: _Indices, sites: GivenSites,
+             surface: SurfaceOptions, levels: list[float], step: float,
+             tolerance: float | None, max_error: float, num_threads: int,
+             progress: _Progress) -> dict[str, Any]: ...
 def clean(positions: _Floats, triangles: _Indices, keep_slits: bool, num_threads: int,
           progress: _Progress) -> tuple[_Floats, _Indices, _Numbers, _Numbers, dict[str, int]]: ...
 def sample_sites(positions: _Floats, triangles: _Indices, num_samples: int, init: str,

@@ -110,10 +110,15 @@ export class App {
     this.stage.setBackground(color("stage"));
     for (const view of Object.values(this.views)) {
       view.setLineColors({ crease: color("crease"), boundary: color("boundary"), cell: color("cell"),
-                           isoline: color("isoline"), site: color("site") });
+                           isoline: color("isoline"), site: color("site"), siteLine: color("site") });
     }
     for (const marker of Object.values(this.markers)) marker.setColor(color("mark"));
     this.changed();
+  }
+
+  /** Does before the view moves for the first time what would hold it up then. */
+  prepareMotion(): void {
+    for (const view of Object.values(this.views)) view.prepareMotion();
   }
 
   reset(): void {

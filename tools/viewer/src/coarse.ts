@@ -2,9 +2,9 @@
 import type { TriangleMesh } from "./packed_mesh";
 
 /** Meshes of fewer faces are always drawn themselves. */
-export const mostFacesInMotion = 12_000;
+export const mostFacesInMotion = 5_000;
 
-const cellsAlongLongestSide = 48;
+const cellsAlongLongestSide = 20;
 
 export interface CoarseMesh {
   /** Three points for each face. */
@@ -16,25 +16,27 @@ export interface CoarseMesh {
 /** Vertices in one cell of a grid become one; faces that keep three corners stay, each once. */
 export function coarseMesh(mesh: TriangleMesh): CoarseMesh {
   const cellOf = cellsOf(mesh.positions);
-  const first = new Map<number, number>();  // By cell: a vertex.
-  const vertex = Uint32Array.from(cellOf, (cell, v) => {
-    const known = first.get(cell);
-    if (known === undefined) first.set(cell, v);
-    return known ?? v;
+  const number = new Map<number, number>();  // By cell.
+  const first: number[] = [];                // By number of a cell: a vertex.
+  const numbers = Uint32Array.from(cellOf, (cell, v) => {
+    const known = number.get(cell);
+    if (known !== undefined) return known;
+    number.set(cell, first.length);
+    return first.push(v) - 1;
   });
-  const numVertices = cellOf.length;
-  const taken = new Set<string>();
+  const taken = new Set<number>();
   const faces: number[] = [], points: number[] = [];
   for (let h = 0; h < mesh.corners.length; h += 3) {
-    const corners = [vertex[mesh.corners[h]], vertex[mesh.corners[h + 1]], vertex[mesh.corners[h + 2]]];
-    const [low, middle, high] = [...corners].sort((a, b) => a - b);
-    if (low === middle || middle === high) continue;
-    const key = `${low * numVertices + middle} ${high}`;
+    const a = numbers[mesh.corners[h]], b = numbers[mesh.corners[h + 1]], c = numbers[mesh.corners[h + 2]];
+    if (a === b || b === c || c === a) continue;
+    const low = Math.min(a, b, c), high = Math.max(a, b, c);
+    const key = (low * first.length + (a + b + c - low - high)) * first.length + high;
     if (taken.has(key)) continue;
     taken.add(key);
     faces.push(h / 3);
-    for (const v of corners) {
-      points.push(mesh.positions[3 * v], mesh.positions[3 * v + 1], mesh.positions[3 * v + 2]);
+    for (const cell of [a, b, c]) {
+      const v = 3 * first[cell];
+      points.push(mesh.positions[v], mesh.positions[v + 1], mesh.positions[v + 2]);
     }
   }
   return { positions: Float32Array.from(points), faces: Uint32Array.from(faces) };

@@ -27,6 +27,7 @@ function open(content: Content, isWire: boolean): App {
   window.remeshPage = {
     state: () => app.state(), render: () => app.stage.render(), firstPicture: performance.now(),
   };
+  window.setTimeout(() => app.prepareMotion());
   return app;
 }
 

@@ -71,6 +71,8 @@ export interface PageMesh extends TriangleMesh {
   isolines: Float32Array;
   /** Three coordinates each. */
   sites: Float32Array;
+  /** As cellLines, of sites that are lines. */
+  siteLines: Float32Array;
 }
 
 export function readPageData(): ReportData | DiagramData {
@@ -127,6 +129,7 @@ export async function readMesh(id: "original" | "result", description: MeshDescr
     cellLines: lines("cell"),
     isolines: lines("isoline"),
     sites: readPoints(stream("site_steps"), lineStep, shift),
+    siteLines: lines("site_line"),
   };
 }
 

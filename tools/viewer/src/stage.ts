@@ -21,6 +21,7 @@ const fieldOfView = 32;
 const flightTime = 450;
 const restTime = 160;  // After the last change of the view.
 const slowFrame = 45;
+const softwareRatioInMotion = 0.5;
 const pause = 600;  // Pictures in motion that are farther apart belong to two motions.
 
 /** A ray through a pane, in the coordinates of the meshes. */
@@ -92,8 +93,9 @@ export class Stage {
     this.lastMotion = now;
   }
 
-  /** @param isQuick  dense meshes may be drawn coarsely. */
+  /** @param isQuick  dense meshes may be drawn coarsely, and with fewer pixels. */
   render(isQuick = false): void {
+    this.setPixelRatio(isQuick);
     const places = this.places();
     const { near, far } = this.depths();
     this.camera.near = near;
@@ -152,13 +154,20 @@ export class Stage {
   resize(): void {
     const { clientWidth, clientHeight } = this.canvas;
     if (clientWidth === 0 || clientHeight === 0) return;
-    // Two samples a side smooth the edges where drawing is quick.
-    pixelRatio.value = this.isSoftware ? 1 : Math.max(2, Math.min(window.devicePixelRatio, 3));
-    this.renderer.setPixelRatio(pixelRatio.value);
+    this.setPixelRatio(false);
     this.renderer.setSize(clientWidth, clientHeight, false);
     if (this.isAtHome) this.reset();
     this.onLayout(this.places());
     this.request();
+  }
+
+  // Two samples a side smooth the edges where drawing is quick.
+  private setPixelRatio(isQuick: boolean): void {
+    const ratio = this.isSoftware ? (isQuick ? softwareRatioInMotion : 1)
+                                  : Math.max(2, Math.min(window.devicePixelRatio, 3));
+    if (ratio === pixelRatio.value) return;
+    pixelRatio.value = ratio;
+    this.renderer.setPixelRatio(ratio);
   }
 
   /** In CSS pixels, from the top. */

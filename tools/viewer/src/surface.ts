@@ -57,12 +57,12 @@ const fragmentShader = `
   }`;
 
 // CSS pixels.
-const widths = { crease: 2, boundary: 2, cell: 1.3, isoline: 1 };
+const widths = { crease: 2, boundary: 2, cell: 1.3, isoline: 1, siteLine: 3 };
 const siteSize = 7;
 
 /** What is drawn on the faces of a diagram. */
 export type Layer = "cell" | "isoline" | "site";
-type Kind = "crease" | "boundary" | Layer;
+type Kind = "crease" | "boundary" | "siteLine" | Layer;
 export type LineColors = Record<Kind, string>;
 
 export class SurfaceView {
@@ -70,7 +70,7 @@ export class SurfaceView {
   readonly sphere: Sphere;
   private readonly lineMaterials = {
     crease: lineMaterial(widths.crease), boundary: lineMaterial(widths.boundary), cell: lineMaterial(widths.cell),
-    isoline: lineMaterial(widths.isoline), site: pointMaterial(siteSize),
+    isoline: lineMaterial(widths.isoline), site: pointMaterial(siteSize), siteLine: lineMaterial(widths.siteLine),
   };
   private readonly lines = new Group();
   private readonly layers: Record<Layer, Group> = { cell: new Group(), isoline: new Group(), site: new Group() };
@@ -113,14 +113,16 @@ export class SurfaceView {
   /** Whether a dense mesh is drawn by a coarse one. */
   setInMotion(isInMotion: boolean): void {
     const isCoarse = isInMotion && this.faceCount > mostFacesInMotion;
-    if (isCoarse && !this.coarse) this.addCoarse();
+    if (isCoarse) this.prepareMotion();
     this.faces.visible = !isCoarse;
     if (this.coarse) this.coarse.drawn.visible = isCoarse;
   }
 
   get faceCount(): number { return this.mesh.corners.length / 3; }
 
-  private addCoarse(): void {
+  /** Makes the coarse mesh, if there has to be one, before the view moves for the first time. */
+  prepareMotion(): void {
+    if (this.coarse || this.faceCount <= mostFacesInMotion) return;
     const mesh = coarseMesh(this.mesh);
     const geometry = new BufferGeometry();
     geometry.setAttribute("position", new BufferAttribute(mesh.positions, 3));
@@ -157,7 +159,9 @@ export class SurfaceView {
     if (!isShown || layer.children.length > 0) return;
     if (kind === "cell") this.addLines(layer, this.mesh.cellLines, kind);
     if (kind === "isoline") this.addLines(layer, this.mesh.isolines, kind);
-    if (kind === "site") layer.add(pointMesh(this.mesh.sites, this.lineMaterials.site));
+    if (kind !== "site") return;
+    this.addLines(layer, this.mesh.siteLines, "siteLine");
+    layer.add(pointMesh(this.mesh.sites, this.lineMaterials.site));
   }
 
   setLineColors(colors: LineColors): void {

@@ -167,6 +167,60 @@ bool is_in_reach(double error, double max_error, Index most_points) {
         ", and " + reason + "; allow a larger error, or use the window engine");
 }
 
+// Puts together what retires.
+class Collector {
+public:
+    [[nodiscard]] RetirementSink sink() {
+        return [this](RetiredFaces&& retired, Poller&) { add(retired); };
+    }
+
+    // Of a front all of whose faces have retired.
+    [[nodiscard]] Propagation result(const SteinerFront& front) {
+        std::ranges::sort(mixed_faces_, {}, [](const auto& mixed) { return mixed.first; });
+        Propagation result;
+        result.relays.reserve(relays_.size());
+        result.mixed_faces.reserve(mixed_faces_.size());
+        result.relay_ranges.reserve(mixed_faces_.size());
+        for (const auto& [face, range] : mixed_faces_) {
+            const auto begin = static_cast<Index>(result.relays.size());
+            result.mixed_faces.push_back(face);
+            result.relay_ranges.push_back({begin, begin + range.end - range.begin});
+            result.relays.insert(result.relays.end(), relays_.begin() + range.begin,
+                                 relays_.begin() + range.end);
+        }
+        const std::vector<SteinerNode>& vertices = front.vertices();
+        result.vertex_site.reserve(vertices.size());
+        result.vertex_distance.reserve(vertices.size());
+        for (const SteinerNode& node : vertices) {
+            result.vertex_site.push_back(SiteId(node.site));
+            result.vertex_distance.push_back(node.distance);
+        }
+        const std::size_t collected =
+            relays_.capacity() * sizeof(Relay) + mixed_faces_.capacity() * sizeof(mixed_faces_[0]);
+        const std::size_t own = result.relays.capacity() * sizeof(Relay) +
+                                result.mixed_faces.capacity() * sizeof(Index) +
+                                result.relay_ranges.capacity() * sizeof(RelayRange) +
+                                vertices.size() * (sizeof(SiteId) + sizeof(double));
+        result.peak_bytes =
+            collected + std::max(front.peak_bytes(), front.bytes_without_points() + own);
+        result.num_nodes = front.num_pops();
+        return result;
+    }
+
+private:
+    void add(const RetiredFaces& retired) {
+        const auto first = static_cast<Index>(relays_.size());
+        for (std::size_t i = 0; i < retired.mixed_faces.size(); ++i) {
+            const auto [begin, end] = retired.relay_ranges[i];
+            mixed_faces_.push_back({retired.mixed_faces[i], {first + begin, first + end}});
+        }
+        relays_.insert(relays_.end(), retired.relays.begin(), retired.relays.end());
+    }
+
+    std::vector<std::pair<Index, RelayRange>> mixed_faces_;  // In the order of retirement.
+    std::vector<Relay> relays_;
+};
+
 Propagation propagate_steiner_within(const Surface& surface, std::span<const SurfacePoint> sites,
                                      const PropagationOptions& options) {
     const double max_error = options.max_error.value();
@@ -188,13 +242,17 @@ Propagation propagate_steiner_within(const Surface& surface, std::span<const Sur
         const SteinerCounts counts(insertion.points());
         SteinerFront front(surface, sites, {}, options.points.start, counts);
         const double next = done + (1 - done) / 3;
-        front.run(infinity, within(options.progress, done, next));
+        Collector collector;
+        const Progress progress = within(options.progress, done, next);
+        Poller poller(progress);
+        front.run(infinity, collector.sink(), poller);
         done = next;
 
         errors.update(exact.vertex_distance, front.vertices());
         const double worst = errors.now[errors.worst];
         if (worst <= max_error) {
-            Propagation result = front.finish();
+            front.retire_all(collector.sink(), poller);
+            Propagation result = collector.result(front);
             result.certified_error = worst;
             result.peak_bytes = std::max(bytes_of_exact, result.peak_bytes + own_bytes);
             poll(options.progress, 1);
@@ -213,7 +271,8 @@ Propagation propagate_steiner_within(const Surface& surface, std::span<const Sur
             reason = "1000 points on each edge, the most that are allowed, would not suffice";
         } else if (!insertion.insert()) {
             reason = "the edges along its path have 1000 points, the most that are allowed";
-        } else if (!NodeNumbers::suffice(surface, SteinerCounts(insertion.points()).most())) {
+        } else if (!NodeNumbers::suffice(surface, SteinerCounts(insertion.points()).most(),
+                                         sites.size())) {
             reason = "more points need more than 2^32 nodes";
         }
         if (reason) refuse(max_error, errors, round, counts, surface.num_edges(), reason);
@@ -247,17 +306,37 @@ NumberedPoints with_shapes(const Surface& surface, std::span<const SurfacePoint>
     return all;
 }
 
-}  // namespace
-
-Propagation propagate_steiner(const Surface& surface, std::span<const SurfacePoint> sites,
-                              const PropagationOptions& options) {
-    if (options.max_error) return propagate_steiner_within(surface, sites, options);
+// As many points on each edge.
+// \param read  read(front) is called when all faces have retired.
+template <typename Read>
+void run_uniform(const Surface& surface, std::span<const SurfacePoint> sites,
+                 const PropagationOptions& options, const RetirementSink& sink, const Read& read) {
     const auto m = static_cast<std::uint16_t>(options.steiner_points);
     const SteinerCounts counts(std::vector<std::uint16_t>(surface.num_edges(), m));
     const NumberedPoints all = with_shapes(surface, sites, options);
     SteinerFront front(surface, all.points, all.site, options.points.start, counts);
-    front.run(std::max(1.0, options.lambda * surface.num_faces()), options.progress);
-    return front.finish();
+    front.add_regions(options.shapes, static_cast<Index>(sites.size()));
+    Poller poller(options.progress);
+    front.run(std::max(1.0, options.lambda * surface.num_faces()), sink, poller);
+    front.retire_all(sink, poller);
+    read(front);
+}
+
+}  // namespace
+
+void retire_steiner(const Surface& surface, std::span<const SurfacePoint> sites,
+                    const PropagationOptions& options, const RetirementSink& sink) {
+    run_uniform(surface, sites, options, sink, [](const SteinerFront&) {});
+}
+
+Propagation propagate_steiner(const Surface& surface, std::span<const SurfacePoint> sites,
+                              const PropagationOptions& options) {
+    if (options.max_error) return propagate_steiner_within(surface, sites, options);
+    Collector collector;
+    Propagation result;
+    run_uniform(surface, sites, options, collector.sink(),
+                [&](const SteinerFront& front) { result = collector.result(front); });
+    return result;
 }
 
 }  // namespace agvd

@@ -4,6 +4,9 @@
 // across its edge in the fan through both windows. Vertices serve their whole one-ring, so a path
 // of the graph reaches every target, and d(x) <= (d(a) + d(b) + |e|) / 2 holds on every edge.
 //
+// Nodes are settled by distance + height (Sweep), and of equal paths from a site that counts whose
+// last node comes first by (distance, node): as if they were settled by distance.
+//
 // Faces behind the front retire: their relays are made, and their points are given back. In a face
 // a node whose parent lies on it is dominated by the parent, and one that came through a neighbour
 // by the parent's image across the shared edge: so a face's relays are the parents' images
@@ -11,9 +14,10 @@
 #include "agvd/propagation/steiner/steiner_front.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "agvd/mesh/surface_points.h"
-#include "agvd/propagation/engines.h"
+#include "agvd/propagation/shape_source.h"
 
 namespace agvd {
 namespace {
@@ -23,16 +27,17 @@ constexpr std::size_t poll_interval = 1 << 16;
 // The width is a share of the mean spacing of the nodes, so that most improvements stay within a
 // bucket. No path is longer than all edges together and a start, which bounds the number of
 // buckets.
+// \param range  of the heights.
 double bucket_width(const Surface& surface, std::span<const double> starts,
-                    const SteinerCounts& counts) {
+                    const SteinerCounts& counts, double range) {
     constexpr double share = 0.15;
     double sum = 0;
     for (const double length : surface.length) sum += length;
     const Index num_edges = surface.num_edges();
     const double intervals = counts.total() + num_edges;
     const double last = starts.empty() ? 0 : *std::max_element(starts.begin(), starts.end());
-    return std::max(
-        {share * sum / intervals, (sum + last) * 0x1p-30, std::numeric_limits<double>::min()});
+    return std::max({share * sum / intervals, (sum + last + range) * 0x1p-30,
+                     std::numeric_limits<double>::min()});
 }
 
 bool settle(SteinerNode& node, const FrontEntry& entry) {
@@ -55,18 +60,21 @@ SteinerFront::SteinerFront(const Surface& surface, std::span<const SurfacePoint>
       counts_(counts),
       placement_(surface, sites, site_of_point),
       numbers_(surface, counts.most()),
+      sweep_(surface),
       vertices_(surface.num_vertices()),
       pool_(surface.num_edges(), counts),
-      queue_(bucket_width(surface, starts, counts)),
-      face_state_(surface.num_faces(), FaceState::Untouched) {}
+      queue_(bucket_width(surface, starts, counts, sweep_.range())),
+      face_state_(surface.num_faces(), FaceState::Untouched) {
+    for (Index s = 0; s < sites_.size(); ++s) {
+        if (number_of(s) == first_of_site_.size()) first_of_site_.push_back(s);
+    }
+    first_of_site_.push_back(static_cast<Index>(sites_.size()));
+}
 
-void SteinerFront::run(double retirement_interval, const Progress& progress) {
-    Poller poller(progress);
+void SteinerFront::run(double retirement_interval, const RetirementSink& sink, Poller& poller) {
     poller.tell(0);
     ticker_ = Ticker(poller);
-    for (Index s = 0; s < sites_.size(); ++s) {
-        start(sites_[s], site_of_point_.empty() ? s : site_of_point_[s]);
-    }
+    await_sites();
     double next_retirement = retirement_interval;
     const double all_nodes = static_cast<double>(surface_.num_vertices()) + counts_.total();
     while (refill()) {
@@ -86,46 +94,17 @@ void SteinerFront::run(double retirement_interval, const Progress& progress) {
         }
         if (static_cast<double>(num_pops_) >= next_retirement && refill()) {
             next_retirement += retirement_interval;
-            retire_behind(queue_.top().distance);
+            retire_behind(queue_.least_key(), sink, poller);
         }
     }
     poller.tell(1);
     ticker_ = {};
 }
 
-Propagation SteinerFront::finish() {
-    retire_behind(infinity);
-    const std::size_t common = vertices_.capacity() * sizeof(SteinerNode) + face_state_.capacity() +
-                               open_.capacity() * sizeof(Index) +
-                               relays_.capacity() * sizeof(Relay) +
-                               mixed_faces_.capacity() * sizeof(mixed_faces_[0]) + queue_.bytes();
-    Propagation result;
-    result.peak_bytes = common + pool_.peak_bytes();
+void SteinerFront::retire_all(const RetirementSink& sink, Poller& poller) {
+    peak_bytes_of_points_ = pool_.peak_bytes();
+    retire_behind(infinity, sink, poller);
     pool_.clear();
-    std::ranges::sort(mixed_faces_, {}, [](const auto& mixed) { return mixed.first; });
-    result.relays.reserve(relays_.size());
-    result.mixed_faces.reserve(mixed_faces_.size());
-    result.relay_ranges.reserve(mixed_faces_.size());
-    for (const auto& [face, range] : mixed_faces_) {
-        const auto begin = static_cast<Index>(result.relays.size());
-        result.mixed_faces.push_back(face);
-        result.relay_ranges.push_back({begin, begin + range.end - range.begin});
-        result.relays.insert(result.relays.end(), relays_.begin() + range.begin,
-                             relays_.begin() + range.end);
-    }
-    result.vertex_site.reserve(vertices_.size());
-    result.vertex_distance.reserve(vertices_.size());
-    for (const SteinerNode& node : vertices_) {
-        result.vertex_site.push_back(SiteId(node.site));
-        result.vertex_distance.push_back(node.distance);
-    }
-    const std::size_t own = result.relays.capacity() * sizeof(Relay) +
-                            result.mixed_faces.capacity() * sizeof(Index) +
-                            result.relay_ranges.capacity() * sizeof(RelayRange) +
-                            vertices_.size() * (sizeof(SiteId) + sizeof(double));
-    result.peak_bytes = std::max(result.peak_bytes, common + own);
-    result.num_nodes = num_pops_;
-    return result;
 }
 
 const SteinerNode& SteinerFront::node(Index half_edge, Index j) const {
@@ -138,6 +117,13 @@ const SteinerNode& SteinerFront::node(Index half_edge, Index j) const {
 bool SteinerFront::refill() {
     return queue_.refill([this](Index id, Index bucket) -> std::optional<FrontEntry> {
         const SteinerNode* node = nullptr;
+        if (numbers_.is_site(id)) {
+            const Index site = numbers_.site(id);
+            for (Index s = first_of_site_[site]; s < first_of_site_[site + 1]; ++s) {
+                start(sites_[s], site);
+            }
+            return std::nullopt;
+        }
         if (numbers_.is_vertex(id)) {
             node = &vertices_[id];
         } else {
@@ -150,20 +136,40 @@ bool SteinerFront::refill() {
     });
 }
 
-inline void SteinerFront::relax(SteinerNode& node, Index id, double distance, Index site,
-                                Index from, Index slot) {
+// \param height  of the node: a function, as most paths are not shorter.
+template <typename Height>
+inline void SteinerFront::relax(SteinerNode& node, Index id, double distance, const Height& height,
+                                Index site, Index from, Index slot) {
     if (distance > node.distance || node.is_settled()) return;
-    if (distance == node.distance && site >= node.site) return;
+    if (distance == node.distance && site >= node.site) {
+        if (site > node.site || !comes_first(from, slot, node)) return;
+    }
     node.distance = distance;
     node.site = site;
     node.from = from;
     node.parent_slot = static_cast<std::uint16_t>(slot);
-    queue_.push({distance, site, id}, node.queued_in);
+    queue_.push({distance, site, id}, distance + height(), node.queued_in);
+}
+
+// Whether the last node of another path of the same length, from the same site, comes before that
+// of the node's path.
+bool SteinerFront::comes_first(Index from, Index slot, const SteinerNode& node) const {
+    if (slot == FaceRing::site_slot || node.parent_slot == FaceRing::site_slot) return false;
+    const auto order_of = [&](Index face_half, Index parent) {
+        const Index h = FaceRing::half_edge(face_half, parent);
+        const Index j = FaceRing::number_of(parent);
+        if (j == 0) return std::pair(vertices_[surface_.tail(h)].distance, surface_.tail(h));
+        const Index edge = surface_.edge[h];
+        const Index k = surface_.edge_half[edge] == h ? j - 1 : counts_[edge] - j;
+        return std::pair(pool_.nodes(edge)[k].distance, numbers_.of_point(edge, k));
+    };
+    return order_of(from, slot) < order_of(node.from, node.parent_slot);
 }
 
 void SteinerFront::relax_vertex(Index from, double distance, Index site, Index slot) {
     const Index v = surface_.tail(from);
-    relax(vertices_[v], v, distance, site, from, slot);
+    relax(
+        vertices_[v], v, distance, [&] { return sweep_.height(v); }, site, from, slot);
 }
 
 // Serves the points [begin, end) of half-edge `from`, which are numbered 1 to m from its tail. They
@@ -182,11 +188,14 @@ void SteinerFront::relax_points(Index from, Index begin, Index end, const Vec2& 
     const double step = counts_.step(edge);
     const Index first_id = numbers_.of_point(edge, 0);
     const Vec2 offset = tail - source;
+    const double height = sweep_.height(surface_.tail(from));
+    const double rise = sweep_.height(surface_.head(from)) - height;
     for (Index j = begin; j < end; ++j) {
         const double t = j * step;
         const double distance = base + (offset + t * along).norm();
         const Index k = forward ? j - 1 : m - j;
-        relax(nodes[k], first_id + k, distance, site, from, slot);
+        relax(
+            nodes[k], first_id + k, distance, [&] { return height + t * rise; }, site, from, slot);
     }
 }
 
@@ -196,10 +205,23 @@ void SteinerFront::relax_side(Index from, const Vec2& source, double base, Index
                  source, base, site, slot);
 }
 
+// Sites start when the front comes to them: until then they take no nodes.
+void SteinerFront::await_sites() {
+    for (Index site = 0; site + 1 < first_of_site_.size(); ++site) {
+        double height = infinity;
+        for (Index s = first_of_site_[site]; s < first_of_site_[site + 1]; ++s) {
+            height = std::min(height, sweep_.height(surface_, sites_[s]));
+        }
+        queue_.push_unknown(numbers_.of_site(site), start_of(starts_, site) + height);
+    }
+}
+
 void SteinerFront::start(const SurfacePoint& place, Index s) {
     const double base = start_of(starts_, s);
     if (const auto vertex = vertex_of(surface_, place)) {
-        relax(vertices_[*vertex], *vertex, base, s, no_index, FaceRing::site_slot);
+        relax(
+            vertices_[*vertex], *vertex, base, [&] { return sweep_.height(*vertex); }, s, no_index,
+            FaceRing::site_slot);
         return;
     }
     for_each_side(surface_, place, [&](const SurfacePoint& point, Index) {
@@ -297,22 +319,29 @@ Vec2 SteinerFront::parent_spacing(const SteinerNode& node) const {
     return counts_.step(surface_.edge[Surface::previous(h)]) * apex;
 }
 
+// By d(x) <= min(d(a) + |a x|, d(b) + |x b|) on an edge: with the heights this is the largest where
+// both are equal, at (d(a) + d(b) + |e|) / 2.
 bool SteinerFront::is_behind(Index face, double front) const {
     for (Index h = 3 * face; h < 3 * face + 3; ++h) {
-        const double bound = (vertices_[surface_.tail(h)].distance +
-                              vertices_[surface_.head(h)].distance + surface_.length_of(h)) /
-                             2;
+        const double a = vertices_[surface_.tail(h)].distance;
+        const double b = vertices_[surface_.head(h)].distance;
+        const double length = surface_.length_of(h);
+        const double height = sweep_.height(surface_.tail(h));
+        const double rise = sweep_.height(surface_.head(h)) - height;
+        const double bound = (a + b + length) / 2 + height + rise * (b - a + length) / (2 * length);
         if (!(bound < front)) return false;
     }
     return true;
 }
 
-void SteinerFront::retire(Index face) {
+void SteinerFront::retire(Index face, RetiredFaces& retired) {
     face_state_[face] = FaceState::Retired;
+    retired.faces.push_back(face);
     if (is_mixed(face)) {
-        const auto begin = static_cast<Index>(relays_.size());
-        collect(face);
-        mixed_faces_.push_back({face, {begin, static_cast<Index>(relays_.size())}});
+        const auto begin = static_cast<Index>(retired.relays.size());
+        collect(face, retired.relays);
+        retired.mixed_faces.push_back(face);
+        retired.relay_ranges.push_back({begin, static_cast<Index>(retired.relays.size())});
     }
     for (Index h = 3 * face; h < 3 * face + 3; ++h) {
         const Index twin = surface_.twin[h];
@@ -346,35 +375,39 @@ bool SteinerFront::is_mixed(Index face) {
     return may_hold_another(face);
 }
 
-void SteinerFront::add_relay(Index half_edge, const Vec2& image, double weight, Index site) {
-    relays_.push_back({image.x(), image.y(), std::max(weight, 0.0), 0,
-                       surface_.length_of(half_edge), SiteId(site), half_edge});
+void SteinerFront::add_relay(Index half_edge, const Vec2& image, double weight, Index site,
+                             std::vector<Relay>& relays) const {
+    relays.push_back({image.x(), image.y(), std::max(weight, 0.0), 0, surface_.length_of(half_edge),
+                      SiteId(site), half_edge});
 }
 
-void SteinerFront::collect(Index face) {
+void SteinerFront::collect(Index face, std::vector<Relay>& relays) {
     for (const PlacedSite& placed : placement_.in_face(face)) {
         add_relay(3 * face, position_in_frame(surface_, placed.point, 3 * face),
-                  start_of(starts_, placed.site), placed.site);
+                  start_of(starts_, placed.site), placed.site, relays);
+    }
+    for (const PlacedRegion& region : placement_.regions_of(face)) {
+        relays.push_back(region_relay(surface_, region, start_of(starts_, region.site)));
     }
     for (Index h = 3 * face; h < 3 * face + 3; ++h) {
         const SteinerNode& corner = vertices_[surface_.tail(h)];
         if (corner.from != h) {  // Else its parent in this face replaces it.
-            add_relay(h, {0, 0}, corner.distance, corner.site);
+            add_relay(h, {0, 0}, corner.distance, corner.site, relays);
         }
         const Index twin = surface_.twin[h];
-        if (twin != no_index) collect_across(h, twin);
+        if (twin != no_index) collect_across(h, twin, relays);
     }
 }
 
 // Adds the images of the parents in the neighbour from which nodes on h were reached.
-void SteinerFront::collect_across(Index h, Index twin) {
+void SteinerFront::collect_across(Index h, Index twin, std::vector<Relay>& relays) {
     const double length = surface_.length_of(h);
     const auto mirrored = [length](const Vec2& p) { return Vec2(length - p.x(), -p.y()); };
     const Index neighbour = Surface::face(twin);
     for (const PlacedSite& placed : placement_.in_face(neighbour)) {
         const Vec2 image = mirrored(position_in_frame(surface_, placed.point, twin));
         // Sites on the edge are in in_face(face), too.
-        if (image.y() < 0) add_relay(h, image, start_of(starts_, placed.site), placed.site);
+        if (image.y() < 0) add_relay(h, image, start_of(starts_, placed.site), placed.site, relays);
     }
     const Index edge = surface_.edge[h];
     const Index m = counts_[edge];
@@ -396,20 +429,32 @@ void SteinerFront::collect_across(Index h, Index twin) {
         const Vec2 p = FaceRing::position(surface_, counts_, twin, node.parent_slot);
         const Index j = surface_.edge_half[edge] == twin ? k + 1 : m - k;
         const double chord = (p - Vec2(length * j * step, 0)).norm();
-        add_relay(h, mirrored(p), node.distance - chord, node.site);
+        add_relay(h, mirrored(p), node.distance - chord, node.site, relays);
     }
 }
 
-void SteinerFront::retire_behind(double front) {
+void SteinerFront::retire_behind(double front, const RetirementSink& sink, Poller& poller) {
+    constexpr std::size_t most_at_once = 1 << 10;  // Their relays take half a megabyte.
+    RetiredFaces retired;
     std::size_t kept = 0;
     for (const Index face : open_) {
-        if (is_behind(face, front)) {
-            retire(face);
-        } else {
+        if (!is_behind(face, front)) {
             open_[kept++] = face;
+            continue;
         }
+        retire(face, retired);
+        if (retired.faces.size() == most_at_once) hand_over(retired, sink, poller);
     }
     open_.resize(kept);
+    if (!retired.faces.empty()) hand_over(retired, sink, poller);
+}
+
+void SteinerFront::hand_over(RetiredFaces& retired, const RetirementSink& sink,
+                             Poller& poller) const {
+    retired.label = [this](Index v) {
+        return VertexLabel{SiteId(vertices_[v].site), vertices_[v].distance};
+    };
+    sink(std::exchange(retired, {}), poller);
 }
 
 }  // namespace agvd

@@ -12,9 +12,10 @@
 
 #include "agvd/core/progress.h"
 #include "agvd/propagation/bucket_ring.h"
-#include "agvd/propagation/propagate.h"
+#include "agvd/propagation/retirement.h"
 #include "agvd/propagation/site_placement.h"
 #include "agvd/propagation/steiner/steiner_nodes.h"
+#include "agvd/propagation/steiner/sweep.h"
 
 namespace agvd {
 
@@ -71,17 +72,19 @@ struct FrontEntry {
     auto operator<=>(const FrontEntry&) const = default;
 };
 
-//! The queue of searches that serve every node once, in the order (distance, site, node);
-//! WindowQueue is for those that may serve an item again. Only the open bucket is a heap; a node
-//! that improves within its bucket is not pushed again. The caller skips stale entries.
+//! The queue of searches that serve every node once, by buckets of distance + height (Sweep) and in
+//! a bucket in the order (distance, site, node); WindowQueue is for those that may serve an item
+//! again. Only the open bucket is a heap; a node that improves within its bucket is not pushed
+//! again. The caller skips stale entries.
 class FrontQueue {
 public:
-    //! \param bucket_width > 0, mesh units; no distance may exceed 2^31 widths.
-    explicit FrontQueue(double bucket_width) : per_width_(1 / bucket_width) {}
+    //! \param bucket_width > 0, mesh units; no key may exceed 2^31 widths.
+    explicit FrontQueue(double bucket_width) : width_(bucket_width), per_width_(1 / bucket_width) {}
 
+    //! \param key  distance + height, >= 0.
     //! \param queued_in  the node's own memory of the bucket it waits in; no_index at first.
-    void push(const FrontEntry& entry, Index& queued_in) {
-        const auto bucket = static_cast<Index>(entry.distance * per_width_) + 1;
+    void push(const FrontEntry& entry, double key, Index& queued_in) {
+        const Index bucket = bucket_of(key);
         if (bucket <= buckets_.current()) {
             add(entry);
         } else if (queued_in != bucket) {
@@ -90,7 +93,10 @@ public:
         }
     }
 
-    //! Makes top() and pop() possible; false when nothing is left.
+    //! A node whose distance is not known yet, or what stands for several. Not while entries wait.
+    void push_unknown(Index node, double key) { buckets_.push(bucket_of(key), node); }
+
+    //! Makes pop() possible; false when nothing is left.
     //! \param load  load(node, bucket) returns the node's entry if it still waits in that bucket.
     template <typename Load>
     [[nodiscard]] bool refill(const Load& load) {
@@ -106,7 +112,8 @@ public:
         return true;
     }
 
-    [[nodiscard]] const FrontEntry& top() const { return heap_.front(); }
+    //! No entry has a key below this one.
+    [[nodiscard]] double least_key() const { return (buckets_.current() - 1.0) * width_; }
 
     FrontEntry pop() {
         std::pop_heap(heap_.begin(), heap_.end(), std::greater<>());
@@ -121,18 +128,22 @@ public:
     }
 
 private:
+    [[nodiscard]] Index bucket_of(double key) const {
+        return static_cast<Index>(key * per_width_) + 1;
+    }
     void add(const FrontEntry& entry) {
         heap_.push_back(entry);
         std::push_heap(heap_.begin(), heap_.end(), std::greater<>());
     }
 
+    double width_;
     double per_width_;
     std::vector<FrontEntry> heap_;  // Of the open bucket.
     BucketRing<Index> buckets_;     // Numbered from 1.
 };
 
-//! One propagation over given Steiner points: run(), then finish(). Between the two the nodes of
-//! faces that have not retired can be read.
+//! One propagation over given Steiner points: run(), then retire_all(). Between the two the nodes
+//! of faces that have not retired can be read.
 class SteinerFront {
 public:
     //! \param site_of_point  #sites: the numbers of the sites; those with the same number start at the
@@ -143,15 +154,32 @@ public:
                  std::span<const Index> site_of_point, std::span<const double> starts,
                  const SteinerCounts& counts);
 
+    //! As SitePlacement::add_regions.
+    void add_regions(std::span<const SiteShape> shapes, Index first) {
+        placement_.add_regions(shapes, first);
+    }
+
     //! Settles all nodes.
     //! \param retirement_interval  pops from one retirement to the next, > 0; infinity keeps all
     //!                             nodes.
+    //! \param sink  gets the faces that retire.
     //! \throw Cancelled
-    void run(double retirement_interval, const Progress& progress);
+    void run(double retirement_interval, const RetirementSink& sink, Poller& poller);
     //! Retires the faces that are left. Afterwards no point can be read.
-    [[nodiscard]] Propagation finish();
+    void retire_all(const RetirementSink& sink, Poller& poller);
 
     [[nodiscard]] const std::vector<SteinerNode>& vertices() const { return vertices_; }
+    //! Nodes that were settled.
+    [[nodiscard]] std::size_t num_pops() const { return num_pops_; }
+    //! Most that was held at once.
+    [[nodiscard]] std::size_t peak_bytes() const {
+        return bytes_without_points() + peak_bytes_of_points_;
+    }
+    //! Beside the Steiner points, which are gone after retire_all().
+    [[nodiscard]] std::size_t bytes_without_points() const {
+        return vertices_.capacity() * sizeof(SteinerNode) + face_state_.capacity() +
+               open_.capacity() * sizeof(Index) + queue_.bytes();
+    }
     //! Node j of a half-edge: 0 is its tail, the others are its points, counted from the tail. A
     //! face on one side of the half-edge has not retired.
     [[nodiscard]] const SteinerNode& node(Index half_edge, Index j) const;
@@ -159,12 +187,19 @@ public:
 private:
     enum class FaceState : std::uint8_t { Untouched, Open, Retired };
 
+    [[nodiscard]] Index number_of(Index point) const {
+        return site_of_point_.empty() ? point : site_of_point_[point];
+    }
     [[nodiscard]] bool refill();
-    void relax(SteinerNode& node, Index id, double distance, Index site, Index from, Index slot);
+    template <typename Height>
+    void relax(SteinerNode& node, Index id, double distance, const Height& height, Index site,
+               Index from, Index slot);
+    [[nodiscard]] bool comes_first(Index from, Index slot, const SteinerNode& node) const;
     void relax_vertex(Index from, double distance, Index site, Index slot);
     void relax_points(Index from, Index begin, Index end, const Vec2& tail, const Vec2& along,
                       const Vec2& source, double base, Index site, Index slot);
     void relax_side(Index from, const Vec2& source, double base, Index site, Index slot);
+    void await_sites();
     void start(const SurfacePoint& point, Index site);
     void serve_one_ring(Index vertex);
     void serve_onward(Index edge, Index point);
@@ -177,16 +212,17 @@ private:
         face_state_[face] = FaceState::Open;
         open_.push_back(face);
     }
-    // Retires the open faces whose boundary is nearer than `front` by the bound
-    // d(x) <= (d(a) + d(b) + |e|) / 2 on an edge.
-    void retire_behind(double front);
-    void retire(Index face);
+    // Retires the open faces all of whose nodes have keys below `front`.
+    void retire_behind(double front, const RetirementSink& sink, Poller& poller);
+    void retire(Index face, RetiredFaces& retired);
+    void hand_over(RetiredFaces& retired, const RetirementSink& sink, Poller& poller) const;
     [[nodiscard]] bool is_behind(Index face, double front) const;
     [[nodiscard]] bool are_all_from(Index half_edge, Index site);
     [[nodiscard]] bool is_mixed(Index face);
-    void add_relay(Index half_edge, const Vec2& image, double weight, Index site);
-    void collect(Index face);
-    void collect_across(Index h, Index twin);
+    void add_relay(Index half_edge, const Vec2& image, double weight, Index site,
+                   std::vector<Relay>& relays) const;
+    void collect(Index face, std::vector<Relay>& relays);
+    void collect_across(Index h, Index twin, std::vector<Relay>& relays);
 
     const Surface& surface_;
     std::span<const SurfacePoint> sites_;
@@ -195,16 +231,17 @@ private:
     const SteinerCounts& counts_;
     SitePlacement placement_;
     NodeNumbers numbers_;
+    Sweep sweep_;
+    std::vector<Index> first_of_site_;  // By number, and one more: the first of its sites_.
     std::vector<SteinerNode> vertices_;
     SteinerPool pool_;
     FrontQueue queue_;
     std::vector<FaceState> face_state_;  // #F
     std::vector<Index> open_;
-    std::vector<std::pair<Index, RelayRange>> mixed_faces_;  // In the order of retirement.
-    std::vector<Relay> relays_;
     std::vector<std::pair<Index, Index>> seen_slots_;  // Scratch: (slot, site).
     Ticker ticker_;                                    // Of run().
     std::size_t num_pops_ = 0;
+    std::size_t peak_bytes_of_points_ = 0;
 };
 
 }  // namespace agvd

@@ -54,18 +54,26 @@ private:
 };
 
 //! Numbers of nodes: vertices first, then the points of each edge in steps of 2^shift, at least the
-//! most points of an edge. So the edge of a node is found by a shift, not by a division.
+//! most points of an edge. So the edge of a node is found by a shift, not by a division. Behind
+//! them come numbers for sites that have not started.
 class NodeNumbers {
 public:
     NodeNumbers(const Surface& surface, Index most_points)
-        : num_vertices_(surface.num_vertices()), shift_(shift_for(most_points)) {}
+        : num_vertices_(surface.num_vertices()),
+          shift_(shift_for(most_points)),
+          num_nodes_(num_vertices_ + (surface.num_edges() << shift_)) {}
 
     //! All numbers are below no_index, and a few below it are free.
-    [[nodiscard]] static bool suffice(const Surface& surface, Index most_points) {
-        return static_cast<double>(surface.num_vertices()) +
+    [[nodiscard]] static bool suffice(const Surface& surface, Index most_points,
+                                      std::size_t num_sites) {
+        return static_cast<double>(surface.num_vertices()) + static_cast<double>(num_sites) +
                    std::ldexp(static_cast<double>(surface.num_edges()), shift_for(most_points)) <
                static_cast<double>(no_index);
     }
+
+    [[nodiscard]] bool is_site(Index number) const { return number >= num_nodes_; }
+    [[nodiscard]] Index of_site(Index site) const { return num_nodes_ + site; }
+    [[nodiscard]] Index site(Index number) const { return number - num_nodes_; }
 
     [[nodiscard]] bool is_vertex(Index node) const { return node < num_vertices_; }
     [[nodiscard]] Index of_point(Index edge, Index point) const {
@@ -83,6 +91,7 @@ private:
 
     Index num_vertices_;
     int shift_;
+    Index num_nodes_;
 };
 
 //! The nodes on a face's boundary, numbered counter-clockwise from the tail of one of its
@@ -176,7 +185,8 @@ private:
         return chunks_[i >> chunk_shift_].get() + (i & ((Index{1} << chunk_shift_) - 1));
     }
 
-    Index take_block(Index size) {
+    // What is rare stays out of the loops that read nodes, so that nodes() can be inlined.
+    [[gnu::noinline]] Index take_block(Index size) {
         if (std::vector<Index>& free = free_[size]; !free.empty()) {
             const Index first = free.back();
             free.pop_back();

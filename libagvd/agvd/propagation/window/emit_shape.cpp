@@ -19,46 +19,56 @@ struct FaceRay {
     Vec2 ray;
 };
 
-// The next half-edge around the tail; no_index: at the end of the sector.
-Index turn_left(const Corners& corners, Index h) { return corners.twin(Surface::previous(h)); }
-Index turn_right(const Corners& corners, Index h) {
-    const Index twin = corners.twin(h);
-    return twin == no_index ? no_index : Surface::next(twin);
-}
+// The faces around the vertices of a shape, off the shape.
+struct Around {
+    const Corners& corners;
+    const ShapeSource& shape;
+
+    [[nodiscard]] bool is_side(Index h) const { return is_among(shape.sides, h); }
+    // The next half-edge around the tail; no_index: at the end of the sector.
+    [[nodiscard]] Index left(Index h) const {
+        const Index previous = Surface::previous(h);
+        return is_side(previous) ? no_index : corners.twin(previous);
+    }
+    [[nodiscard]] Index right(Index h) const {
+        const Index twin = is_side(h) ? no_index : corners.twin(h);
+        return twin == no_index ? no_index : Surface::next(twin);
+    }
+};
 
 // The ray at a right angle, counter-clockwise, from the half-edge at which a sector begins.
-std::optional<FaceRay> right_angle_after(const Corners& corners, Index first) {
+std::optional<FaceRay> right_angle_after(const Around& around, Index first) {
     FaceRay at{first, {0, 1}};
     while (true) {
-        const Vec2 turned = into(corners[at.half_edge].turn, at.ray);
+        const Vec2 turned = into(around.corners[at.half_edge].turn, at.ray);
         if (turned.y() <= 0) return at;
-        const Index next = turn_left(corners, at.half_edge);
+        const Index next = around.left(at.half_edge);
         if (next == no_index) return std::nullopt;
         at = {next, turned};
     }
 }
 
 // The same clockwise from the edge at which a sector ends, behind the face of the half-edge `last`.
-std::optional<FaceRay> right_angle_before(const Corners& corners, Index last) {
-    const Vec2& end = corners[last].turn;
+std::optional<FaceRay> right_angle_before(const Around& around, Index last) {
+    const Vec2& end = around.corners[last].turn;
     FaceRay at{last, {end.y(), -end.x()}};
     while (!(at.ray.y() > 0)) {
-        const Index next = turn_right(corners, at.half_edge);
+        const Index next = around.right(at.half_edge);
         if (next == no_index) return std::nullopt;
-        const Vec2& corner = corners[next].turn;
+        const Vec2& corner = around.corners[next].turn;
         at = {next, into({corner.x(), -corner.y()}, at.ray)};
     }
     return at;
 }
 
 // Whether a ray lies behind another one counter-clockwise, by more than rounding, in one sector.
-bool is_behind(const Corners& corners, const FaceRay& later, const FaceRay& earlier) {
+bool is_behind(const Around& around, const FaceRay& later, const FaceRay& earlier) {
     FaceRay at = earlier;
     bool is_first = true;
     while (at.half_edge != later.half_edge) {
-        const Index next = turn_left(corners, at.half_edge);
+        const Index next = around.left(at.half_edge);
         if (next == no_index) return false;
-        at = {next, is_first ? into(corners[at.half_edge].turn, at.ray) : Vec2(0, 0)};
+        at = {next, is_first ? into(around.corners[at.half_edge].turn, at.ray) : Vec2(0, 0)};
         is_first = false;
     }
     if (at.ray == Vec2(0, 0)) return true;  // A whole face lies between.
@@ -67,22 +77,20 @@ bool is_behind(const Corners& corners, const FaceRay& later, const FaceRay& earl
 }
 
 // Whether a half-edge at which a sector ends belongs to a line or region, not to the boundary only.
-bool is_of_shape(const WindowFront& front, const ShapeSource& shape, Index half_edge) {
-    return front.surface.twin[half_edge] != no_index ||
-           std::binary_search(shape.sides.begin(), shape.sides.end(), half_edge);
+bool is_of_shape(const WindowFront& front, const Around& around, Index half_edge) {
+    return front.surface.twin[half_edge] != no_index || around.is_side(half_edge);
 }
 
 // Emits into the sector that begins at a side.
-void emit_left_of_tail(WindowFront& front, const ShapeSource& shape, Index side) {
-    const Corners& corners = front.corners;
-    const std::optional<FaceRay> from = right_angle_after(corners, side);
+void emit_left_of_tail(WindowFront& front, const Around& around, Index side) {
+    const std::optional<FaceRay> from = right_angle_after(around, side);
     if (!from) return;
     Index last = from->half_edge;
-    for (Index next = last; next != no_index; next = turn_left(corners, next)) last = next;
-    Fan fan{0, 0, from->half_edge, last, from->ray};
-    if (is_of_shape(front, shape, Surface::previous(last))) {
-        const std::optional<FaceRay> to = right_angle_before(corners, last);
-        if (!to || !is_behind(corners, *to, *from)) return;
+    for (Index next = last; next != no_index; next = around.left(next)) last = next;
+    Fan fan{around.shape.start, 0, from->half_edge, last, from->ray};
+    if (is_of_shape(front, around, Surface::previous(last))) {
+        const std::optional<FaceRay> to = right_angle_before(around, last);
+        if (!to || !is_behind(around, *to, *from)) return;
         fan.last = to->half_edge;
         fan.to = to->ray;
     }
@@ -90,14 +98,13 @@ void emit_left_of_tail(WindowFront& front, const ShapeSource& shape, Index side)
 }
 
 // Emits into the sector that ends at a side, if it begins at the boundary.
-void emit_right_of_head(WindowFront& front, const ShapeSource& shape, Index side) {
-    const Corners& corners = front.corners;
-    const std::optional<FaceRay> to = right_angle_before(corners, Surface::next(side));
+void emit_right_of_head(WindowFront& front, const Around& around, Index side) {
+    const std::optional<FaceRay> to = right_angle_before(around, Surface::next(side));
     if (!to) return;
     Index first = to->half_edge;
-    for (Index next = first; next != no_index; next = turn_right(corners, next)) first = next;
-    if (is_of_shape(front, shape, first)) return;
-    (void)emit_fan(front, {0, 0, first, to->half_edge, {}, to->ray});
+    for (Index next = first; next != no_index; next = around.right(next)) first = next;
+    if (is_of_shape(front, around, first)) return;
+    (void)emit_fan(front, {around.shape.start, 0, first, to->half_edge, {}, to->ray});
 }
 
 }  // namespace
@@ -105,12 +112,14 @@ void emit_right_of_head(WindowFront& front, const ShapeSource& shape, Index side
 void emit_from_shape(WindowFront& front, const ShapeSource& shape) {
     for (const Index vertex : shape.vertices) {
         VertexRecord& v = front.vertices.records[vertex_record(front, vertex)];
-        v.low = v.upper = v.bound = 0;
+        v.low = v.upper = shape.start;
+        v.bound = std::min(v.bound, shape.start);
     }
-    for (const Index side : shape.sides) {
-        emit_beam(front, side);
-        emit_left_of_tail(front, shape, side);
-        emit_right_of_head(front, shape, side);
+    const Around around{front.corners, shape};
+    for (const Index side : shape.own_sides) {
+        emit_beam(front, side, shape.start);
+        emit_left_of_tail(front, around, side);
+        emit_right_of_head(front, around, side);
     }
 }
 

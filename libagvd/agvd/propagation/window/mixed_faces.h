@@ -10,8 +10,8 @@
 
 #include "agvd/core/parallel.h"
 #include "agvd/mesh/surface_points.h"
-#include "agvd/propagation/engines.h"
 #include "agvd/propagation/propagate.h"
+#include "agvd/propagation/shape_source.h"
 #include "agvd/propagation/site_placement.h"
 #include "agvd/propagation/window/beam.h"
 #include "agvd/propagation/window/window.h"
@@ -109,8 +109,8 @@ inline bool is_source(const Surface& surface, std::span<const double> starts,
            from_site <= near_vertex * surface.length_of(half_edge);
 }
 
-// Calls each(relay) for the relays that start in a face: those of its placed sites, and of its
-// corners that are sites or pseudo-sources, with the distances of `result`.
+// Calls each(relay) for the relays that start in a face: those of its placed sites and regions, and
+// of its corners that are sites or pseudo-sources, with the distances of `result`.
 template <typename Each>
 void for_each_inner_relay(const Surface& surface, const StartingSites& sites,
                           const Propagation& result, Index face, const Each& each) {
@@ -118,6 +118,9 @@ void for_each_inner_relay(const Surface& surface, const StartingSites& sites,
         const Vec2 p = position_in_frame(surface, site.point, 3 * face);
         each(Relay{p.x(), p.y(), start_of(sites.starts, site.site), 0, surface.length_of(3 * face),
                    SiteId(site.site), 3 * face});
+    }
+    for (const PlacedRegion& region : sites.placement.regions_of(face)) {
+        each(region_relay(surface, region, start_of(sites.starts, region.site)));
     }
     for (Index h = 3 * face; h < 3 * face + 3; ++h) {
         if (!is_source(surface, sites.starts, result, h)) continue;
@@ -202,6 +205,7 @@ private:
                 face.add_site(result_.vertex_site[v].value());
             }
             for (const PlacedSite& p : sites_.placement.in_face(f)) face.add_site(p.site);
+            for (const PlacedRegion& r : sites_.placement.regions_of(f)) face.add_site(r.site);
             if (face.site != FaceRelays::several) continue;
             for_each_inner_relay(surface_, sites_, result_, f, [&](const Relay&) { ++face.count; });
             ++own.face;

@@ -153,8 +153,8 @@ double reach_apex_by_beam(WindowFront& front, const Beam& beam, const WindowFace
 
 }  // namespace
 
-void emit_beam(WindowFront& front, Index side) {
-    send_beam(front, {0, -1, 0, 0, front.corners.length(side), side,
+void emit_beam(WindowFront& front, Index side, double start) {
+    send_beam(front, {0, -1, start, 0, front.corners.length(side), side,
                       vertex_record(front, front.corners.tail(side)),
                       vertex_record(front, front.corners.head(side))});
 }

@@ -14,6 +14,7 @@
 #include "agvd/core/parallel.h"
 #include "agvd/mesh/surface.h"
 #include "agvd/propagation/distance_bounds.h"
+#include "agvd/propagation/shape_source.h"
 #include "agvd/propagation/window/mixed_faces.h"
 #include "agvd/propagation/window/window_front.h"
 
@@ -123,6 +124,7 @@ public:
           options_(options),
           work_cap_(work_cap),
           bounds_(std::move(bounds)) {
+        placement_.add_regions(options.shapes, static_cast<Index>(sites.size()));
         for (const Index face : options.relay_faces) borders_[face] = 1;
     }
 
@@ -323,9 +325,9 @@ private:
         for (const Index v : surface_.mesh.triangles[face]) {
             if (result_.vertex_site[v].value() != site) return false;
         }
-        const auto placed = placement_.in_face(face);
-        return std::all_of(placed.begin(), placed.end(),
-                           [&](const PlacedSite& p) { return p.site == site; });
+        const auto is_it = [&](const auto& placed) { return placed.site == site; };
+        return std::ranges::all_of(placement_.in_face(face), is_it) &&
+               std::ranges::all_of(placement_.regions_of(face), is_it);
     }
 
     const Surface& surface_;
@@ -347,18 +349,29 @@ private:
     Propagation result_;
 };
 
-std::vector<ShapeSource> sources_of(const Surface& surface, std::span<const SiteShape> shapes) {
-    std::vector<ShapeSource> sources;
-    for (const SiteShape& shape : shapes) sources.push_back(shape_source(surface, shape));
-    return sources;
+// Lines may share edges. Of the shapes with a side the one with the least start keeps it, of equal
+// ones the first: from there on others are no nearer.
+void keep_own_sides(std::vector<ShapeSource>& shapes) {
+    std::vector<std::tuple<Index, double, Index>> all;
+    for (Index i = 0; i < shapes.size(); ++i) {
+        for (const Index side : shapes[i].sides) all.emplace_back(side, shapes[i].start, i);
+        shapes[i].own_sides.clear();
+    }
+    std::sort(all.begin(), all.end());
+    Index last = no_index;
+    for (const auto& [side, start, shape] : all) {
+        if (side != last) shapes[shape].own_sides.push_back(side);
+        last = side;
+    }
 }
 
-// The corners without ways across lines and into regions.
+// The corners without ways across lines and into regions at distance 0: no path crosses them.
 std::shared_ptr<const Corners> corners_around(const Surface& surface,
                                               std::shared_ptr<const Corners> corners,
                                               std::span<const ShapeSource> shapes) {
     std::vector<Index> cut;
     for (const ShapeSource& shape : shapes) {
+        if (shape.start > 0) continue;
         for (const Index h : shape.sides) {
             cut.push_back(h);
             if (surface.twin[h] != no_index) cut.push_back(surface.twin[h]);
@@ -385,7 +398,8 @@ Propagation propagate_windows(const Surface& surface, SurfaceLayout layout,
                               const PropagationOptions& options, Index work_cap,
                               std::span<const float> caps) {
     poll(options.progress, 0);
-    const std::vector<ShapeSource> shapes = sources_of(surface, options.shapes);
+    std::vector<ShapeSource> shapes = sources_of(surface, options.shapes);
+    keep_own_sides(shapes);
     DistanceBounds bounds =
         distance_bounds(surface, layout, sites, options.num_threads, within(options.progress, 0, 0),
                         options.points.start, options.shapes);

@@ -350,7 +350,7 @@ void run_front(WindowFront& front, const SurfacePoint& site, std::span<const flo
 void run_front(WindowFront& front, const ShapeSource& shape, std::span<const float> bounds,
                Index work_cap, const KeptFaces& keeps) {
     run_both_orders(
-        front, [&] { emit_from_shape(front, shape); }, 0, bounds, work_cap, keeps);
+        front, [&] { emit_from_shape(front, shape); }, shape.start, bounds, work_cap, keeps);
 }
 
 }  // namespace agvd

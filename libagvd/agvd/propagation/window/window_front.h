@@ -356,7 +356,7 @@ void take_in_windows(WindowFront& front, EdgeRecord& edge, const WindowFace& fac
 void serve_edge(WindowFront& front, Index record);
 
 //! Sends the beam of a whole edge of a line into the face of a half-edge of it.
-void emit_beam(WindowFront& front, Index side);
+void emit_beam(WindowFront& front, Index side, double start);
 
 //! Sends on the parts of a beam. It stays among the beams of the front if its face is kept.
 void serve_beam(WindowFront& front, Index record);

@@ -1,0 +1,40 @@
+//! \file
+//! Sites of all kinds and surfaces, as the Python part of the package gives them.
+#pragma once
+
+#include "binding/arrays.h"
+#include "drawn_diagram.h"
+
+namespace python {
+
+//! Sites on the caller's mesh, and what the points stand for. Opaque to Python.
+struct GivenSites {
+    cli::DrawnSites on_mesh;
+    agvd::SitePoints roles;
+
+    //! What they are on a surface.
+    struct OnSurface {
+        std::vector<agvd::SurfacePoint> points;
+        std::vector<agvd::SiteShape> shapes;
+    };
+    //! \throw as GivenSurface::to_surface.
+    [[nodiscard]] OnSurface on(const cli::GivenSurface& given) const {
+        return {given.to_surface(on_mesh.points), given.to_surface(on_mesh.shapes)};
+    }
+    //! Propagation with relays in all faces.
+    //! \throw as agvd::propagate.
+    [[nodiscard]] agvd::Propagation propagate_everywhere(const agvd::Surface& surface,
+                                                         const OnSurface& sites, double max_error,
+                                                         int num_threads,
+                                                         const agvd::Progress& progress) const {
+        return agvd::propagate(surface, sites.points,
+                               {.points = roles,
+                                .shapes = sites.shapes,
+                                .max_error = max_error,
+                                .relay_faces = agvd::all_faces(surface),
+                                .num_threads = num_threads,
+                                .progress = progress});
+    }
+};
+
+}  // namespace python
