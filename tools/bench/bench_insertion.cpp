@@ -4,6 +4,7 @@
 #include "agvd/propagation/propagate.h"
 #include "bench/exact.h"
 #include "bench/report.h"
+#include "bench/timing.h"
 #include "cli.h"
 
 namespace {
