@@ -1,6 +1,5 @@
-// Points of each surface are compared with the other one. A point that is too far lowers the length
-// at the corners of the input's face that it lies on, or that is nearest to it: to the length of
-// the edges of the result there, times what the distance needs if it falls with their square.
+// Points of each surface are compared with the other one. Where one is too far edges get shorter:
+// those of the result there, times what the distance needs if it falls with their square.
 #include "remesh/pipeline/meet_distance.h"
 
 #include <algorithm>
@@ -22,7 +21,7 @@ constexpr Index query_grain = 1024;
 constexpr double too_far = 0.75, aimed_share = 0.6;
 
 // Edges get no shorter than this share of themselves in one round: where the surface is missed, not
-// met badly, their length tells little, and a large face of the input would get millions.
+// met badly, their length tells little.
 constexpr double least_factor = 0.5;
 
 constexpr int max_rounds = 16;
@@ -40,55 +39,53 @@ double mean_side(const MeshView& mesh, Index face) {
     return sum / 3;
 }
 
-// #V: a face of each vertex; no_index: none.
-std::vector<Index> find_face_of_vertex(const MeshView& mesh) {
-    std::vector<Index> face(mesh.positions.size(), no_index);
+// #V: a corner of a face, 3 f + k, at each vertex; no_index: none.
+std::vector<Index> find_corner_of_vertex(const MeshView& mesh) {
+    std::vector<Index> corner(mesh.positions.size(), no_index);
     for (Index f = 0; f < mesh.triangles.size(); ++f) {
-        for (const Index v : mesh.triangles[f]) face[v] = f;
+        for (Index k = 0; k < 3; ++k) corner[mesh.triangles[f][k]] = 3 * f + k;
     }
-    return face;
+    return corner;
 }
 
 // The result, the input, and what is known of them.
 class Comparison {
 public:
-    Comparison(const SearchedMesh& input, const SearchedMesh& result, double limit, int num_threads,
-               Poller& poller, std::vector<double>& most_lengths)
+    // \param targets  #V of the result: lengths that its edges were to have; or empty.
+    Comparison(const SearchedMesh& input, const SearchedMesh& result,
+               std::span<const double> targets, double limit, int num_threads, Poller& poller)
         : input_(input),
           result_(result),
+          targets_(targets),
           limit_(limit),
           num_threads_(num_threads),
-          poller_(poller),
-          most_lengths_(most_lengths),
-          before_(most_lengths) {}
+          poller_(poller) {}
 
     // Looks at the vertices and samples of one surface.
     void look_at_points(bool is_input) {
         const MeshView& mesh = (is_input ? input_ : result_).mesh;
-        const ClosestPointTree& other = (is_input ? result_ : input_).tree;
         const AreaSamples samples(mesh);
-        const std::vector<Index> face_of_vertex = find_face_of_vertex(mesh);
+        const std::vector<Index> corner_of_vertex = find_corner_of_vertex(mesh);
         const auto num_vertices = static_cast<Index>(mesh.positions.size());
         run(num_vertices + samples_per_surface, [&](Index i, Found& found, Ticker&) {
             if (i >= num_vertices) {
-                const SurfacePoint sample = samples.at(i - num_vertices, samples_per_surface);
-                const Vec3 point = position(mesh, sample);
-                take(is_input, point, sample.face.value(), other.query(point), found);
-            } else if (face_of_vertex[i] != no_index) {
-                const Vec3& point = mesh.positions[i];
-                take(is_input, point, face_of_vertex[i], other.query(point), found);
+                look_at(is_input, samples.at(i - num_vertices, samples_per_surface), found);
+            } else if (corner_of_vertex[i] != no_index) {
+                look_at(is_input, point_on(corner_of_vertex[i], 0), found);
             }
         });
     }
     // Looks at all of one surface.
     void prove(bool is_input) {
+        const MeshView& mesh = (is_input ? input_ : result_).mesh;
         Found found;
-        for (const auto& [face, far] :
-             find_far_faces((is_input ? input_ : result_).mesh, is_input ? result_ : input_, limit_,
-                            num_threads_, poller_)) {
-            take(is_input, far.at, face, far.nearest, found);
+        for (const auto& [face, far] : find_far_faces(mesh, is_input ? result_ : input_, limit_,
+                                                      num_threads_, poller_)) {
+            const SurfacePoint point =
+                closest_point_on_triangle(corners_of(mesh, face), FaceId(face), far.at).point;
+            take(is_input, point, far.at, far.nearest, found);
         }
-        take_over(found);
+        take_over(std::move(found));
     }
     [[nodiscard]] const MeasuredDistance& farthest() const { return farthest_; }
 
@@ -96,21 +93,34 @@ private:
     // What a chunk of points has found.
     struct Found {
         MeasuredDistance distance;
-        std::vector<std::pair<Index, double>> lengths;  // Of vertices of the input.
+        std::vector<SizedPoint> lengths;
     };
 
-    void take(bool is_input, const Vec3& point, Index face, const ClosestPoint& nearest,
+    void look_at(bool is_input, const SurfacePoint& point, Found& found) const {
+        const Vec3 at = position((is_input ? input_ : result_).mesh, point);
+        take(is_input, point, at, (is_input ? result_ : input_).tree.query(at), found);
+    }
+    void take(bool is_input, const SurfacePoint& point, const Vec3& at, const ClosestPoint& nearest,
               Found& found) const {
         const double distance = std::sqrt(nearest.distance_sq);
-        if (distance > found.distance.largest) found.distance = {distance, false, point};
-        if (distance < too_far * limit_) return;
-        const Index other = nearest.point.face.value();
-        const double factor = std::max(least_factor, std::sqrt(aimed_share * limit_ / distance));
-        const double length = mean_side(result_.mesh, is_input ? other : face);
-        // Edges may be longer than they were meant to be: the shorter of both counts.
-        for (const Index v : input_.mesh.triangles[is_input ? face : other]) {
-            found.lengths.emplace_back(v, factor * std::min(length, before_[v]));
+        if (distance > found.distance.largest) {
+            found.distance.largest = distance;
+            found.distance.where = at;
         }
+        if (distance < too_far * limit_) return;
+        const double factor = std::max(least_factor, std::sqrt(aimed_share * limit_ / distance));
+        const double length = edge_at((is_input ? nearest.point : point).face.value());
+        // Edges as long as the distance bring vertices that near.
+        found.lengths.push_back(
+            {is_input ? point : nearest.point, std::max(factor * length, distance)});
+    }
+    // Edges may be longer than they were meant to be: the shorter of both counts.
+    [[nodiscard]] double edge_at(Index face) const {
+        double length = mean_side(result_.mesh, face);
+        for (const Index v : result_.mesh.triangles[face]) {
+            if (!targets_.empty()) length = std::min(length, targets_[v]);
+        }
+        return length;
     }
     template <typename Look>
     void run(Index count, const Look& look) {
@@ -122,34 +132,32 @@ private:
                 for (Index i = begin; i < end; ++i) look(i, chunks[chunk], ticker);
             },
             poller_);
-        for (const Found& chunk : chunks) take_over(chunk);
+        for (Found& chunk : chunks) take_over(std::move(chunk));
     }
-    void take_over(const Found& found) {
-        if (found.distance.largest > farthest_.largest) farthest_ = found.distance;
-        for (const auto& [v, length] : found.lengths) {
-            most_lengths_[v] = std::min(most_lengths_[v], length);
-        }
+    void take_over(Found found) {
+        std::vector<SizedPoint> lengths = std::move(farthest_.lengths);
+        lengths.insert(lengths.end(), found.lengths.begin(), found.lengths.end());
+        if (found.distance.largest > farthest_.largest) farthest_ = std::move(found.distance);
+        farthest_.lengths = std::move(lengths);
     }
 
     SearchedMesh input_, result_;
+    std::span<const double> targets_;
     double limit_;
     int num_threads_;
     Poller& poller_;
-    std::vector<double>& most_lengths_;
-    std::vector<double> before_;
     MeasuredDistance farthest_;
 };
 
 }  // namespace
 
 MeasuredDistance measure_distance(const MeshView& input, const ClosestPointTree& input_tree,
-                                  const MeshView& result, double limit,
-                                  std::vector<double>& most_lengths, int num_threads,
-                                  const Progress& progress) {
+                                  const MeshView& result, std::span<const double> targets,
+                                  double limit, int num_threads, const Progress& progress) {
     Poller poller(progress);
     const ClosestPointTree result_tree(result, poller.progress());
-    Comparison comparison({input, input_tree}, {result, result_tree}, limit, num_threads, poller,
-                          most_lengths);
+    Comparison comparison({input, input_tree}, {result, result_tree}, targets, limit, num_threads,
+                          poller);
     comparison.look_at_points(true);
     comparison.look_at_points(false);
     if (comparison.farthest().largest > provable_share * limit) return comparison.farthest();
@@ -170,18 +178,20 @@ RemeshResult meet_distance(const CleanedInput& cleaned, const RemeshOptions& opt
     const ClosestPointTree tree(mesh, cleaned_progress(options));
     const MeshBox box = box_of(mesh, options.num_threads);
     const DistanceBound bound{mesh.view(), tree, limit};
-    std::vector<double> most_lengths(mesh.positions.size(), (box.high - box.low).norm());
-    MeasuredDistance best{infinity, false, {}};
+    finer.sizing.max_edge = std::min(finer.sizing.max_edge, (box.high - box.low).norm());
+    std::vector<SizedPoint> lengths;
+    MeasuredDistance best{.largest = infinity};
     std::size_t num_vertices = 0;
     for (int round = 0; round < max_rounds; ++round) {
         finer.sizing.count = aim;
-        RemeshResult result = run(finer, most_lengths, &bound);
+        RemeshResult result = run(finer, lengths, &bound);
         if (result.sizing.largest_distance > 0) return result;  // It is proved.
         const MeasuredDistance found =
-            measure_distance(mesh, tree, result.mesh, limit, most_lengths, options.num_threads,
-                             progress_at(Stage::Check, options, 1));
+            measure_distance(mesh, tree, result.mesh, result.sizing.targets, limit,
+                             options.num_threads, progress_at(Stage::Check, options, 1));
         result.sizing.largest_distance = found.largest;
         if (found.is_within) return result;
+        lengths.insert(lengths.end(), found.lengths.begin(), found.lengths.end());
         if (round >= local_rounds) aim.error *= global_factor;
         if (found.largest < best.largest) {
             best = found;

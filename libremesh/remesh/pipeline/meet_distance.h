@@ -4,8 +4,11 @@
 #pragma once
 
 #include <functional>
+#include <span>
+#include <vector>
 
 #include "agvd/mesh/closest_point.h"
+#include "remesh/curves/select_creases.h"
 #include "remesh/pipeline/cleaned_input.h"
 #include "remesh/pipeline/near_mesh.h"
 
@@ -16,26 +19,27 @@ struct MeasuredDistance {
     double largest = 0;         //!< Both ways, at the points looked at; mesh units.
     bool is_within = false;     //!< Proved: no point of either surface is too far.
     Vec3 where = Vec3::Zero();  //!< A point of either surface that is so far.
+    //! On the input, where edges have to be shorter, with their length.
+    std::vector<SizedPoint> lengths = {};
 };
 
 //! Measures at all vertices and at 100 000 points of each surface. If these are near enough, faces
 //! are divided until all of both surfaces is proved to be, or a point is found that is not.
-//! \param limit  where a point is near it or beyond, lengths are lowered.
-//! \param most_lengths  #V of the input: at most so long are edges there. Edited.
+//! \param targets  #V of the result: lengths that its edges were to have; empty: unknown.
+//! \param limit    where a point is near it or beyond, edges have to be shorter.
 //! \throw Cancelled  the progress callback returned false.
 //! Cost: O((n + 100 000) log n); for the proof about O((n + length of all edges / limit) log n).
 [[nodiscard]] MeasuredDistance measure_distance(const MeshView& input,
                                                 const ClosestPointTree& input_tree,
-                                                const MeshView& result, double limit,
-                                                std::vector<double>& most_lengths,
+                                                const MeshView& result,
+                                                std::span<const double> targets, double limit,
                                                 int num_threads = 1, const Progress& progress = {});
 
 //! A whole run after cleaning.
-//! \param most_lengths  #V of the cleaned mesh: no target is longer.
-//! \param bound  see run_attempt.
-using RunWithLengths =
-    std::function<RemeshResult(const RemeshOptions& options, std::span<const double> most_lengths,
-                               const DistanceBound* bound)>;
+//! \param lengths  on the cleaned surface: how long edges are at most.
+//! \param bound    see run_attempt.
+using RunWithLengths = std::function<RemeshResult(
+    const RemeshOptions& options, std::span<const SizedPoint> lengths, const DistanceBound* bound)>;
 
 //! A run with the lengths that curvature asks for, which keeps the distance by changes in places
 //! (bring_near). If it does not, further runs with shorter edges where the result is too far.

@@ -69,16 +69,20 @@ class Attempts {
     static constexpr int most_shortenings = 3;
 
 public:
-    // \param most_lengths  see find_sizes.
-    // \param bound         see run_attempt.
+    // \param lengths  on the cleaned surface: how long edges are at most.
+    // \param bound    see run_attempt.
     Attempts(const CleanedInput& cleaned, const RemeshResult& after_cleaning,
-             const RemeshOptions& given, std::span<const double> most_lengths,
+             const RemeshOptions& given, std::span<const SizedPoint> lengths,
              const DistanceBound* bound)
-        : cleaned_(cleaned), options_(given), bound_(bound), first_(after_cleaning) {
-        find_lengths(most_lengths);
+        : cleaned_(cleaned),
+          options_(given),
+          lengths_(lengths),
+          bound_(bound),
+          first_(after_cleaning) {
+        find_lengths();
         if (sizes_.num_samples != options_.num_samples) {
             options_.num_samples = sizes_.num_samples;
-            find_lengths(most_lengths);
+            find_lengths();
             options_.num_samples = sizes_.num_samples;
         }
     }
@@ -88,20 +92,21 @@ public:
         if (!best_) run_all(false);
         if (!best_) throw TooFewSamples{options_.num_samples, num_needed_};
         shorten_edges();
+        if (bound_ != nullptr && !is_best_bound_) bring_near();
         best_->seconds = first_.seconds;
         best_->features.samples_for_all = samples_for_all_;
         return *std::move(best_);
     }
 
 private:
-    void find_lengths(std::span<const double> most_lengths) {
+    void find_lengths() {
         const double spacing = spacing_for(cleaned_, options_);
         // A crease left out costs distance.
-        const CloseCreases close = !most_lengths.empty() ? CloseCreases::Stay
-                                   : refines_            ? CloseCreases::GoOrRefine
-                                                         : CloseCreases::Go;
+        const CloseCreases close = bound_ != nullptr ? CloseCreases::Stay
+                                   : refines_        ? CloseCreases::GoOrRefine
+                                                     : CloseCreases::Go;
         found_ = find_curves(cleaned_, spacing, close, {options_, first_});
-        sizes_ = find_sizes(cleaned_, found_, spacing, most_lengths, {}, {}, {options_, first_});
+        sizes_ = find_sizes(cleaned_, found_, spacing, {}, lengths_, {options_, first_});
     }
 
     void run_all(bool has_junctions) {
@@ -111,7 +116,7 @@ private:
         for (int num_changes = 0;;) {
             if (!found_.strips.empty()) {
                 refines_ = false;
-                find_lengths({});
+                find_lengths();
                 kept.is_crease = found_.is_crease;
             } else if (kept.has_seams) {
                 kept.has_seams = false;
@@ -174,7 +179,9 @@ private:
     // \return whether no other curves would give a better one.
     bool try_curves(const KeptCurves& kept, BadPoints& bad) {
         RemeshResult result = first_;
-        AttemptEnd end = run_attempt(cleaned_, found_, kept, sizes_.field.get(), bound_, of_input_,
+        // Repairs take long: of further attempts only the best one gets them.
+        const DistanceBound* bound = std::exchange(is_first_, false) ? bound_ : nullptr;
+        AttemptEnd end = run_attempt(cleaned_, found_, kept, sizes_.field.get(), bound, of_input_,
                                      {options_, result});
         first_.seconds = result.seconds;
         samples_for_all_ = std::max(samples_for_all_, result.features.samples_for_all);
@@ -190,11 +197,14 @@ private:
         bad.flats = std::move(end.flat_corners);
         if (!best_ || is_better(result, *best_)) {
             best_ = std::move(result);
+            is_best_bound_ = bound != nullptr;
             kept_ = kept;
             seed_ = options_.seed;
             narrow_points_ = std::move(end.narrow_points);
             crossings_ = std::move(end.crossing_corners);
         }
+        // Shorter edges are needed first.
+        if (bound != nullptr && best_->sizing.largest_distance == 0) return true;
         return is_bare || (is_fine(*best_) && best_->verdict.faces_without_area == 0);
     }
 
@@ -229,10 +239,10 @@ private:
         options.sizing.count = NumSamples{};
         options.seed = seed_;
         const StageContext context{options, again};
-        const RunSizes sizes = find_sizes(cleaned_, found_, spacing_for(cleaned_, options_), {},
+        const RunSizes sizes = find_sizes(cleaned_, found_, spacing_for(cleaned_, options_),
                                           narrow_points_, points, context);
         AttemptEnd end =
-            run_attempt(cleaned_, found_, kept_, sizes.field.get(), bound_, of_input_, context);
+            run_attempt(cleaned_, found_, kept_, sizes.field.get(), nullptr, of_input_, context);
         first_.seconds = again.seconds;
         const Index crossings = num_more_crossings(again), before = num_more_crossings(*best_);
         const bool is_nearer = again.verdict.largest_distance < best_->verdict.largest_distance;
@@ -243,12 +253,27 @@ private:
         return std::move(end.crossing_corners);
     }
 
+    // Runs the best attempt again, and repairs its faces that are too far from the input.
+    void bring_near() {
+        RemeshResult again = first_;
+        options_.seed = seed_;
+        const AttemptEnd end = run_attempt(cleaned_, found_, kept_, sizes_.field.get(), bound_,
+                                           of_input_, {options_, again});
+        first_.seconds = again.seconds;
+        if (!end.has_mesh) return;
+        again.features.gave_up = best_->features.gave_up;
+        best_ = std::move(again);
+    }
+
     const CleanedInput& cleaned_;
     RemeshOptions options_;
+    std::span<const SizedPoint> lengths_;
     const DistanceBound* bound_;
     RemeshResult first_;  // Of cleaning and what was found here; its times include all attempts.
     FoundCurves found_;
     RunSizes sizes_;
+    bool is_first_ = true;        // The next attempt.
+    bool is_best_bound_ = false;  // The best one keeps the distance, or it cannot.
     InputCrossings of_input_;
     // Strips between close creases. With a mean edge given the others would be longer.
     bool refines_ =
@@ -293,7 +318,7 @@ EnoughSamples find_enough(const CleanedInput& cleaned, const RemeshResult& after
         RemeshResult result = after_cleaning;
         RunSizes sizes;
         if (!cleaned.locked.empty()) {
-            sizes = find_sizes(cleaned, {}, spacing_for(cleaned, more), {}, {}, {}, {more, result});
+            sizes = find_sizes(cleaned, {}, spacing_for(cleaned, more), {}, {}, {more, result});
         }
         const AttemptEnd end =
             run_attempt(cleaned, {}, {}, sizes.field.get(), nullptr, of_input, {more, result});
@@ -379,9 +404,9 @@ RemeshResult run_stages(const InputMesh& input, const RemeshOptions& given) {
         coarse = coarse_input(cleaned, spacing_for(cleaned, options), {options, result});
         const CleanedInput& used = coarse ? *coarse : cleaned;
         RemeshResult after_cleaning = result;
-        const auto run = [&](const RemeshOptions& changed, std::span<const double> most_lengths,
+        const auto run = [&](const RemeshOptions& changed, std::span<const SizedPoint> lengths,
                              const DistanceBound* bound) {
-            RemeshResult made = Attempts(used, after_cleaning, changed, most_lengths, bound).run();
+            RemeshResult made = Attempts(used, after_cleaning, changed, lengths, bound).run();
             after_cleaning.seconds = made.seconds;
             return made;
         };

@@ -164,19 +164,14 @@ std::vector<double> locked_lengths(const CleanedInput& cleaned) {
 }
 
 // #V of the base: no target is longer. Empty: there is no limit.
-// \param limits, locked  #V of the cleaned mesh, or empty.
+// \param locked  #V of the cleaned mesh, or empty.
 std::vector<double> most_lengths_on(const FieldBase& on, const Surface& surface,
-                                    std::span<const double> limits, std::span<const double> locked,
-                                    int num_threads) {
-    if (limits.empty() && locked.empty()) return {};
-    std::vector<double> most(limits.begin(), limits.end());
-    if (most.empty()) {
-        const MeshBox box = box_of(surface.mesh.view(), num_threads);
-        most.assign(surface.num_vertices(), (box.high - box.low).norm());
-    }
-    for (std::size_t v = 0; v < locked.size(); ++v) {
-        if (locked[v] > 0) most[v] = std::min(most[v], locked[v]);
-    }
+                                    std::span<const double> locked, int num_threads) {
+    if (locked.empty()) return {};
+    const MeshBox box = box_of(surface.mesh.view(), num_threads);
+    const double longest = (box.high - box.low).norm();
+    std::vector<double> most;
+    for (const double length : locked) most.push_back(length > 0 ? length : longest);
     return carry_values(most, on);
 }
 
@@ -251,7 +246,6 @@ bool takes_too_much(const Surface& surface, std::span<const std::pair<Index, Ind
 }  // namespace
 
 RunSizes find_sizes(const CleanedInput& cleaned, const FoundCurves& found, double spacing,
-                    std::span<const double> most_lengths,
                     std::span<const SurfacePoint> narrow_points,
                     std::span<const SizedPoint> short_points, const StageContext& context) {
     const auto& [options, result] = context;
@@ -273,7 +267,7 @@ RunSizes find_sizes(const CleanedInput& cleaned, const FoundCurves& found, doubl
     const std::vector<double> least = least_lengths_on(on, locked);
     std::vector<double> most =
         narrow_points.empty()
-            ? most_lengths_on(on, cleaned.surface, most_lengths, locked, options.num_threads)
+            ? most_lengths_on(on, cleaned.surface, locked, options.num_threads)
             : narrow_lengths(*on.base, narrow_points, on.joined, spacing, num_sites,
                              portable::log(sizing.gradation), ticker);
     limit_at_points(on, found.strips, most);

@@ -15,14 +15,12 @@ struct RunSizes {
 
 //! \param found    creases and junctions: curvature does not count across them.
 //! \param spacing  mesh units: of the sites in the mean.
-//! \param most_lengths  #V of the cleaned mesh: no target is longer; or empty. Nor is one longer
-//!                      than the locked edges beside it.
 //! \param narrow_points   on the cleaned surface: where edges have to be shorter (narrow_lengths).
 //! \param short_points    likewise, by these lengths.
+//! Nor is a target longer than the locked edges beside it.
 //! Cost: that of a base, and a few sweeps over the edges.
 [[nodiscard]] RunSizes find_sizes(const CleanedInput& cleaned, const FoundCurves& found,
-                                  double spacing, std::span<const double> most_lengths,
-                                  std::span<const SurfacePoint> narrow_points,
+                                  double spacing, std::span<const SurfacePoint> narrow_points,
                                   std::span<const SizedPoint> short_points,
                                   const StageContext& context);
 

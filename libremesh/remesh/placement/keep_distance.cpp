@@ -57,10 +57,10 @@ public:
     //! Repairs all faces that are too far, or up to one that cannot be.
     void run() {
         const double most = provable_share * limit_.limit;
+        if (!repair_farthest()) return;
         for (const Rule& rule : rules) {
             rule_ = rule;
-            FarFaces faces;
-            for (Index f = 0; f < mesh_.num_faces(); ++f) push_far(f, faces);
+            FarFaces faces = far_faces();
             while (!faces.empty()) {
                 const auto [distance, f] = faces.top();
                 faces.pop();
@@ -137,6 +137,22 @@ private:
         if (is_far(f)) faces.emplace(bound_.gap_at(f).distance, f);
     }
 
+    [[nodiscard]] FarFaces far_faces() const {
+        FarFaces faces;
+        for (Index f = 0; f < mesh_.num_faces(); ++f) push_far(f, faces);
+        return faces;
+    }
+
+    // Repairs the farthest face.
+    // \return false if it stays too far: then the other faces are not worth their time.
+    bool repair_farthest() {
+        const FarFaces faces = far_faces();
+        if (faces.empty() || faces.top().first <= provable_share * limit_.limit) return true;
+        return std::ranges::any_of(rules, [&](const Rule& rule) {
+            rule_ = rule;
+            return !repair(faces.top().second).empty();
+        });
+    }
     // \return the faces changed.
     std::vector<Index> repair(Index f) {
         const std::array<Index, 3> edges = edges_by_length(f);
@@ -331,8 +347,10 @@ std::optional<double> keep_distance(const MeshCurves& curves, std::span<const Mo
     // What could not be repaired needs no proof.
     const auto may_be_near = [&] { return repair.largest_gap() <= provable_share * limit.limit; };
     repair.run();
-    if (may_be_near()) repair.thin();
-    repair.improve_shapes();
+    if (may_be_near()) {
+        repair.thin();
+        repair.improve_shapes();
+    }
     bool is_near = false;
     for (int round = 0; round < most_proofs && !is_near && may_be_near(); ++round) {
         const std::vector<FarPair> far = proof.run();

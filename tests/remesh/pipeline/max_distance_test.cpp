@@ -1,10 +1,15 @@
 // Results that keep a distance, and the proof that they do.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <span>
+#include <vector>
 
 #include "agvd/core/error.h"
 #include "agvd/mesh/closest_point.h"
+#include "agvd/mesh/surface_points.h"
 #include "remesh/pipeline/meet_distance.h"
 #include "remesh/pipeline/remesh.h"
 #include "support/crease_checks.h"
@@ -25,9 +30,9 @@ RemeshResult remeshed(const TriangleMesh& mesh, double distance, int threads = 1
 }
 
 MeasuredDistance measure(const TriangleMesh& input, const TriangleMesh& result, double limit,
-                         std::vector<double>& most) {
+                         std::span<const double> targets = {}) {
     const agvd::ClosestPointTree tree(input.view());
-    return remesh::detail::measure_distance(input, tree, result, limit, most);
+    return remesh::detail::measure_distance(input, tree, result, targets, limit);
 }
 
 // A plate of two triangles, 2 x 2, that is 1 deep along its middle if it is a valley.
@@ -79,46 +84,62 @@ TEST(MaxDistance, TooManyVerticesAreRefused) {
 }
 
 TEST(MeasureDistance, EqualSurfacesAreProvedWhateverTheirTriangles) {
-    std::vector<double> most(shapes::grid(7).positions.size(), 9);
-    const auto found = measure(shapes::grid(7), shapes::grid(4), 1e-3, most);
+    const auto found = measure(shapes::grid(7), shapes::grid(4), 1e-3);
     EXPECT_TRUE(found.is_within);
     EXPECT_LT(found.largest, 1e-12);
-    EXPECT_EQ(most, std::vector<double>(most.size(), 9));
+    EXPECT_TRUE(found.lengths.empty());
 }
 
 TEST(MeasureDistance, WhereItIsTooFarEdgesGetShorter) {
     const TriangleMesh input = plate(true), result = plate(false);
-    std::vector<double> most(6, 9);
-    const auto found = measure(input, result, 0.5, most);
+    const auto found = measure(input, result, 0.5);
     EXPECT_FALSE(found.is_within);
     EXPECT_DOUBLE_EQ(found.largest, 1);
     EXPECT_NEAR(found.where.z(), -1, 1e-12);
-    for (const double length : most) {
-        // Edges of the result are 1 to 2.3 long.
-        EXPECT_GT(length, 0.5);
-        EXPECT_LT(length, 1.5);
+    // Points beyond 3/4 of the limit count: a slope has an angle of 45 degrees.
+    ASSERT_GT(found.lengths.size(), 1000u);
+    double nearest_to_rim = 1;
+    for (const remesh::SizedPoint& point : found.lengths) {
+        const Vec3 at = agvd::position(input.view(), point.at);
+        nearest_to_rim = std::min(nearest_to_rim, 1 - std::abs(at.x()));
+        // Edges of the result are 1 to 2.3 long, in the mean of a face 1.7.
+        EXPECT_GT(point.length, std::sqrt(0.3) * 1.7);
+        EXPECT_LT(point.length, 1.7);
     }
-    // The result's edges are longer than that already: now they get shorter by the factor once
-    // more.
-    const std::vector<double> before = most;
-    (void)measure(input, result, 0.5, most);
-    for (std::size_t v = 0; v < most.size(); ++v) {
-        EXPECT_NEAR(most[v] / before[v], std::sqrt(0.3), 0.1);
+    EXPECT_NEAR(nearest_to_rim, 0.375 / std::numbers::sqrt2, 1e-3);
+    // Edges that were to be shorter than that get shorter than these.
+    const auto again = measure(input, result, 0.5, std::vector(6, 1.));
+    ASSERT_EQ(again.lengths.size(), found.lengths.size());
+    std::size_t num_shorter = 0;
+    for (std::size_t i = 0; i < again.lengths.size(); ++i) {
+        EXPECT_LE(again.lengths[i].length, 1);
+        EXPECT_LE(again.lengths[i].length, found.lengths[i].length);
+        if (again.lengths[i].length < 0.8 * found.lengths[i].length) ++num_shorter;
     }
+    EXPECT_GT(2 * num_shorter, again.lengths.size());
     // The limit is above all distances.
-    EXPECT_TRUE(measure(input, result, 1.1, most).is_within);
+    EXPECT_TRUE(measure(input, result, 1.1).is_within);
 }
 
-// A plate that the result misses altogether, by a hundred edges: they are not why it is far.
+// A plate that the result misses by a few of its edges: half as long are enough for now.
 TEST(MeasureDistance, EdgesGetNoShorterThanHalfAtOnce) {
     const TriangleMesh input = shapes::grid(4);
-    const TriangleMesh result = shapes::moved(shapes::grid(40), {0, 0, 2});
-    std::vector<double> most(input.positions.size(), 9);
-    (void)measure(input, result, 1e-3, most);
-    for (const double length : most) {
-        EXPECT_GT(length, 0.5 / 40);
-        EXPECT_LT(length, 0.75 / 40);
+    const TriangleMesh result = shapes::moved(shapes::grid(40), {0, 0, 0.01});
+    const auto found = measure(input, result, 1e-3);
+    ASSERT_GE(found.lengths.size(), 200'000u);
+    for (const remesh::SizedPoint& point : found.lengths) {
+        EXPECT_GT(point.length, 0.5 / 40);
+        EXPECT_LT(point.length, 0.75 / 40);
     }
+}
+
+// A piece that the result misses by many edges: those as long as the distance reach it.
+TEST(MeasureDistance, EdgesGetNoShorterThanTheDistance) {
+    const TriangleMesh input = shapes::grid(4);
+    const TriangleMesh result = shapes::moved(shapes::grid(40), {0, 0, 2});
+    const auto found = measure(input, result, 1e-3);
+    ASSERT_GE(found.lengths.size(), 200'000u);
+    for (const remesh::SizedPoint& point : found.lengths) EXPECT_NEAR(point.length, 2, 1e-9);
 }
 
 // A fin across the valley: its corners lie on the other surface, and no sample meets it.
@@ -129,14 +150,16 @@ TEST(MeasureDistance, WhatLiesBetweenTheSamplesIsFoundToo) {
     with_fin.positions.emplace_back(-1, 0, 0);
     with_fin.positions.emplace_back(1, 1e-8, 0);
     with_fin.triangles.push_back({6, 7, 8});
-    std::vector<double> most(9, 9);
     // The fin's middle is 1 / sqrt(2) above the slopes.
-    const auto found = measure(with_fin, valley, 0.5, most);
+    const auto found = measure(with_fin, valley, 0.5);
     EXPECT_FALSE(found.is_within);
     EXPECT_GT(found.largest, 0.49);
-    EXPECT_LT(most[6], 9);
-    EXPECT_TRUE(measure(with_fin, valley, 0.75, most).is_within);
-    std::vector<double> most_of_valley(6, 9);
-    EXPECT_FALSE(measure(valley, with_fin, 0.5, most_of_valley).is_within);
-    EXPECT_TRUE(measure(valley, with_fin, 0.75, most_of_valley).is_within);
+    ASSERT_FALSE(found.lengths.empty());
+    for (const remesh::SizedPoint& point : found.lengths) {
+        EXPECT_EQ(point.at.face.value(), 4u);
+        EXPECT_GT(agvd::position(with_fin.view(), point.at).z(), -0.6);
+    }
+    EXPECT_TRUE(measure(with_fin, valley, 0.75).is_within);
+    EXPECT_FALSE(measure(valley, with_fin, 0.5).is_within);
+    EXPECT_TRUE(measure(valley, with_fin, 0.75).is_within);
 }
