@@ -79,8 +79,8 @@ public:
     void prove(bool is_input) {
         const MeshView& mesh = (is_input ? input_ : result_).mesh;
         Found found;
-        for (const auto& [face, far] : find_far_faces(mesh, is_input ? result_ : input_, limit_,
-                                                      num_threads_, poller_)) {
+        for (const auto& [face, far] :
+             find_far_faces(mesh, is_input ? result_ : input_, limit_, num_threads_, poller_)) {
             const SurfacePoint point =
                 closest_point_on_triangle(corners_of(mesh, face), FaceId(face), far.at).point;
             take(is_input, point, far.at, far.nearest, found);

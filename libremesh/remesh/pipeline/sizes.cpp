@@ -266,10 +266,9 @@ RunSizes find_sizes(const CleanedInput& cleaned, const FoundCurves& found, doubl
     const std::vector<double> locked = locked_lengths(cleaned);
     const std::vector<double> least = least_lengths_on(on, locked);
     std::vector<double> most =
-        narrow_points.empty()
-            ? most_lengths_on(on, cleaned.surface, locked, options.num_threads)
-            : narrow_lengths(*on.base, narrow_points, on.joined, spacing, num_sites,
-                             portable::log(sizing.gradation), ticker);
+        narrow_points.empty() ? most_lengths_on(on, cleaned.surface, locked, options.num_threads)
+                              : narrow_lengths(*on.base, narrow_points, on.joined, spacing,
+                                               num_sites, portable::log(sizing.gradation), ticker);
     limit_at_points(on, found.strips, most);
     limit_at_points(on, short_points, most);
     if (!found.strips.empty()) {

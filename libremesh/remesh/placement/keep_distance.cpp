@@ -54,10 +54,19 @@ public:
           crossings_(mesh),
           steps_(mesh, num_faces, wanted_quality, ticker) {}
 
+    //! Repairs the farthest face.
+    //! \return false if it stays too far: then the other faces are not worth their time.
+    bool repair_farthest() {
+        const FarFaces faces = far_faces();
+        if (faces.empty() || faces.top().first <= provable_share * limit_.limit) return true;
+        return std::ranges::any_of(rules, [&](const Rule& rule) {
+            rule_ = rule;
+            return !repair(faces.top().second).empty();
+        });
+    }
     //! Repairs all faces that are too far, or up to one that cannot be.
     void run() {
         const double most = provable_share * limit_.limit;
-        if (!repair_farthest()) return;
         for (const Rule& rule : rules) {
             rule_ = rule;
             FarFaces faces = far_faces();
@@ -143,16 +152,6 @@ private:
         return faces;
     }
 
-    // Repairs the farthest face.
-    // \return false if it stays too far: then the other faces are not worth their time.
-    bool repair_farthest() {
-        const FarFaces faces = far_faces();
-        if (faces.empty() || faces.top().first <= provable_share * limit_.limit) return true;
-        return std::ranges::any_of(rules, [&](const Rule& rule) {
-            rule_ = rule;
-            return !repair(faces.top().second).empty();
-        });
-    }
     // \return the faces changed.
     std::vector<Index> repair(Index f) {
         const std::array<Index, 3> edges = edges_by_length(f);
@@ -346,7 +345,7 @@ std::optional<double> keep_distance(const MeshCurves& curves, std::span<const Mo
     DistanceProof proof(edited, limit.input, limit.limit, limit.num_threads, poller);
     // What could not be repaired needs no proof.
     const auto may_be_near = [&] { return repair.largest_gap() <= provable_share * limit.limit; };
-    repair.run();
+    if (repair.repair_farthest()) repair.run();
     if (may_be_near()) {
         repair.thin();
         repair.improve_shapes();
