@@ -17,18 +17,10 @@ namespace {
 
 constexpr Index samples_per_surface = 100'000;
 constexpr Index query_grain = 1024;
-// Share of the limit from which edges get shorter, and that they aim at.
-constexpr double too_far = 0.75, aimed_share = 0.6;
-
-// Edges get no shorter than this share of themselves in one round: where the surface is missed, not
-// met badly, their length tells little.
-constexpr double least_factor = 0.5;
+// Of edges in one round.
+constexpr double factor = 0.5;
 
 constexpr int max_rounds = 16;
-// Each run places its vertices anew, and other points may be too far then. After so many rounds
-// edges get shorter everywhere, too.
-constexpr int local_rounds = 5;
-constexpr double global_factor = 0.8;
 
 using Corners = std::array<Vec3, 3>;
 
@@ -107,12 +99,11 @@ private:
             found.distance.largest = distance;
             found.distance.where = at;
         }
-        if (distance < too_far * limit_) return;
-        const double factor = std::max(least_factor, std::sqrt(aimed_share * limit_ / distance));
+        if (distance <= provable_share * limit_) return;
         const double length = edge_at((is_input ? nearest.point : point).face.value());
         // Edges as long as the distance bring vertices that near.
         found.lengths.push_back(
-            {is_input ? point : nearest.point, std::max(factor * length, distance)});
+            {is_input ? point : nearest.point, std::max(factor * length, distance / 2)});
     }
     // Edges may be longer than they were meant to be: the shorter of both counts.
     [[nodiscard]] double edge_at(Index face) const {
@@ -192,7 +183,6 @@ RemeshResult meet_distance(const CleanedInput& cleaned, const RemeshOptions& opt
         result.sizing.largest_distance = found.largest;
         if (found.is_within) return result;
         lengths.insert(lengths.end(), found.lengths.begin(), found.lengths.end());
-        if (round >= local_rounds) aim.error *= global_factor;
         if (found.largest < best.largest) {
             best = found;
             num_vertices = result.mesh.positions.size();
