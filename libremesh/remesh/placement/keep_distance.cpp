@@ -33,7 +33,8 @@ constexpr double wanted_quality = 0.7;
 constexpr std::size_t slides_for_each = 12;
 // A new vertex divides an edge near the gap, but not near an end of it.
 constexpr double least_share = 0.35;
-constexpr int most_proofs = 8;
+// Each finds fewer points than the one before, mostly, and proves again only what has changed.
+constexpr int most_proofs = 100;
 // Neighbours into which a vertex may be merged that are tried.
 constexpr std::size_t most_targets = 2;
 
