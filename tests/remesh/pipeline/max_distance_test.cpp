@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "agvd/core/error.h"
@@ -42,6 +43,30 @@ TriangleMesh plate(bool is_valley) {
             {{0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}}};
 }
 
+// A plate, 200 x 200 x 10, with a peg in its middle, 4 x 4 x 6: 28 triangles.
+TriangleMesh plate_with_peg() {
+    TriangleMesh mesh;
+    const auto add_square = [&](double half, double z) {
+        for (const auto& [x, y] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}) {
+            mesh.positions.emplace_back(half * x, half * y, z);
+        }
+    };
+    add_square(100, 0);
+    add_square(100, 10);
+    add_square(2, 10);
+    add_square(2, 16);
+    for (Index square = 0; square < 12; square += 4) {
+        for (Index k = 0; k < 4; ++k) {
+            const Index a = square + k, b = square + (k + 1) % 4;
+            mesh.triangles.push_back({a, b, b + 4});
+            mesh.triangles.push_back({a, b + 4, a + 4});
+        }
+    }
+    for (const agvd::Triangle& t : {agvd::Triangle{0, 2, 1}, {0, 3, 2}, {12, 13, 14}, {12, 14, 15}})
+        mesh.triangles.push_back(t);
+    return mesh;
+}
+
 }  // namespace
 
 TEST(MaxDistance, IsKeptBothWaysWithFewVertices) {
@@ -72,6 +97,30 @@ TEST(MaxDistance, OfAnyScaleAndThreadsIsTheSame) {
     const RemeshResult scaled = remeshed(huge, std::ldexp(0.02, 100));
     EXPECT_EQ(scaled.mesh.triangles, one.mesh.triangles);
     EXPECT_EQ(scaled.sizing.largest_distance, std::ldexp(one.sizing.largest_distance, 100));
+}
+
+// The peg is missed at first. The plate's faces are as large as the plate: its corners tell
+// nothing.
+TEST(MaxDistance, AMissedPieceGetsVerticesInItsPlaceAlone) {
+    const TriangleMesh input = plate_with_peg();
+    const RemeshResult result = remeshed(input, 1);
+    EXPECT_LE(crease_checks::farthest_from_surface(input, result.mesh), 1);
+    EXPECT_LE(crease_checks::farthest_from_surface(result.mesh, input), 1);
+    EXPECT_LT(result.mesh.positions.size(), 300u);
+}
+
+// Without creases the edges of the plate are far here and there, between all points looked at: the
+// proof finds them one after the other.
+TEST(MaxDistance, FacesAreRepairedUntilTheProofFindsNoMore) {
+    const TriangleMesh input = plate_with_peg();
+    const RemeshResult result =
+        remesh::remesh(input.view(), {.sizing = {.count = remesh::MaxDistance{1}},
+                                      .features = remesh::Features::Off,
+                                      .num_threads = 1});
+    EXPECT_LE(crease_checks::farthest_from_surface(input, result.mesh), 1);
+    EXPECT_LE(crease_checks::farthest_from_surface(result.mesh, input), 1);
+    EXPECT_LE(result.sizing.largest_distance, 1);
+    EXPECT_LT(result.mesh.positions.size(), 2500u);
 }
 
 TEST(MaxDistance, TooManyVerticesAreRefused) {
