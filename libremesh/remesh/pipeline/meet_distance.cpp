@@ -1,10 +1,9 @@
-// Points of each surface are compared with the other one. Where one is too far edges get shorter:
-// those of the result there, times what the distance needs if it falls with their square.
+// Points of each surface are compared with the other one. Where one is too far edges get half as
+// long as those of the result there.
 #include "remesh/pipeline/meet_distance.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 
 #include "agvd/core/parallel.h"
@@ -17,9 +16,6 @@ namespace {
 
 constexpr Index samples_per_surface = 100'000;
 constexpr Index query_grain = 1024;
-// Of edges in one round.
-constexpr double factor = 0.5;
-
 constexpr int max_rounds = 16;
 
 using Corners = std::array<Vec3, 3>;
@@ -100,10 +96,9 @@ private:
             found.distance.where = at;
         }
         if (distance <= provable_share * limit_) return;
-        const double length = edge_at((is_input ? nearest.point : point).face.value());
-        // Edges as long as the distance bring vertices that near.
-        found.lengths.push_back(
-            {is_input ? point : nearest.point, std::max(factor * length, distance / 2)});
+        // Where a piece is missed the edges of the result tell little: longer ones reach it.
+        const double edge = edge_at((is_input ? nearest.point : point).face.value());
+        found.lengths.push_back({is_input ? point : nearest.point, std::max(edge, distance) / 2});
     }
     // Edges may be longer than they were meant to be: the shorter of both counts.
     [[nodiscard]] double edge_at(Index face) const {
