@@ -114,13 +114,13 @@ TEST(MaxDistance, AMissedPieceGetsVerticesInItsPlaceAlone) {
 TEST(MaxDistance, FacesAreRepairedUntilTheProofFindsNoMore) {
     const TriangleMesh input = plate_with_peg();
     const RemeshResult result =
-        remesh::remesh(input.view(), {.sizing = {.count = remesh::MaxDistance{1}},
+        remesh::remesh(input.view(), {.sizing = {.count = remesh::MaxDistance{0.5}},
                                       .features = remesh::Features::Off,
                                       .num_threads = 1});
-    EXPECT_LE(crease_checks::farthest_from_surface(input, result.mesh), 1);
-    EXPECT_LE(crease_checks::farthest_from_surface(result.mesh, input), 1);
-    EXPECT_LE(result.sizing.largest_distance, 1);
-    EXPECT_LT(result.mesh.positions.size(), 2500u);
+    EXPECT_LE(crease_checks::farthest_from_surface(input, result.mesh), 0.5);
+    EXPECT_LE(crease_checks::farthest_from_surface(result.mesh, input), 0.5);
+    EXPECT_LE(result.sizing.largest_distance, 0.5);
+    EXPECT_LT(result.mesh.positions.size(), 2600u);
 }
 
 TEST(MaxDistance, TooManyVerticesAreRefused) {
