@@ -86,12 +86,12 @@ private:
         const Eigen::Array3d low = (box.low.array() / cell_).floor(),
                              high = (box.high.array() / cell_).floor();
         if (!((high - low + 1).prod() <= most_cells)) return false;
-        for (double x = low[0]; x <= high[0]; ++x) {
-            for (double y = low[1]; y <= high[1]; ++y) {
-                for (double z = low[2]; z <= high[2]; ++z) {
+        const auto first = low.cast<std::int64_t>().eval(), last = high.cast<std::int64_t>().eval();
+        for (std::int64_t x = first[0]; x <= last[0]; ++x) {
+            for (std::int64_t y = first[1]; y <= last[1]; ++y) {
+                for (std::int64_t z = first[2]; z <= last[2]; ++z) {
                     // Cells may share a key: that costs time only.
-                    each(static_cast<std::int64_t>(x) + 1'000'003 * static_cast<std::int64_t>(y) +
-                         998'244'353'011 * static_cast<std::int64_t>(z));
+                    each(x + 1'000'003 * y + 998'244'353'011 * z);
                 }
             }
         }
