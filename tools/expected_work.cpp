@@ -14,7 +14,7 @@ struct StageWork {
     Stage stage;
     double of_faces, of_samples;
 };
-constexpr StageWork measured[] = {
+constexpr StageWork measured_work[] = {
     {Stage::Clean, 7.60, 0},        {Stage::Sample, 0, 0},        {Stage::Relax, 5.24, 201.7},
     {Stage::Propagate, 2.51, 13.8}, {Stage::Diagram, 1.69, 44.8}, {Stage::Dual, 0.86, 23.8},
     {Stage::Delaunay, 0.64, 19.3},  {Stage::Place, 2.48, 86.4},   {Stage::Check, 0.85, 34.3},
@@ -31,7 +31,7 @@ std::vector<std::pair<Stage, double>> expected_work(std::size_t num_faces, std::
     const double faces = static_cast<double>(num_faces) / million;
     const double samples = static_cast<double>(num_samples) / million;
     std::vector<std::pair<Stage, double>> work;
-    for (const StageWork& row : measured) {
+    for (const StageWork& row : measured_work) {
         double factor = 1;
         if (row.stage == Stage::Relax) {
             const int steps = detail::is_relaxed(options) ? options.relax_steps : 0;

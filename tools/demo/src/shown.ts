@@ -29,7 +29,7 @@ const none = new Float32Array(0);
 
 function meshOf({ name, positions, triangles, creases }: Shown, frame: Frame): PageMesh {
   return {
-    name, thinnedFrom: 0, values: new Map(), labels: null, cellLines: none, isolines: none, sites: none,
+    name, thinnedFrom: 0, values: new Map(), labels: null, cellLines: none, isolines: none, sites: none, siteLines: none,
     positions: Float32Array.from(positions, (x, i) => (x - frame.origin[i % 3]) / frame.diagonal),
     corners: triangles, creases,
   };
