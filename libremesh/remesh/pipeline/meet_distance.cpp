@@ -55,7 +55,7 @@ public:
         const AreaSamples samples(mesh);
         const std::vector<Index> corner_of_vertex = find_corner_of_vertex(mesh);
         const auto num_vertices = static_cast<Index>(mesh.positions.size());
-        run(num_vertices + samples_per_surface, [&](Index i, Found& found, Ticker&) {
+        run(num_vertices + samples_per_surface, [&](Index i, MeasuredDistance& found) {
             if (i >= num_vertices) {
                 look_at(is_input, samples.at(i - num_vertices, samples_per_surface), found);
             } else if (corner_of_vertex[i] != no_index) {
@@ -66,41 +66,32 @@ public:
     // Looks at all of one surface.
     void prove(bool is_input) {
         const MeshView& mesh = (is_input ? input_ : result_).mesh;
-        Found found;
+        MeasuredDistance found;
         for (const auto& [face, far] :
              find_far_faces(mesh, is_input ? result_ : input_, limit_, num_threads_, poller_)) {
             const SurfacePoint point =
                 closest_point_on_triangle(corners_of(mesh, face), FaceId(face), far.at).point;
             take(is_input, point, far.at, far.nearest, found);
         }
-        take_over(std::move(found));
+        take_over(found);
     }
     [[nodiscard]] const MeasuredDistance& farthest() const { return farthest_; }
 
 private:
-    // What a chunk of points has found.
-    struct Found {
-        MeasuredDistance distance;
-        std::vector<SizedPoint> lengths;
-    };
-
-    void look_at(bool is_input, const SurfacePoint& point, Found& found) const {
+    void look_at(bool is_input, const SurfacePoint& point, MeasuredDistance& found) const {
         const Vec3 at = position((is_input ? input_ : result_).mesh, point);
         take(is_input, point, at, (is_input ? result_ : input_).tree.query(at), found);
     }
     void take(bool is_input, const SurfacePoint& point, const Vec3& at, const ClosestPoint& nearest,
-              Found& found) const {
+              MeasuredDistance& found) const {
         const double distance = std::sqrt(nearest.distance_sq);
-        if (distance > found.distance.largest) {
-            found.distance.largest = distance;
-            found.distance.where = at;
-        }
+        widen(found, distance, at);
         if (distance <= provable_share * limit_) return;
         // Where a piece is missed the edges of the result tell little: longer ones reach it.
         const double edge = edge_at((is_input ? nearest.point : point).face.value());
         found.lengths.push_back({is_input ? point : nearest.point, std::max(edge, distance) / 2});
     }
-    // Edges may be longer than they were meant to be: the shorter of both counts.
+    // The mean edge of a face of the result, or the length meant for it: the shorter one.
     [[nodiscard]] double edge_at(Index face) const {
         double length = mean_side(result_.mesh, face);
         for (const Index v : result_.mesh.triangles[face]) {
@@ -110,21 +101,24 @@ private:
     }
     template <typename Look>
     void run(Index count, const Look& look) {
-        std::vector<Found> chunks(num_chunks(count, query_grain));
+        std::vector<MeasuredDistance> chunks(num_chunks(count, query_grain));
         parallel_chunks(
             count, query_grain, num_threads_,
             [&](Index chunk, Index begin, Index end) {
-                Ticker ticker(poller_);
-                for (Index i = begin; i < end; ++i) look(i, chunks[chunk], ticker);
+                for (Index i = begin; i < end; ++i) look(i, chunks[chunk]);
             },
             poller_);
-        for (Found& chunk : chunks) take_over(std::move(chunk));
+        for (const MeasuredDistance& chunk : chunks) take_over(chunk);
     }
-    void take_over(Found found) {
-        std::vector<SizedPoint> lengths = std::move(farthest_.lengths);
-        lengths.insert(lengths.end(), found.lengths.begin(), found.lengths.end());
-        if (found.distance.largest > farthest_.largest) farthest_ = std::move(found.distance);
-        farthest_.lengths = std::move(lengths);
+    void take_over(const MeasuredDistance& found) {
+        widen(farthest_, found.largest, found.where);
+        farthest_.lengths.insert(farthest_.lengths.end(), found.lengths.begin(),
+                                 found.lengths.end());
+    }
+    static void widen(MeasuredDistance& found, double distance, const Vec3& where) {
+        if (distance <= found.largest) return;
+        found.largest = distance;
+        found.where = where;
     }
 
     SearchedMesh input_, result_;

@@ -92,7 +92,7 @@ public:
         if (!best_) run_all(false);
         if (!best_) throw TooFewSamples{options_.num_samples, num_needed_};
         shorten_edges();
-        if (bound_ != nullptr && !is_best_bound_) bring_near();
+        if (may_repair(kept_) && !is_best_bound_) bring_near();
         best_->seconds = first_.seconds;
         best_->features.samples_for_all = samples_for_all_;
         return *std::move(best_);
@@ -180,7 +180,8 @@ private:
     bool try_curves(const KeptCurves& kept, BadPoints& bad) {
         RemeshResult result = first_;
         // Repairs take long: of further attempts only the best one gets them.
-        const DistanceBound* bound = std::exchange(is_first_, false) ? bound_ : nullptr;
+        const bool is_first = std::exchange(is_first_, false);
+        const DistanceBound* bound = is_first && may_repair(kept) ? bound_ : nullptr;
         AttemptEnd end = run_attempt(cleaned_, found_, kept, sizes_.field.get(), bound, of_input_,
                                      {options_, result});
         first_.seconds = result.seconds;
@@ -253,6 +254,11 @@ private:
         return std::move(end.crossing_corners);
     }
 
+    // Whether faces are repaired that are too far from the input: meshes with junctions are not
+    // edited.
+    [[nodiscard]] bool may_repair(const KeptCurves& kept) const {
+        return bound_ != nullptr && (!kept.has_junctions || found_.junctions.empty());
+    }
     // Runs the best attempt again, and repairs its faces that are too far from the input.
     void bring_near() {
         RemeshResult again = first_;

@@ -13,11 +13,11 @@ struct RunSizes {
     Index num_samples = 0;                   //!< To place; as given, or as the lengths give it.
 };
 
+//! No target is longer than the locked edges beside it.
 //! \param found    creases and junctions: curvature does not count across them.
 //! \param spacing  mesh units: of the sites in the mean.
 //! \param narrow_points   on the cleaned surface: where edges have to be shorter (narrow_lengths).
 //! \param short_points    likewise, by these lengths.
-//! Nor is a target longer than the locked edges beside it.
 //! Cost: that of a base, and a few sweeps over the edges.
 [[nodiscard]] RunSizes find_sizes(const CleanedInput& cleaned, const FoundCurves& found,
                                   double spacing, std::span<const SurfacePoint> narrow_points,
