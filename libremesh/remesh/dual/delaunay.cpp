@@ -95,6 +95,7 @@ std::vector<double> measure_edges(const NumberedMesh& mesh, const Metric& metric
 
 class Flipper {
 public:
+    // \param positions  of the vertices where no flip may fold the mesh; or empty.
     Flipper(NumberedMesh& mesh, std::vector<double> length, std::span<const Vec3> positions,
             const Metric& metric, Ticker ticker)
         : ticker_(ticker),
@@ -168,6 +169,7 @@ private:
     }
 
     [[nodiscard]] bool folds(Index h) const {
+        if (positions_.empty()) return false;
         return detail::flip_folds(
             mesh_, h, [&](Index v) { return positions_[v]; }, [](Index, Index) { return true; });
     }
@@ -195,14 +197,18 @@ DelaunayResult make_delaunay(const Surface& surface, std::span<const SurfacePoin
     const Metric in_space = [&](Index a, Index b) -> EdgeLength {
         return {(positions[a] - positions[b]).norm(), true};
     };
-    const Metric& metric = options.mode == Delaunay::Intrinsic ? on_surface : in_space;
+    // On the surface flips lead from any mesh to one that is Delaunay, in space from a good one.
+    const bool is_in_space = options.mode == Delaunay::Extrinsic;
+    const Metric& metric = is_in_space ? in_space : on_surface;
     NumberedMesh mesh(triangles, static_cast<Index>(positions.size()), Ticker(poller));
     DelaunayCounts& counts = result.counts;
     for (Index e = 0; e < mesh.num_edges(); ++e) {
         counts.inner_edges += mesh.twin(mesh.first_side(e)) != no_index ? 1 : 0;
     }
     std::vector<double> length = measure_edges(mesh, metric, options.num_threads, poller, counts);
-    Flipper(mesh, std::move(length), positions, metric, Ticker(poller)).run(counts);
+    Flipper(mesh, std::move(length), is_in_space ? positions : std::span<const Vec3>{}, metric,
+            Ticker(poller))
+        .run(counts);
     result.triangles = mesh.triangles();
     return result;
 }

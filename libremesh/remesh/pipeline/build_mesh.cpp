@@ -22,14 +22,6 @@ namespace {
 // Most rounds that divide edges between patches.
 constexpr int most_split_rounds = 5;
 
-// Frees what only the Delaunay stage and those before read: after it Voronoi vertices suffice.
-void drop_points(Diagram& diagram) {
-    diagram.points = {};
-    diagram.point_distance = {};
-    diagram.passages = {};
-    diagram.edge_points = {};
-}
-
 void take_crossings(const std::optional<CrossingFaces>& crossings, const PlacedDual& placed,
                     BuiltMesh& built) {
     if (!crossings) return;
@@ -54,7 +46,6 @@ public:
         built.num_wanted = num_wanted_ = find_target();
         built.num_vertices = fix_edges();
         if (built.num_vertices > num_wanted_) return std::nullopt;
-        drop_points(dual_.diagram);
         return place_dual(domain_, placed_.curves, dual_, points_of_vertices(), context_);
     }
 
@@ -90,8 +81,7 @@ private:
         if (options.sites) {
             const auto num_copies = static_cast<Index>(placed_.curves.sites.size());
             const auto num_owning =
-                std::count_if(dual_.diagram.cell_area.begin() + num_copies,
-                              dual_.diagram.cell_area.end(), [](double area) { return area > 0; });
+                std::count(dual_.has_cell.begin() + num_copies, dual_.has_cell.end(), 1);
             num_wanted = num_copies + static_cast<Index>(num_owning) - num_other_copies_;
             result.sites_dropped = static_cast<Index>(options.sites->size()) - num_wanted;
         }

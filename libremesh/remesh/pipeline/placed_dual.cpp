@@ -40,14 +40,14 @@ JoinedPatches join_patches(const ValidDual& dual, const CurveSites& curves) {
 
 // #V of the base: the vertex of the dual in whose cell each lies; no_index: none.
 std::vector<Index> nearest_vertices(const ValidDual& dual) {
-    std::vector<Index> vertex(dual.diagram.num_sites, no_index);
+    std::vector<Index> vertex(dual.has_cell.size(), no_index);
     for (Index v = 0; v < dual.site.size(); ++v) {
         if (dual.site[v] != no_index) vertex[dual.site[v]] = v;
     }
     std::vector<Index> nearest;
-    nearest.reserve(dual.diagram.nearest_site.size());
-    for (const SiteId site : dual.diagram.nearest_site) {
-        nearest.push_back(site.is_valid() ? vertex[site.value()] : no_index);
+    nearest.reserve(dual.nearest_site.size());
+    for (const Index site : dual.nearest_site) {
+        nearest.push_back(site != no_index ? vertex[site] : no_index);
     }
     return nearest;
 }

@@ -1,5 +1,8 @@
-// The dual is right where all cells and what they have in common are discs and arcs
-// ([edelsbrunner1997]). Narrow patches lack that: they are simplified to their sites ([liu2023]).
+// Flips lead from any triangulation of the sites to the intrinsic Delaunay one, which is the dual
+// of the cells, so labels of vertices suffice for the first. Without flips, and if they are asked
+// for, the cells themselves are found, whose dual is right where all cells and what they have in
+// common are discs and arcs ([edelsbrunner1997]). Patches whose triangles are not right are
+// simplified to their sites ([liu2023]).
 #include "remesh/pipeline/valid_dual.h"
 
 #include <algorithm>
@@ -10,6 +13,9 @@
 #include "remesh/pipeline/domain.h"
 #include "remesh/pipeline/place_sites.h"
 #include "remesh/pipeline/stage_context.h"
+#include "remesh/sites/label_triangles.h"
+#include "remesh/sites/levels.h"
+#include "remesh/sites/site_dual.h"
 
 namespace remesh::detail {
 namespace {
@@ -25,10 +31,19 @@ public:
           options_(context.options),
           result_(context.result),
           sites_(sites),
-          has_failed_(patches_.size(), false) {}
+          chain_(chain_by_part(placed.chain, static_cast<Index>(patches_.size()),
+                               [&](Index site) { return patch_of(sites_[site]); })),
+          has_failed_(patches_.size(), false) {
+        dual_.has_cell.assign(sites.size(), 1);
+    }
 
     ValidDual run() {
-        build_diagram();
+        if (asks_for_cells()) {
+            take_cells();
+        } else {
+            take_labels();
+        }
+        find_failed();
         const StageClock clock(Stage::Dual, result_);
         poll(progress_of(Stage::Dual, options_), 0);
         build_mesh();
@@ -37,7 +52,42 @@ public:
     }
 
 private:
-    void build_diagram() {
+    // Whether flips do not lead from any triangulation to the dual, or distances are asked for.
+    [[nodiscard]] bool asks_for_cells() const {
+        return !is_relaxed(options_) || !gives_cells(surface_, sites_.size()) ||
+               options_.delaunay != Delaunay::Intrinsic ||
+               options_.propagation.engine != Engine::Window ||
+               options_.propagation.max_error.has_value();
+    }
+
+    void take_labels() {
+        const StageClock clock(Stage::Dual, result_);
+        const Progress progress = progress_at(Stage::Dual, options_, 0);
+        DistanceBounds labels =
+            label_vertices(domain_.prepared, placed_.sites, options_.num_threads, progress);
+        const std::vector<Triangle> triangles =
+            triangulate_by_labels(surface_, labels, sites_, ends_of(placed_.chain), progress)
+                .triangles;
+        triangles_ = by_patch(triangles);
+        correct_labels(domain_.prepared, placed_.sites, triangles, labels.site);
+        dual_.nearest_site = std::move(labels.site);
+    }
+
+    void take_cells() {
+        const Diagram diagram = build_diagram();
+        const StageClock clock(Stage::Dual, result_);
+        triangles_ = by_patch(build_dual(surface_, diagram, progress_at(Stage::Dual, options_, 0)));
+        for (Index c = 0; c < patches_.size(); ++c) {
+            if (!chain_[c].empty()) close_rim(chain_[c], triangles_[c]);
+        }
+        dual_.has_cell.clear();
+        for (const double area : diagram.cell_area) dual_.has_cell.push_back(area > 0 ? 1 : 0);
+        for (const SiteId site : diagram.nearest_site) {
+            dual_.nearest_site.push_back(site.is_valid() ? site.value() : no_index);
+        }
+    }
+
+    Diagram build_diagram() {
         Propagation propagation;
         {
             const StageClock clock(Stage::Propagate, result_);
@@ -49,9 +99,9 @@ private:
             result_.propagation_bytes = propagation.peak_bytes;
         }
         const StageClock clock(Stage::Diagram, result_);
-        dual_.diagram = agvd::build_diagram(surface_, sites_, std::move(propagation),
-                                            {.num_threads = options_.num_threads,
-                                             .progress = progress_of(Stage::Diagram, options_)});
+        return agvd::build_diagram(surface_, sites_, std::move(propagation),
+                                   {.num_threads = options_.num_threads,
+                                    .progress = progress_of(Stage::Diagram, options_)});
     }
 
     [[nodiscard]] Index patch_of(const SurfacePoint& point) const {
@@ -60,11 +110,10 @@ private:
 
     // Vertices in the order of their sites, then those of simplified patches.
     void build_mesh() {
-        const std::vector<std::vector<Triangle>> triangles = triangles_of_patches();
         std::vector<bool> has_vertex(sites_.size(), false);
-        for (Index c = 0; c < triangles.size(); ++c) {
+        for (Index c = 0; c < triangles_.size(); ++c) {
             if (has_failed_[c]) continue;
-            for (const Triangle& t : triangles[c]) {
+            for (const Triangle& t : triangles_[c]) {
                 for (const Index site : t) has_vertex[site] = true;
             }
         }
@@ -80,33 +129,30 @@ private:
         // By patch that is to be simplified: faces, ascending, and sites, one at each position.
         std::vector<std::vector<Index>> faces(patches_.size()), sites(patches_.size());
         if (num_failed > 0) find_parts(faces, sites);
-        for (Index c = 0; c < triangles.size(); ++c) {
+        for (Index c = 0; c < triangles_.size(); ++c) {
             if (has_failed_[c]) {
                 append_simplified(faces[c], sites[c]);
                 continue;
             }
-            for (const auto& [i, j, k] : triangles[c]) {
+            for (const auto& [i, j, k] : triangles_[c]) {
                 dual_.triangles.push_back({number[i], number[j], number[k]});
             }
         }
     }
 
-    // Of sites. Marks patches as failed whose triangles have another topology or boundary.
-    std::vector<std::vector<Triangle>> triangles_of_patches() {
-        std::vector<std::vector<Triangle>> triangles(patches_.size());
-        const auto part_of = [&](Index site) { return patch_of(sites_[site]); };
-        for (const Triangle& t :
-             build_dual(surface_, dual_.diagram, progress_at(Stage::Dual, options_, 0))) {
-            triangles[part_of(t[0])].push_back(t);
+    [[nodiscard]] std::vector<std::vector<Triangle>> by_patch(
+        std::span<const Triangle> triangles) const {
+        std::vector<std::vector<Triangle>> result(patches_.size());
+        for (const Triangle& t : triangles) result[patch_of(sites_[t[0]])].push_back(t);
+        return result;
+    }
+
+    // Marks patches whose triangles have another topology or boundary.
+    void find_failed() {
+        for (Index c = 0; c < patches_.size(); ++c) {
+            has_failed_[c] = !has_right_topology(triangles_[c], patches_[c]) ||
+                             (!placed_.chain.empty() && rim_of(triangles_[c]) != chain_[c]);
         }
-        const auto chain =
-            chain_by_part(placed_.chain, static_cast<Index>(patches_.size()), part_of);
-        for (Index c = 0; c < triangles.size(); ++c) {
-            if (!chain[c].empty()) close_rim(chain[c], triangles[c]);
-            has_failed_[c] = !has_right_topology(triangles[c], patches_[c]) ||
-                             (!placed_.chain.empty() && rim_of(triangles[c]) != chain[c]);
-        }
-        return triangles;
     }
 
     // False for polygons of the dual without a valid diagonal.
@@ -165,7 +211,9 @@ private:
     const RemeshOptions& options_;
     RemeshResult& result_;
     const std::span<const SurfacePoint> sites_;
-    std::vector<bool> has_failed_;  // By patch.
+    const std::vector<std::vector<DirectedEdge>> chain_;  // By patch.
+    std::vector<std::vector<Triangle>> triangles_;        // Of sites, by patch.
+    std::vector<bool> has_failed_;                        // By patch.
     ValidDual dual_;
 };
 

@@ -5,7 +5,6 @@
 #include <span>
 #include <vector>
 
-#include "agvd/diagram/diagram.h"
 #include "remesh/names.h"
 
 namespace remesh::detail {
@@ -20,15 +19,19 @@ struct ValidDual {
     std::vector<Triangle> triangles;       //!< Indices into points.
     std::vector<Index> site;               //!< Per vertex: its site; no_index: it has none.
     std::vector<std::uint8_t> stays = {};  //!< #V or empty: 1 for vertices to remove last.
-    Diagram diagram;                       //!< Of the sites.
+    std::vector<std::uint8_t> has_cell;    //!< #sites: 1 for those that own a part of the surface.
+    std::vector<Index> nearest_site;       //!< #V of the base: a site nearby; no_index: none.
 };
 
-//! The dual of the cells. A patch whose dual has another topology or another rim than the patch is
-//! simplified to its sites instead (simplify). For any sites each patch of the result is an
+//! A triangulation by labels, from which flips lead to the dual of the cells; that dual itself if
+//! the sites are not relaxed, faces are too large for labels, or the options ask for an engine, an
+//! error or other flips. A patch whose triangles have another topology or another rim than the
+//! patch is simplified to its sites (simplify). For any sites each patch of the result is an
 //! oriented manifold with the topology of the patch.
 //! \param placed  the curves that the mesh must have.
 //! \param sites   on the base.
-//! Cost: a propagation and a diagram, and that of simplify for the patches that need it.
+//! Cost: that of label_vertices, or of a propagation and a diagram; that of simplify for the
+//! patches that need it.
 [[nodiscard]] ValidDual build_valid_dual(Domain& domain, const PlacedSites& placed,
                                          std::span<const SurfacePoint> sites,
                                          const StageContext& context);

@@ -26,22 +26,24 @@ namespace {
 
 // Steps between two measurements of the cells.
 constexpr int steps_per_sweep = 10;
-// With this many vertices for each site, labels tell which sites are neighbours.
+// With this many vertices for each site, most neighbours have labels that meet.
 constexpr std::size_t vertices_per_site = 8;
-// With this many vertices for each site, measurements of cells are meaningful.
+// With this many vertices for each site, labels and measurements of cells are meaningful.
 constexpr std::size_t vertices_per_cell = 2;
-// Flaws of a triangulation, as a share of the sites, above which a propagation pays.
-constexpr double most_flaws = 2e-3;
+// Distance error of a propagation that only has to tell which sites are neighbours.
+constexpr double neighbour_error = 1e-2;
 // Relaxation would do harm if more than this share of the triangles face against the surface, or of
 // the sites are in no triangle.
 constexpr double hopeless_share = 0.1;
-// Distance error of a propagation that only has to tell which sites are neighbours.
-constexpr double neighbour_error = 1e-2;
 
 }  // namespace
 
 bool gives_neighbours(const Surface& surface, std::size_t num_sites) {
     return surface.num_vertices() >= vertices_per_site * num_sites;
+}
+
+bool gives_cells(const Surface& surface, std::size_t num_sites) {
+    return surface.num_vertices() >= vertices_per_cell * num_sites;
 }
 
 bool is_hopeless(const Relaxation& relaxation) {
@@ -89,38 +91,32 @@ DistanceBounds Levels::label(std::span<const SurfacePoint> sites) const {
     return label_vertices(prepared_, sites, options_.num_threads, progress_);
 }
 
-std::vector<Triangle> Levels::triangulate(const DistanceBounds& labels,
-                                          std::span<const SurfacePoint> sites,
-                                          std::span<const ChainEdge> chain) const {
-    std::vector<Triangle> triangles;
-    if (gives_neighbours(surface_, sites.size())) {
-        triangles = label_triangles(surface_, labels);
-    } else {
-        const std::vector<SurfacePoint> on_base = prepared_.base.to_intrinsic(sites);
-        const Propagation propagation = propagate(surface_, prepared_.layout, on_base,
-                                                  {.max_error = neighbour_error,
-                                                   .num_threads = options_.num_threads,
-                                                   .progress = progress_});
-        const Diagram diagram =
-            build_diagram(surface_, on_base, propagation,
-                          {.num_threads = options_.num_threads, .progress = progress_});
-        triangles = build_dual(surface_, diagram, progress_);
+LabelTriangles Levels::triangulate(const DistanceBounds& labels,
+                                   std::span<const SurfacePoint> sites,
+                                   std::span<const ChainEdge> chain) const {
+    const std::vector<SurfacePoint> on_base = prepared_.base.to_intrinsic(sites);
+    const std::vector<DirectedEdge> ends = ends_of(chain);
+    if (gives_cells(surface_, sites.size())) {
+        return triangulate_by_labels(surface_, labels, on_base, ends, progress_);
     }
-    if (!chain.empty()) close_rim(ends_of(chain), triangles);
-    return triangles;
+    const Propagation propagation = propagate(
+        surface_, prepared_.layout, on_base,
+        {.max_error = neighbour_error, .num_threads = options_.num_threads, .progress = progress_});
+    const Diagram diagram =
+        build_diagram(surface_, on_base, propagation,
+                      {.num_threads = options_.num_threads, .progress = progress_});
+    LabelTriangles result{build_dual(surface_, diagram, progress_), {}};
+    if (!ends.empty()) close_rim(ends, result.triangles);
+    return result;
 }
 
 double Levels::fraction() const {
     return static_cast<double>(steps_done_) / std::max(steps_planned_, 1);
 }
 
-bool Levels::gives_cells(Index num_sites) const {
-    return surface_.num_vertices() >= vertices_per_cell * num_sites;
-}
-
 void Levels::look(Relaxation& relaxation, const DistanceBounds& labels) const {
     const auto num_sites = static_cast<Index>(relaxation.sites().size());
-    if (!gives_cells(num_sites)) return;
+    if (!gives_cells(surface_, num_sites)) return;
     const CellMeasures cells =
         measure_cells(prepared_, labels, num_sites, options_.num_threads, progress_);
     relaxation.set_density(&cells, lengths_at(options_.sizes, relaxation.sites()));
@@ -129,16 +125,11 @@ void Levels::look(Relaxation& relaxation, const DistanceBounds& labels) const {
 // Labels and measures the surface again.
 void Levels::sweep(Relaxation& relaxation, std::span<const ChainEdge> chain) {
     const auto num_sites = static_cast<Index>(relaxation.sites().size());
-    if (!gives_cells(num_sites)) return;
+    if (!gives_cells(surface_, num_sites)) return;
     const DistanceBounds labels = label(relaxation.sites());
-    const Index flaws = relaxation.num_flaws();
-    const bool is_cheap = gives_neighbours(surface_, num_sites);
-    // Not with curves, which hold the triangulation together: it costs more than it gains.
-    const bool is_useful =
-        chain.empty() && num_repaired_ < levels_.size() && flaws > most_flaws * num_sites;
-    if (flaws > 0 && (is_cheap || is_useful)) {
-        if (!is_cheap) num_repaired_ = levels_.size();
-        relaxation.repair(triangulate(labels, relaxation.sites(), chain));
+    if (relaxation.num_flaws() > 0 && num_given_up_ < levels_.size() &&
+        !relaxation.repair(triangulate(labels, relaxation.sites(), chain))) {
+        num_given_up_ = levels_.size();
     }
     look(relaxation, labels);
 }
@@ -196,9 +187,9 @@ RelaxResult relax_sites(const PreparedSurface& surface, std::vector<SurfacePoint
         move_inner_to_boundary(surface, options, levels.progress(), sites);
     }
     const DistanceBounds labels = levels.label(sites);
-    std::vector<Triangle> triangles = levels.triangulate(labels, sites);
-    Relaxation relaxation(surface.input(), {sites, std::move(triangles)}, options.is_fixed,
-                          options.num_threads, levels.progress());
+    auto [triangles, narrow] = levels.triangulate(labels, sites);
+    Relaxation relaxation(surface.input(), {sites, std::move(triangles), {}, std::move(narrow)},
+                          options.is_fixed, options.num_threads, levels.progress());
     if (is_hopeless(relaxation)) return {std::move(sites), {}};
     levels.run(relaxation, &labels);
     return {is_hopeless(relaxation) ? std::move(sites) : relaxation.sites(), levels.levels()};

@@ -3,6 +3,7 @@
 //! measurements of the surface between them.
 #pragma once
 
+#include "remesh/sites/label_triangles.h"
 #include "remesh/sites/relaxation.h"
 #include "remesh/sites/sites.h"
 
@@ -26,6 +27,9 @@ void even_out(const PreparedSurface& surface, std::vector<SurfacePoint>& sites,
 
 //! Whether labels of the vertices tell which sites are neighbours.
 [[nodiscard]] bool gives_neighbours(const Surface& surface, std::size_t num_sites);
+
+//! Whether labels of the vertices tell the sites' triangulation, and what their cells hold.
+[[nodiscard]] bool gives_cells(const Surface& surface, std::size_t num_sites);
 
 //! Whether triangles are as large as the features of the surface, or too many sites are in none.
 //! Sites that are even on such a triangulation are not even on the surface.
@@ -54,16 +58,15 @@ public:
     //! labels.
     //! \param labels  of the base's vertices.
     //! \param chain   edges that its rim is to have.
-    [[nodiscard]] std::vector<Triangle> triangulate(const DistanceBounds& labels,
-                                                    std::span<const SurfacePoint> sites,
-                                                    std::span<const ChainEdge> chain = {}) const;
+    [[nodiscard]] LabelTriangles triangulate(const DistanceBounds& labels,
+                                             std::span<const SurfacePoint> sites,
+                                             std::span<const ChainEdge> chain = {}) const;
 
     //! Those that were run.
     [[nodiscard]] const std::vector<RelaxLevel>& levels() const { return levels_; }
 
 private:
     [[nodiscard]] double fraction() const;
-    [[nodiscard]] bool gives_cells(Index num_sites) const;
     void look(Relaxation& relaxation, const DistanceBounds& labels) const;
     void sweep(Relaxation& relaxation, std::span<const ChainEdge> chain);
 
@@ -73,7 +76,7 @@ private:
     Progress progress_;
     int steps_planned_;
     int steps_done_ = 0;
-    std::size_t num_repaired_ = 0;  // Levels up to the last one that used a propagation.
+    std::size_t num_given_up_ = 0;  // Levels up to the last one whose flaws no triangles mend.
     std::vector<RelaxLevel> levels_;
 };
 

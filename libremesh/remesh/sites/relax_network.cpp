@@ -174,30 +174,6 @@ struct MiddleFinder {
     }
 };
 
-// The sites from `first` on around which the triangles are not one closed fan.
-std::vector<Index> find_wrapped(std::span<const Triangle> triangles, Index first, Index num_sites) {
-    std::vector<std::vector<DirectedEdge>> around(num_sites - first);  // Opposite edges.
-    for (const Triangle& t : triangles) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            if (t[k] >= first) around[t[k] - first].emplace_back(t[(k + 1) % 3], t[(k + 2) % 3]);
-        }
-    }
-    std::vector<Index> wrapped;
-    for (Index i = 0; i < around.size(); ++i) {
-        const std::map<Index, Index> next(around[i].begin(), around[i].end());
-        std::size_t length = 0;
-        auto at = next.begin();
-        while (at != next.end() && length < next.size()) {
-            ++length;
-            if (at->second == next.begin()->first) break;
-            at = next.find(at->second);
-        }
-        const bool is_closed = at != next.end() && at->second == next.begin()->first;
-        if (!is_closed || length < 3 || length != around[i].size()) wrapped.push_back(first + i);
-    }
-    return wrapped;
-}
-
 class NetworkSampler {
 public:
     NetworkSampler(const PreparedSurface& surface, const NetworkPlan& plan, CurveSites fine,
@@ -231,9 +207,9 @@ public:
             levels_.run(*last, nullptr, chain);
         } else {
             last = start(fine_, sample(fine_, num_inner_, plan_.spacing));
-            std::vector<Triangle> triangles =
-                levels_.triangulate(levels_.label(last->sites()), last->sites(), chain);
-            find_narrow(fine_, last->sites(), triangles);
+            const DistanceBounds labels = levels_.label(last->sites());
+            find_narrow(fine_, last->sites(),
+                        levels_.triangulate(labels, last->sites(), chain).narrow);
         }
         return finish(*last);
     }
@@ -282,10 +258,11 @@ private:
     }
 
     void find_narrow(const CurveSites& curves, const std::vector<SurfacePoint>& sites,
-                     std::span<const Triangle> triangles) {
-        narrow_points_ =
-            take(sites, find_wrapped(triangles, static_cast<Index>(curves.sites.size()),
-                                     static_cast<Index>(sites.size())));
+                     std::span<const Index> narrow) {
+        narrow_points_.clear();
+        for (const Index i : narrow) {
+            if (i >= curves.sites.size()) narrow_points_.push_back(sites[i]);
+        }
     }
 
     [[nodiscard]] Index patch_of(const SurfacePoint& site) const {
@@ -314,7 +291,9 @@ private:
         }
         level.sites = take(level.sites, order);
         level.weights = take(level.weights, order);
-        level.triangles = rename_vertices(level.triangles, places_in(order));
+        const std::vector<Index> place = places_in(order);
+        level.triangles = rename_vertices(level.triangles, place);
+        for (Index& i : level.narrow) i = place[i];
         std::ranges::sort(level.triangles, {}, [](const Triangle& t) {
             return std::pair(std::min({t[0], t[1], t[2]}), t);
         });
@@ -348,10 +327,11 @@ private:
                              options_.sizes);
         }
         const DistanceBounds labels = levels_.label(sites);
-        std::vector<Triangle> triangles = levels_.triangulate(labels, sites, chain);
+        auto [triangles, narrow] = levels_.triangulate(labels, sites, chain);
         repair_patches(chain, sites, triangles,
                        [&](Index patch) { return simplified(patch, sites); });
-        auto relaxation = make_relaxation({std::move(sites), std::move(triangles)}, curves);
+        auto relaxation = make_relaxation(
+            {std::move(sites), std::move(triangles), {}, std::move(narrow)}, curves);
         levels_.run(*relaxation, &labels, chain);
         return relaxation;
     }
@@ -384,9 +364,10 @@ private:
     std::unique_ptr<Relaxation> divide(const Relaxation& first, const CurveSites& coarse) {
         const std::vector<ChainEdge> chain = chain_edges(plan_.network, plan_.cut, coarse);
         const Refinement refinement{plan_, coarse, fine_};
-        detail::SiteDual dual = detail::label_dual(surface_.base, levels_.label(first.sites()));
-        close_rim(ends_of(chain), dual.triangles);
-        find_narrow(coarse, first.sites(), dual.triangles);
+        const DistanceBounds labels = levels_.label(first.sites());
+        auto [triangles, narrow] = levels_.triangulate(labels, first.sites(), chain);
+        find_narrow(coarse, first.sites(), narrow);
+        detail::SiteDual dual{std::move(triangles), detail::label_middles(surface_.base, labels)};
         const auto relaxed = sort_by_patch(first.triangles(), first.sites());
         repair_patches(chain, first.sites(), dual.triangles,
                        [&](Index patch) { return relaxed[patch]; });
@@ -418,6 +399,7 @@ private:
         std::optional<detail::TriangulatedSites> divided = detail::subdivide(
             plan_.cut.surface(), sites, weights, dual, count, lengths_at(options_.sizes, sites));
         if (!divided) return nullptr;
+        for (const Index i : narrow) divided->narrow.push_back(refinement.number(i));
         sort_in_space(fine_.sites.size(), *divided);
         return make_relaxation(*std::move(divided), fine_);
     }

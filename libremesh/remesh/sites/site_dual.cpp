@@ -158,18 +158,10 @@ DistanceBounds label_vertices(const PreparedSurface& surface, std::span<const Su
                            num_threads, progress);
 }
 
-std::vector<Triangle> label_triangles(const Surface& surface, const DistanceBounds& labels) {
-    std::vector<Triangle> triangles;
-    for (const Triangle& t : surface.mesh.triangles) {
-        const Index a = labels.site[t[0]], b = labels.site[t[1]], c = labels.site[t[2]];
-        if (a != b && b != c && c != a) triangles.push_back({a, b, c});
-    }
-    return triangles;
-}
-
-SiteDual label_dual(const IntrinsicTriangulation& base, const DistanceBounds& labels) {
+std::vector<Middle> label_middles(const IntrinsicTriangulation& base,
+                                  const DistanceBounds& labels) {
     const Surface& surface = base.surface();
-    SiteDual result{label_triangles(surface, labels), {}};
+    std::vector<Middle> middles;
     struct Crossing {
         std::uint64_t pair;
         bool is_rim;  // Inner edges come first.
@@ -197,10 +189,10 @@ SiteDual label_dual(const IntrinsicTriangulation& base, const DistanceBounds& la
         const double along = std::clamp(
             meeting_share(labels, surface.tail(h), surface.head(h), surface.length_of(h)),
             end_margin, 1 - end_margin);
-        result.middles.push_back({static_cast<Index>(c.pair >> 32), static_cast<Index>(c.pair),
-                                  c.length, base.to_input(point_on(h, along, side_margin))});
+        middles.push_back({static_cast<Index>(c.pair >> 32), static_cast<Index>(c.pair), c.length,
+                           base.to_input(point_on(h, along, side_margin))});
     }
-    return result;
+    return middles;
 }
 
 void move_to_boundary(const PreparedSurface& prepared, double spacing, int num_threads,

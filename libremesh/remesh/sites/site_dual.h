@@ -1,6 +1,5 @@
 //! \file
-//! Quick labels of the vertices, the triangulation of the sites that they give, and sites between
-//! those.
+//! Quick labels of the vertices, and sites between the sites that they are of.
 #pragma once
 
 #include <optional>
@@ -27,21 +26,16 @@ struct Middle {
     Index site = no_index;
 };
 
-//! A triangulation of the sites: a triangle for each face whose corners have three labels. It is
-//! the surface with all vertices of a label merged into one, and has its topology if each label
-//! covers a disc. Sites that label no vertex are in no triangle.
-[[nodiscard]] std::vector<Triangle> label_triangles(const Surface& surface,
-                                                    const DistanceBounds& labels);
-
 //! A triangulation with the middles of its edges.
 struct SiteDual {
     std::vector<Triangle> triangles;
     std::vector<Middle> middles;  //!< By (low, high): one for each pair that meets.
 };
 
-//! The triangulation by labels, with the middles of its edges.
+//! The middles between sites whose labels meet: by (low, high), one for each pair.
 //! Cost: sorting the edges whose ends have two labels.
-[[nodiscard]] SiteDual label_dual(const IntrinsicTriangulation& base, const DistanceBounds& labels);
+[[nodiscard]] std::vector<Middle> label_middles(const IntrinsicTriangulation& base,
+                                                const DistanceBounds& labels);
 
 //! Moves each site that labels boundary vertices onto the boundary: to a corner that it labels, or
 //! to the point nearest by its labels, off the vertices, so that it can move along.

@@ -187,6 +187,31 @@ SiteMesh build_site_mesh(std::vector<Triangle> triangles, Index num_sites, Ticke
     return mesh;
 }
 
+std::vector<Fan> find_fans(const SiteMesh& mesh) {
+    std::vector<Index> count(mesh.is_rim.size(), 0), first(mesh.is_rim.size(), no_index);
+    for (Index h = 0; h < mesh.twin.size(); ++h) {
+        const Index site = mesh.tail(h);
+        ++count[site];
+        if (first[site] == no_index || mesh.twin[h] == no_index) first[site] = h;
+    }
+    std::vector<Fan> fans(count.size(), Fan::Broken);
+    for (Index site = 0; site < fans.size(); ++site) {
+        if (count[site] == 0) continue;
+        Index length = 0, h = first[site];
+        do {
+            ++length;
+            h = mesh.twin[SiteMesh::previous(h)];
+        } while (h != no_index && h != first[site]);
+        if (length != count[site]) continue;
+        if (h == no_index) {
+            fans[site] = Fan::Open;
+        } else if (length >= 3) {
+            fans[site] = Fan::Closed;
+        }
+    }
+    return fans;
+}
+
 Index flip_towards_delaunay(SiteMesh& mesh, std::span<const Vec3> positions,
                             std::span<const double> cotangent, Ticker ticker) {
     Flipper flipper{mesh, positions};
@@ -252,7 +277,8 @@ void measure_energy(const SiteMesh& mesh, std::span<const Vec3> positions,
             weighted = clipped.weighted;
             steepest = clipped.steepest;
         }
-        if (steepest <= flat) {
+        // With all corners on the rim's line there is no height to divide by.
+        if (steepest <= flat && std::isfinite(energy)) {
             result.energy += energy;
             result.weighted += weighted;
         }

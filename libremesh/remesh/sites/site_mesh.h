@@ -18,6 +18,7 @@ struct TriangulatedSites {
     std::vector<SurfacePoint> sites;
     std::vector<Triangle> triangles;
     std::vector<double> weights = {};  //!< #sites: their density; empty: all alike.
+    std::vector<Index> narrow = {};    //!< Sites whose cells are no discs.
 };
 
 //! Half-edge h = 3 t + k runs from corner k to corner k + 1 of triangle t.
@@ -35,6 +36,15 @@ struct SiteMesh {
 //! Accepts any triangles of site indices, manifold or not. Cost: O(n log n).
 [[nodiscard]] SiteMesh build_site_mesh(std::vector<Triangle> triangles, Index num_sites,
                                        Ticker ticker = {});
+
+//! How the triangles around a site lie.
+enum class Fan : std::uint8_t {
+    Closed,  //!< One fan around it, of three or more.
+    Open,    //!< One fan, between two edges of the rim.
+    Broken,  //!< None, several fans, or two triangles of the same corners.
+};
+//! \return #sites. Cost: O(n).
+[[nodiscard]] std::vector<Fan> find_fans(const SiteMesh& mesh);
 
 //! Flips the edges whose opposite angles (in space) sum to more than pi, unless that would fold the
 //! mesh or join two sites twice. Edges that fail only after another flip wait for the next call.

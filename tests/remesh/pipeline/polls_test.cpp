@@ -67,6 +67,8 @@ struct Scene {
 const std::map<Stage, int> least_polls{
     {Stage::Clean, 100}, {Stage::Relax, 300},   {Stage::Propagate, 50}, {Stage::Diagram, 50},
     {Stage::Dual, 4},    {Stage::Delaunay, 20}, {Stage::Place, 20},     {Stage::Check, 8}};
+// With an error the cells are found.
+const agvd::PropagationOptions with_error{.max_error = 1e-4};
 
 std::map<Stage, int> count_polls(const TriangleMesh& mesh, remesh::RemeshOptions options) {
     std::map<Stage, int> polls;
@@ -79,16 +81,25 @@ std::map<Stage, int> count_polls(const TriangleMesh& mesh, remesh::RemeshOptions
 }
 
 TEST(Polls, AreInEveryStageOfRemesh) {
-    std::map<Stage, int> polls =
-        count_polls(sphere(), {.num_samples = 3000, .relax_steps = 20, .num_threads = 1});
+    std::map<Stage, int> polls = count_polls(
+        sphere(),
+        {.num_samples = 3000, .relax_steps = 20, .propagation = with_error, .num_threads = 1});
     for (const auto& [stage, count] : least_polls) {
         EXPECT_GE(polls[stage], count) << remesh::stage_name(stage);
     }
 }
 
+TEST(Polls, AreInTheTrianglesOfLabels) {
+    std::map<Stage, int> polls =
+        count_polls(sphere(), {.num_samples = 3000, .relax_steps = 20, .num_threads = 1});
+    EXPECT_EQ(polls[Stage::Propagate], 0);
+    EXPECT_GE(polls[Stage::Dual], 10);
+}
+
 TEST(Polls, StopEveryStageOfRemesh) {
     const TriangleMesh mesh = shapes::jitter(shapes::sphere(4), 1e-4, 1);
-    remesh::RemeshOptions options{.num_samples = 500, .relax_steps = 20, .num_threads = 1};
+    remesh::RemeshOptions options{
+        .num_samples = 500, .relax_steps = 20, .propagation = with_error, .num_threads = 1};
     std::map<Stage, int> polls = count_polls(mesh, options);
     for (const auto& [stage, least] : least_polls) {
         for (const int last : {1, polls[stage] / 2, polls[stage]}) {

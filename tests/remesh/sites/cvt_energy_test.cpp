@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 using agvd::Index;
@@ -89,6 +90,23 @@ TEST(CvtEnergy, SlopesOfClippedCellsAreThoseOfTheEnergy) {
     EXPECT_NEAR(found.cells[5].slope.y(), slope_of(5, y), 1e-8);
     // Not past the rim: the square goes on below, so that the site is drawn upwards.
     EXPECT_LT(found.cells[4].slope.y(), -0.1);
+}
+
+// A triangle whose corners lie on one line, with two edges at the rim, beside another one.
+TEST(CvtEnergy, ATriangleWithoutHeightAtTheRimIsLeftOut) {
+    const std::vector<Vec3> at{{0, 0, 0}, {0.75, 0.1, 0}, {3, 0.4, 0}, {1, 3, 0}};
+    const auto mesh = remesh::detail::build_site_mesh({{0, 1, 2}, {0, 2, 3}}, 4);
+    agvd::Poller poller;
+    agvd::Ticker ticker(poller);
+    CvtEnergy result;
+    for (const double lift : {0.0, 1e-18, -1e-18, 1e-12}) {
+        std::vector<Vec3> lifted = at;
+        lifted[1].z() = lift;
+        measure_energy(mesh, lifted, std::vector<double>(4, 1), ticker, result);
+        EXPECT_TRUE(std::isfinite(result.energy)) << lift;
+        EXPECT_GT(result.energy, 1) << lift;
+        EXPECT_TRUE(std::isfinite(result.weighted)) << lift;
+    }
 }
 
 TEST(CvtEnergy, WeightsScaleMassAndSlope) {

@@ -17,6 +17,7 @@
 #include "agvd/propagation/propagate.h"
 #include "remesh/curves/walk.h"
 #include "remesh/meshfile/mesh_file.h"
+#include "remesh/sites/label_triangles.h"
 #include "remesh/sites/levels.h"
 #include "remesh/sites/prepared_surface.h"
 #include "remesh/sites/relax_network.h"
@@ -448,7 +449,8 @@ TEST(Relaxation, SitesAreDrawnToThePlanesOfTheirCells) {
     const auto distance_after_steps = [&](const remesh::detail::CellMeasures& known) {
         const agvd::Progress none;
         remesh::detail::Relaxation relaxation(
-            surface, {sites, remesh::detail::label_dual(prepared.base, labels).triangles}, {}, 1,
+            surface,
+            {sites, remesh::detail::triangulate_by_labels(surface, labels, sites).triangles}, {}, 1,
             none);
         relaxation.set_density(&known, {});
         for (int step = 0; step < 5; ++step) relaxation.step();

@@ -21,6 +21,29 @@ double cotangent_at(const Vec3& corner, const Vec3& a, const Vec3& b) {
 
 }  // namespace
 
+TEST(SiteMesh, FansCloseOrEndAtTheRimOrAreBroken) {
+    using remesh::detail::Fan;
+    // A tetrahedron, a square of two triangles, two triangles that meet in 8, two of the same
+    // corners, and 16, which has none.
+    const std::vector<Triangle> triangles{{0, 2, 1},    {0, 1, 3},   {1, 2, 3},  {2, 0, 3},
+                                          {4, 5, 6},    {4, 6, 7},   {8, 9, 10}, {8, 11, 12},
+                                          {13, 14, 15}, {13, 15, 14}};
+    const std::vector<Fan> fans = find_fans(remesh::detail::build_site_mesh(triangles, 17));
+    ASSERT_EQ(fans.size(), 17u);
+    for (Index i = 0; i < 17; ++i) {
+        const Fan expected = i < 4 ? Fan::Closed : i == 8 || i >= 13 ? Fan::Broken : Fan::Open;
+        EXPECT_EQ(fans[i], expected) << i;
+    }
+}
+
+// Three triangles on one edge: the fans of its ends are broken.
+TEST(SiteMesh, FansAreBrokenWhereThreeTrianglesMeet) {
+    using remesh::detail::Fan;
+    const std::vector<Fan> fans =
+        find_fans(remesh::detail::build_site_mesh({{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}, 5));
+    EXPECT_EQ(fans, (std::vector{Fan::Broken, Fan::Broken, Fan::Open, Fan::Open, Fan::Open}));
+}
+
 // Two triangles with a common edge, at any angle. A flip turns no normal by more than the rule
 // says, on neither side.
 TEST(SiteMesh, FlipsFoldNeitherTriangle) {

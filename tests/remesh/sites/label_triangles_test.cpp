@@ -1,0 +1,195 @@
+#include "remesh/sites/label_triangles.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <set>
+
+#include "agvd/diagram/diagram.h"
+#include "agvd/mesh/surface_points.h"
+#include "agvd/mesh/topology.h"
+#include "agvd/propagation/propagate.h"
+#include "remesh/dual/build_dual.h"
+#include "remesh/sites/sampling.h"
+#include "remesh/sites/site_dual.h"
+#include "remesh/sites/sites.h"
+#include "support/points.h"
+#include "support/shapes.h"
+
+using namespace agvd;
+using remesh::PreparedSurface;
+using remesh::detail::LabelTriangles;
+
+namespace {
+
+constexpr double not_refined = std::numeric_limits<double>::infinity();
+
+Index num_used(const std::vector<Triangle>& triangles) {
+    std::set<Index> used;
+    for (const Triangle& t : triangles) used.insert(t.begin(), t.end());
+    return static_cast<Index>(used.size());
+}
+
+Topology topology_of(const std::vector<Triangle>& triangles, std::size_t num_sites) {
+    TriangleMesh mesh{std::vector(num_sites, Vec3(0, 0, 0)), triangles};
+    return analyze_topology(mesh.view());
+}
+
+// Each triangle from its least corner on, in order.
+std::set<Triangle> sorted(const std::vector<Triangle>& triangles) {
+    std::set<Triangle> result;
+    for (Triangle t : triangles) {
+        std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+        result.insert(t);
+    }
+    return result;
+}
+
+std::vector<Triangle> plain_merge(const Surface& surface, const DistanceBounds& labels) {
+    std::vector<Triangle> triangles;
+    for (const Triangle& t : surface.mesh.triangles) {
+        const Index a = labels.site[t[0]], b = labels.site[t[1]], c = labels.site[t[2]];
+        if (a != b && b != c && c != a) triangles.push_back({a, b, c});
+    }
+    return triangles;
+}
+
+struct Case {
+    TriangleMesh mesh;
+    Index num_sites;
+};
+
+}  // namespace
+
+// The labels of random sites, after flips by geodesic lengths, against the exact cells.
+TEST(LabelTriangles, FlipsLeadToTheDualOfTheCells) {
+    Index num_cases = 0, num_flips = 0;
+    for (const auto& [mesh, n] : {Case{shapes::sphere(4), 200},
+                                  {shapes::torus(60, 30), 250},
+                                  {shapes::tube(60, 40), 200}}) {
+        const Surface surface = build_surface(mesh.view());
+        const PreparedSurface prepared(surface, not_refined);
+        for (const std::uint64_t seed : {1u, 2u}) {
+            const std::vector<SurfacePoint> start =
+                remesh::sample_sites(surface, {.num_samples = n, .seed = seed});
+            const std::vector<SurfacePoint> sites =
+                remesh::relax_sites(prepared, start, {.steps = 10}).sites;
+            const DistanceBounds labels = remesh::detail::label_vertices(prepared, sites, 1);
+            const LabelTriangles found =
+                remesh::detail::triangulate_by_labels(surface, labels, sites);
+            std::vector<Vec3> positions;
+            for (const SurfacePoint& s : sites) {
+                positions.push_back(position(surface.mesh.view(), s));
+            }
+            const auto flipped =
+                remesh::make_delaunay(surface, sites, positions, found.triangles, {});
+            const Diagram diagram = build_diagram(surface, sites, propagate(surface, sites));
+            const auto dual = remesh::make_delaunay(surface, sites, positions,
+                                                    remesh::build_dual(surface, diagram), {});
+            std::vector<Triangle> others;
+            std::ranges::set_difference(sorted(flipped.triangles), sorted(dual.triangles),
+                                        std::back_inserter(others));
+            // Four sites on a circle have two triangulations.
+            EXPECT_LE(others.size(), 0.02 * static_cast<double>(n));
+            num_flips += flipped.counts.flips;
+            ++num_cases;
+        }
+    }
+    EXPECT_EQ(num_cases, 6u);
+    EXPECT_GT(num_flips, 10u);
+}
+
+// Cells wrap around tubes that are narrower than the spacing.
+TEST(LabelTriangles, NarrowPartsKeepTheTopology) {
+    Index num_narrow = 0;
+    for (const auto& [mesh, n] : {Case{shapes::torus(240, 24, 0.05), 120},
+                                  {shapes::torus(240, 24, 0.05), 160},
+                                  {shapes::torus(120, 12, 0.08), 80}}) {
+        const Surface surface = build_surface(mesh.view());
+        const PreparedSurface prepared(surface, not_refined);
+        const std::vector<SurfacePoint> sites = remesh::sample_sites(surface, {.num_samples = n});
+        const DistanceBounds labels = remesh::detail::label_vertices(prepared, sites, 1);
+        const LabelTriangles found = remesh::detail::triangulate_by_labels(surface, labels, sites);
+        num_narrow += static_cast<Index>(found.narrow.size());
+        EXPECT_FALSE(topology_of(plain_merge(surface, labels), n).is_manifold) << n;
+        const Topology topology = topology_of(found.triangles, n);
+        EXPECT_TRUE(topology.is_manifold && topology.is_oriented) << n;
+        ASSERT_EQ(topology.components.size(), 1u) << n;
+        EXPECT_EQ(topology.components[0].genus, 1) << n;
+        EXPECT_EQ(num_used(found.triangles), n);
+    }
+    EXPECT_GT(num_narrow, 3u);
+}
+
+TEST(LabelTriangles, SitesThatLabelNoVertexGetOne) {
+    const Surface surface = build_surface(shapes::icosahedron().view());
+    const PreparedSurface prepared(surface, not_refined);
+    // One site near each vertex, and three more inside of one face.
+    std::vector<SurfacePoint> sites;
+    for (Index v = 0; v < surface.num_vertices(); ++v) sites.push_back(point_at(surface, v));
+    for (const std::array<double, 3>& at :
+         {std::array{0.4, 0.3, 0.3}, {0.2, 0.5, 0.3}, {0.25, 0.3, 0.45}}) {
+        sites.push_back({FaceId(7), at});
+    }
+    const DistanceBounds labels = remesh::detail::label_vertices(prepared, sites, 1);
+    const LabelTriangles found = remesh::detail::triangulate_by_labels(surface, labels, sites);
+    EXPECT_TRUE(found.narrow.empty());
+    EXPECT_EQ(found.triangles.size(), 20u + 2 * 3);
+    const Topology topology = topology_of(found.triangles, sites.size());
+    EXPECT_TRUE(topology.is_manifold && topology.is_oriented);
+    EXPECT_EQ(topology.components[0].euler, 2);
+    // None is turned over: each lies in the part of the face that held it.
+    const Vec3 up = surface.mesh.positions[surface.mesh.triangles[7][0]] +
+                    surface.mesh.positions[surface.mesh.triangles[7][1]] +
+                    surface.mesh.positions[surface.mesh.triangles[7][2]];
+    Index num_inside = 0;
+    for (const Triangle& t : found.triangles) {
+        if (std::ranges::all_of(t, [](Index s) { return s < 12; })) continue;
+        const auto at = [&](Index k) { return position(surface.mesh.view(), sites[t[k]]); };
+        EXPECT_GT((at(1) - at(0)).cross(at(2) - at(0)).dot(up), 0);
+        ++num_inside;
+    }
+    EXPECT_EQ(num_inside, 7u);
+}
+
+TEST(LabelTriangles, CorrectedLabelsAreThoseOfTheNearestSites) {
+    const Surface surface = build_surface(shapes::sphere(4).view());
+    const PreparedSurface prepared(surface, not_refined);
+    const std::vector<SurfacePoint> sites = points::scattered(surface, 300, 5);
+    const DistanceBounds labels = remesh::detail::label_vertices(prepared, sites, 1);
+    std::vector<Index> corrected = labels.site;
+    remesh::detail::correct_labels(
+        prepared, sites, remesh::detail::triangulate_by_labels(surface, labels, sites).triangles,
+        corrected);
+    const Diagram diagram = build_diagram(surface, sites, propagate(surface, sites));
+    Index wrong_before = 0, wrong_after = 0;
+    for (Index v = 0; v < surface.num_vertices(); ++v) {
+        const Index exact = diagram.nearest_site[v].value();
+        wrong_before += labels.site[v] != exact ? 1 : 0;
+        wrong_after += corrected[v] != exact ? 1 : 0;
+    }
+    EXPECT_GT(wrong_before, 40u);
+    EXPECT_LT(10 * wrong_after, wrong_before);
+}
+
+// A plate thinner than the distance of the sites on its two sides: the nearest in space is wrong.
+TEST(LabelTriangles, CorrectedLabelsStayOnTheirSide) {
+    TriangleMesh plate = shapes::cube();
+    for (int i = 0; i < 4; ++i) plate = shapes::subdivide(plate);
+    for (Vec3& p : plate.positions) p.z() *= 0.01;
+    const Surface surface = build_surface(plate.view());
+    const PreparedSurface prepared(surface, not_refined);
+    const std::vector<SurfacePoint> sites = points::scattered(surface, 100, 2);
+    const DistanceBounds labels = remesh::detail::label_vertices(prepared, sites, 1);
+    std::vector<Index> corrected = labels.site;
+    remesh::detail::correct_labels(
+        prepared, sites, remesh::detail::triangulate_by_labels(surface, labels, sites).triangles,
+        corrected);
+    const Diagram diagram = build_diagram(surface, sites, propagate(surface, sites));
+    Index num_wrong = 0;
+    for (Index v = 0; v < surface.num_vertices(); ++v) {
+        num_wrong += corrected[v] != diagram.nearest_site[v].value() ? 1 : 0;
+    }
+    EXPECT_LT(num_wrong, surface.num_vertices() / 25);
+}
