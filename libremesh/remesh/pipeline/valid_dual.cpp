@@ -66,7 +66,8 @@ private:
         DistanceBounds labels =
             label_vertices(domain_.prepared, placed_.sites, options_.num_threads, progress);
         const std::vector<Triangle> triangles =
-            triangulate_by_labels(surface_, labels, sites_, ends_of(placed_.chain), progress)
+            triangulate_by_labels(surface_, labels, sites_, ends_of(placed_.chain),
+                                  NarrowLabels::Reduce, progress)
                 .triangles;
         triangles_ = by_patch(triangles);
         correct_labels(domain_.prepared, placed_.sites, triangles, labels.site);

@@ -42,19 +42,10 @@ public:
         insert_missing();
     }
 
-    LabelTriangles run() {
-        std::vector<Triangle> triangles = merge();
-        LabelTriangles result{closed(triangles), {}};
+    LabelTriangles run(NarrowLabels narrow) {
+        LabelTriangles result{closed(merge()), {}};
         result.narrow = find_broken(result.triangles);
-        std::vector<Index> broken = result.narrow;
-        while (split(broken)) {
-            triangles = merge();
-            broken = find_broken(closed(triangles));
-        }
-        if (!vertex_.empty() && reduce(triangles)) {
-            triangles = closed(std::move(triangles));
-            if (find_broken(triangles).empty()) result.triangles = std::move(triangles);
-        }
+        if (narrow == NarrowLabels::Reduce && !result.narrow.empty()) reduce_labels(result);
         if (!chain_.empty()) open_ears(result.triangles);
         return result;
     }
@@ -71,6 +62,18 @@ private:
         std::array<double, 3> at;  // Barycentric.
     };
     using Part = std::array<PartCorner, 3>;
+
+    // Replaces the triangles if that leaves no narrow labels.
+    void reduce_labels(LabelTriangles& result) {
+        std::vector<Triangle> triangles;
+        for (std::vector<Index> broken = result.narrow; split(broken);) {
+            triangles = merge();
+            broken = find_broken(closed(triangles));
+        }
+        if (vertex_.empty() || !reduce(triangles)) return;
+        triangles = closed(std::move(triangles));
+        if (find_broken(triangles).empty()) result.triangles = std::move(triangles);
+    }
 
     // Divides the faces that hold sites which label no vertex, so that each gets one.
     void insert_missing() {
@@ -232,9 +235,9 @@ private:
 
 LabelTriangles triangulate_by_labels(const Surface& surface, const DistanceBounds& labels,
                                      std::span<const SurfacePoint> sites,
-                                     std::span<const DirectedEdge> chain,
+                                     std::span<const DirectedEdge> chain, NarrowLabels narrow,
                                      const Progress& progress) {
-    return LabelTriangulation(surface, labels, sites, chain, progress).run();
+    return LabelTriangulation(surface, labels, sites, chain, progress).run(narrow);
 }
 
 void correct_labels(const PreparedSurface& surface, std::span<const SurfacePoint> sites,
