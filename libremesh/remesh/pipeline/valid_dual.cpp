@@ -1,8 +1,9 @@
 // Flips lead from any triangulation of the sites to the intrinsic Delaunay one, which is the dual
-// of the cells, so labels of vertices suffice for the first. Without flips, and if they are asked
-// for, the cells themselves are found, whose dual is right where all cells and what they have in
-// common are discs and arcs ([edelsbrunner1997]). Patches whose triangles are not right are
-// simplified to their sites ([liu2023]).
+// of the cells, so labels of vertices suffice for the first. Where these fail, and without flips,
+// the cells themselves are found, whose dual is right where all cells and what they have in common
+// are discs and arcs ([edelsbrunner1997]). Narrow patches lack that: they are simplified to their
+// sites
+// ([liu2023]).
 #include "remesh/pipeline/valid_dual.h"
 
 #include <algorithm>
@@ -37,13 +38,9 @@ public:
         dual_.has_cell.assign(sites.size(), 1);
     }
 
-    ValidDual run() {
-        if (asks_for_cells()) {
-            take_cells();
-        } else {
-            take_labels();
-        }
-        find_failed();
+    ValidDual run(DualSource source) {
+        dual_.is_of_cells = source == DualSource::Cells || asks_for_cells() || !take_labels();
+        if (dual_.is_of_cells) take_cells();
         const StageClock clock(Stage::Dual, result_);
         poll(progress_of(Stage::Dual, options_), 0);
         build_mesh();
@@ -60,7 +57,8 @@ private:
                options_.propagation.max_error.has_value();
     }
 
-    void take_labels() {
+    // \return whether the triangles of all patches are right.
+    bool take_labels() {
         const StageClock clock(Stage::Dual, result_);
         const Progress progress = progress_at(Stage::Dual, options_, 0);
         DistanceBounds labels =
@@ -70,8 +68,11 @@ private:
                                   NarrowLabels::Reduce, progress)
                 .triangles;
         triangles_ = by_patch(triangles);
+        find_failed();
+        if (std::ranges::find(has_failed_, true) != has_failed_.end()) return false;
         correct_labels(domain_.prepared, placed_.sites, triangles, labels.site);
         dual_.nearest_site = std::move(labels.site);
+        return true;
     }
 
     void take_cells() {
@@ -81,6 +82,7 @@ private:
         for (Index c = 0; c < patches_.size(); ++c) {
             if (!chain_[c].empty()) close_rim(chain_[c], triangles_[c]);
         }
+        find_failed();
         dual_.has_cell.clear();
         for (const double area : diagram.cell_area) dual_.has_cell.push_back(area > 0 ? 1 : 0);
         for (const SiteId site : diagram.nearest_site) {
@@ -221,8 +223,9 @@ private:
 }  // namespace
 
 ValidDual build_valid_dual(Domain& domain, const PlacedSites& placed,
-                           std::span<const SurfacePoint> sites, const StageContext& context) {
-    return ValidDualBuilder(domain, placed, sites, context).run();
+                           std::span<const SurfacePoint> sites, DualSource source,
+                           const StageContext& context) {
+    return ValidDualBuilder(domain, placed, sites, context).run(source);
 }
 
 }  // namespace remesh::detail

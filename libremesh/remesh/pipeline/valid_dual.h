@@ -2,6 +2,7 @@
 //! From sites to a triangulation with the topology of the surface.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -21,19 +22,26 @@ struct ValidDual {
     std::vector<std::uint8_t> stays = {};  //!< #V or empty: 1 for vertices to remove last.
     std::vector<std::uint8_t> has_cell;    //!< #sites: 1 for those that own a part of the surface.
     std::vector<Index> nearest_site;       //!< #V of the base: a site nearby; no_index: none.
+    bool is_of_cells = false;              //!< Its patches are duals of cells, or simplified.
 };
 
-//! A triangulation by labels, from which flips lead to the dual of the cells; that dual itself if
-//! the sites are not relaxed, faces are too large for labels, or the options ask for an engine, an
-//! error or other flips. A patch whose triangles have another topology or another rim than the
-//! patch is simplified to its sites (simplify). For any sites each patch of the result is an
-//! oriented manifold with the topology of the patch.
+//! Where triangles come from.
+enum class DualSource : std::uint8_t {
+    Labels,  //!< A triangulation by labels, from which flips lead to the dual of the cells.
+    Cells,   //!< That dual itself.
+};
+
+//! Triangles of the sites. Of cells, too, if labels do not give all patches their topology and
+//! rims, the sites are not relaxed, faces are too large for labels, or the options ask for an
+//! engine, an error or other flips. A patch whose dual is not right is simplified to its sites
+//! (simplify). For any sites each patch of the result is an oriented manifold with the topology of
+//! the patch.
 //! \param placed  the curves that the mesh must have.
 //! \param sites   on the base.
-//! Cost: that of label_vertices, or of a propagation and a diagram; that of simplify for the
-//! patches that need it.
+//! Cost: that of label_vertices; for the dual a propagation and a diagram, and that of simplify for
+//! the patches that need it.
 [[nodiscard]] ValidDual build_valid_dual(Domain& domain, const PlacedSites& placed,
-                                         std::span<const SurfacePoint> sites,
+                                         std::span<const SurfacePoint> sites, DualSource source,
                                          const StageContext& context);
 
 }  // namespace remesh::detail
