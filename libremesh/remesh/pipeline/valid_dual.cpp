@@ -63,10 +63,9 @@ private:
         const Progress progress = progress_at(Stage::Dual, options_, 0);
         DistanceBounds labels =
             label_vertices(domain_.prepared, placed_.sites, options_.num_threads, progress);
-        const std::vector<Triangle> triangles =
-            triangulate_by_labels(surface_, labels, sites_, ends_of(placed_.chain),
-                                  NarrowLabels::Reduce, progress)
-                .triangles;
+        const auto [triangles, narrow] =
+            triangulate_by_labels(surface_, labels, sites_, ends_of(placed_.chain), progress);
+        if (!narrow.empty()) return false;
         triangles_ = by_patch(triangles);
         find_failed();
         if (std::ranges::find(has_failed_, true) != has_failed_.end()) return false;

@@ -1,5 +1,4 @@
-// Numbers of the vertices: the site whose cell is merged into it, or one of their own from the
-// number of sites on.
+// The surface's faces, some divided, with all vertices of a label merged into their site.
 #include "remesh/sites/label_triangles.h"
 
 #include <algorithm>
@@ -8,7 +7,6 @@
 #include "agvd/mesh/surface_points.h"
 #include "remesh/curves/walk.h"
 #include "remesh/dual/fan_mesh.h"
-#include "remesh/dual/reduce_vertices.h"
 #include "remesh/sites/site_mesh.h"
 
 namespace remesh::detail {
@@ -19,42 +17,33 @@ public:
     LabelTriangulation(const Surface& surface, const DistanceBounds& labels,
                        std::span<const SurfacePoint> sites, std::span<const DirectedEdge> chain,
                        const Progress& progress)
-        : surface_(surface),
-          labels_(labels),
-          sites_(sites),
+        : sites_(sites),
           chain_(chain.begin(), chain.end()),
-          progress_(progress),
           poller_(progress),
           faces_(surface.mesh.triangles),
-          number_(labels.site),
-          nearest_(sites.size(), no_index),
-          is_on_chain_(sites.size(), 0),
-          is_split_(sites.size(), 0) {
+          label_(labels.site),
+          is_on_chain_(sites.size(), 0) {
         std::ranges::sort(chain_);
         for (const auto& [from, to] : chain_) is_on_chain_[from] = is_on_chain_[to] = 1;
-        for (Index v = 0; v < number_.size(); ++v) {
-            const Index s = number_[v];
+        std::vector<std::uint8_t> has_vertex(sites.size(), 0);
+        for (Index v = 0; v < label_.size(); ++v) {
+            const Index s = label_[v];
             if (s == no_index) continue;
-            if (is_on_chain_[s] != 0 && !surface.is_boundary_vertex(v)) continue;
-            Index& best = nearest_[s];
-            if (best == no_index || labels.distance[v] < labels.distance[best]) best = v;
+            if (is_on_chain_[s] == 0 || surface.is_boundary_vertex(v)) has_vertex[s] = 1;
         }
-        insert_missing();
+        insert_missing(has_vertex);
     }
 
-    LabelTriangles run(NarrowLabels narrow) {
-        LabelTriangles result{closed(merge()), {}};
+    LabelTriangles run() {
+        LabelTriangles result{merge(), {}};
+        if (!chain_.empty()) close_rim(chain_, result.triangles);
         result.narrow = find_broken(result.triangles);
-        if (narrow == NarrowLabels::Reduce && !result.narrow.empty()) reduce_labels(result);
         if (!chain_.empty()) open_ears(result.triangles);
         return result;
     }
 
 private:
     [[nodiscard]] Index num_sites() const { return static_cast<Index>(sites_.size()); }
-    [[nodiscard]] Index num_numbers() const {
-        return num_sites() + static_cast<Index>(vertex_.size());
-    }
 
     // A corner of a part of a face: the vertex, and where it lies in the face.
     struct PartCorner {
@@ -63,23 +52,11 @@ private:
     };
     using Part = std::array<PartCorner, 3>;
 
-    // Replaces the triangles if that leaves no narrow labels.
-    void reduce_labels(LabelTriangles& result) {
-        std::vector<Triangle> triangles;
-        for (std::vector<Index> broken = result.narrow; split(broken);) {
-            triangles = merge();
-            broken = find_broken(closed(triangles));
-        }
-        if (vertex_.empty() || !reduce(triangles)) return;
-        triangles = closed(std::move(triangles));
-        if (find_broken(triangles).empty()) result.triangles = std::move(triangles);
-    }
-
     // Divides the faces that hold sites which label no vertex, so that each gets one.
-    void insert_missing() {
+    void insert_missing(std::span<const std::uint8_t> has_vertex) {
         std::vector<std::pair<Index, Index>> missing;  // By face.
         for (Index s = 0; s < num_sites(); ++s) {
-            if (nearest_[s] == no_index) missing.emplace_back(sites_[s].face.value(), s);
+            if (has_vertex[s] == 0) missing.emplace_back(sites_[s].face.value(), s);
         }
         std::ranges::sort(missing);
         for (std::size_t i = 0; i < missing.size();) {
@@ -96,9 +73,8 @@ private:
     }
 
     void insert(Index site, std::vector<Part>& parts) {
-        const PartCorner added{static_cast<Index>(number_.size()), sites_[site].barycentric};
-        number_.push_back(site);
-        nearest_[site] = added.vertex;
+        const PartCorner added{static_cast<Index>(label_.size()), sites_[site].barycentric};
+        label_.push_back(site);
         const auto around = [&](const Part& part) {
             std::array<Part, 3> three{part, part, part};
             for (std::size_t k = 0; k < 3; ++k) three[k][k] = added;
@@ -129,14 +105,9 @@ private:
     [[nodiscard]] std::vector<Triangle> merge() const {
         std::vector<Triangle> triangles;
         for (const Triangle& t : faces_) {
-            const Index a = number_[t[0]], b = number_[t[1]], c = number_[t[2]];
+            const Index a = label_[t[0]], b = label_[t[1]], c = label_[t[2]];
             if (a != b && b != c && c != a) triangles.push_back({a, b, c});
         }
-        return triangles;
-    }
-
-    [[nodiscard]] std::vector<Triangle> closed(std::vector<Triangle> triangles) const {
-        if (!chain_.empty()) close_rim(chain_, triangles);
         return triangles;
     }
 
@@ -157,7 +128,7 @@ private:
     }
 
     // Sites whose triangles are no fan, and ends of edges by which rim and chain differ.
-    std::vector<Index> find_broken(std::vector<Triangle> triangles) {
+    std::vector<Index> find_broken(const std::vector<Triangle>& triangles) {
         std::vector<Index> broken;
         if (!chain_.empty()) {
             std::vector<DirectedEdge> wrong;
@@ -166,78 +137,28 @@ private:
             for (const auto& [from, to] : wrong) broken.insert(broken.end(), {from, to});
         }
         const std::vector<Fan> fans =
-            find_fans(build_site_mesh(std::move(triangles), num_numbers(), Ticker(poller_)));
+            find_fans(build_site_mesh(triangles, num_sites(), Ticker(poller_)));
         for (Index s = 0; s < num_sites(); ++s) {
             if (fans[s] == Fan::Broken) broken.push_back(s);
         }
-        std::erase_if(broken, [&](Index i) { return i >= num_sites(); });
         return distinct(std::move(broken));
     }
 
-    // Gives the vertices of these sites numbers of their own.
-    // \return whether there are any.
-    bool split(const std::vector<Index>& sites) {
-        bool is_new = false;
-        for (const Index s : sites) {
-            if (nearest_[s] != no_index && is_split_[s] == 0) {
-                is_split_[s] = 1;
-                is_new = true;
-            }
-        }
-        if (!is_new) return false;
-        const std::size_t before = vertex_.size();
-        for (Index v = 0; v < labels_.site.size(); ++v) {
-            const Index s = number_[v];
-            const bool is_split = s < num_sites() && is_split_[s] != 0;
-            if (!is_split || v == nearest_[s]) continue;
-            number_[v] = num_numbers();
-            vertex_.push_back(v);
-        }
-        return vertex_.size() > before;
-    }
-
-    // Removes the vertices that are no sites.
-    // \return whether all could be.
-    bool reduce(std::vector<Triangle>& triangles) const {
-        std::vector<Vec3> positions;
-        for (const SurfacePoint& s : sites_) positions.push_back(position(surface_.mesh.view(), s));
-        for (const Index v : vertex_) positions.push_back(surface_.mesh.positions[v]);
-        std::vector<std::uint8_t> keep(sites_.size(), 1);
-        keep.resize(positions.size(), 0);
-        std::vector<std::uint8_t> is_used(sites_.size(), 0);
-        for (const Triangle& t : triangles) {
-            for (const Index i : t) {
-                if (i < num_sites()) is_used[i] = 1;
-            }
-        }
-        const auto num_used = static_cast<Index>(std::ranges::count(is_used, 1));
-        const std::vector<Index> gone =
-            reduce_vertices(positions, triangles, num_used, keep, progress_);
-        return gone.size() == vertex_.size() &&
-               std::ranges::all_of(gone, [&](Index i) { return i >= num_sites(); });
-    }
-
-    const Surface& surface_;
-    const DistanceBounds& labels_;
     const std::span<const SurfacePoint> sites_;
     std::vector<DirectedEdge> chain_;  // Ascending.
-    const Progress& progress_;
     Poller poller_;
     std::vector<Triangle> faces_;            // Of the surface; some are divided.
-    std::vector<Index> number_;              // By vertex, those of missing sites last.
-    std::vector<Index> nearest_;             // #sites: of the vertices that it labels.
+    std::vector<Index> label_;               // By vertex, those of missing sites last.
     std::vector<std::uint8_t> is_on_chain_;  // #sites
-    std::vector<std::uint8_t> is_split_;     // #sites: 1 if its vertices have own numbers.
-    std::vector<Index> vertex_;              // By number, from the number of sites on.
 };
 
 }  // namespace
 
 LabelTriangles triangulate_by_labels(const Surface& surface, const DistanceBounds& labels,
                                      std::span<const SurfacePoint> sites,
-                                     std::span<const DirectedEdge> chain, NarrowLabels narrow,
+                                     std::span<const DirectedEdge> chain,
                                      const Progress& progress) {
-    return LabelTriangulation(surface, labels, sites, chain, progress).run(narrow);
+    return LabelTriangulation(surface, labels, sites, chain, progress).run();
 }
 
 void correct_labels(const PreparedSurface& surface, std::span<const SurfacePoint> sites,

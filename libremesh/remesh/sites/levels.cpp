@@ -97,8 +97,7 @@ LabelTriangles Levels::triangulate(const DistanceBounds& labels,
     const std::vector<SurfacePoint> on_base = prepared_.base.to_intrinsic(sites);
     const std::vector<DirectedEdge> ends = ends_of(chain);
     if (gives_cells(surface_, sites.size())) {
-        return triangulate_by_labels(surface_, labels, on_base, ends, NarrowLabels::Merge,
-                                     progress_);
+        return triangulate_by_labels(surface_, labels, on_base, ends, progress_);
     }
     const Propagation propagation = propagate(
         surface_, prepared_.layout, on_base,
