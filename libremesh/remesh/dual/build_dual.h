@@ -33,8 +33,11 @@ enum class Delaunay : std::uint8_t {
 //! `{}` gives the defaults.
 struct DelaunayOptions {
     Delaunay mode = Delaunay::Intrinsic;  //!< Which edges to flip.
-    int num_threads = 0;                  //!< >= 0; 0: all cores. Same bytes for any number.
-    Progress progress = {};               //!< Polled during the call; see poll.
+    //! Also where a flip folds the mesh: by geodesic lengths flips then lead from any triangles to
+    //! Delaunay ones. A dual of cells is so near to these that it is better not folded.
+    bool may_fold = false;
+    int num_threads = 0;     //!< >= 0; 0: all cores. Same bytes for any number.
+    Progress progress = {};  //!< Polled during the call; see poll.
 };
 
 //! Counts of edges, flips and triangles; all 0 with Delaunay::Off.

@@ -197,16 +197,14 @@ DelaunayResult make_delaunay(const Surface& surface, std::span<const SurfacePoin
     const Metric in_space = [&](Index a, Index b) -> EdgeLength {
         return {(positions[a] - positions[b]).norm(), true};
     };
-    // On the surface flips lead from any mesh to one that is Delaunay, in space from a good one.
-    const bool is_in_space = options.mode == Delaunay::Extrinsic;
-    const Metric& metric = is_in_space ? in_space : on_surface;
+    const Metric& metric = options.mode == Delaunay::Intrinsic ? on_surface : in_space;
     NumberedMesh mesh(triangles, static_cast<Index>(positions.size()), Ticker(poller));
     DelaunayCounts& counts = result.counts;
     for (Index e = 0; e < mesh.num_edges(); ++e) {
         counts.inner_edges += mesh.twin(mesh.first_side(e)) != no_index ? 1 : 0;
     }
     std::vector<double> length = measure_edges(mesh, metric, options.num_threads, poller, counts);
-    Flipper(mesh, std::move(length), is_in_space ? positions : std::span<const Vec3>{}, metric,
+    Flipper(mesh, std::move(length), options.may_fold ? std::span<const Vec3>{} : positions, metric,
             Ticker(poller))
         .run(counts);
     result.triangles = mesh.triangles();

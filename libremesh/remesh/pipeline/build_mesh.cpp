@@ -165,9 +165,12 @@ private:
         const StageClock clock(Stage::Delaunay, result);
         const Progress progress = progress_of(Stage::Delaunay, options);
         poll(progress, 0);
-        DelaunayResult made = make_delaunay(
-            domain_.base(), dual_.points, positions_of_vertices(), dual_.triangles,
-            {.mode = options.delaunay, .num_threads = options.num_threads, .progress = progress});
+        DelaunayResult made =
+            make_delaunay(domain_.base(), dual_.points, positions_of_vertices(), dual_.triangles,
+                          {.mode = options.delaunay,
+                           .may_fold = !dual_.is_of_cells,
+                           .num_threads = options.num_threads,
+                           .progress = progress});
         poll(progress, 1);
         dual_.triangles = std::move(made.triangles);
         result.delaunay = made.counts;

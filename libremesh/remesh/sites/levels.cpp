@@ -97,7 +97,8 @@ LabelTriangles Levels::triangulate(const DistanceBounds& labels,
     const std::vector<SurfacePoint> on_base = prepared_.base.to_intrinsic(sites);
     const std::vector<DirectedEdge> ends = ends_of(chain);
     if (gives_cells(surface_, sites.size())) {
-        return triangulate_by_labels(surface_, labels, on_base, ends, progress_);
+        LabelTriangles found = triangulate_by_labels(surface_, labels, on_base, ends, progress_);
+        if (found.narrow.empty() || gives_neighbours(surface_, sites.size())) return found;
     }
     const Propagation propagation = propagate(
         surface_, prepared_.layout, on_base,
@@ -127,7 +128,8 @@ void Levels::sweep(Relaxation& relaxation, std::span<const ChainEdge> chain) {
     const auto num_sites = static_cast<Index>(relaxation.sites().size());
     if (!gives_cells(surface_, num_sites)) return;
     const DistanceBounds labels = label(relaxation.sites());
-    if (relaxation.num_flaws() > 0 && num_given_up_ < levels_.size() &&
+    const bool is_cheap = gives_neighbours(surface_, num_sites);
+    if (relaxation.num_flaws() > 0 && (is_cheap || num_given_up_ < levels_.size()) &&
         !relaxation.repair(triangulate(labels, relaxation.sites(), chain))) {
         num_given_up_ = levels_.size();
     }

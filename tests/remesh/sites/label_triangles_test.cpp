@@ -67,8 +67,8 @@ TEST(LabelTriangles, FlipsLeadToTheDualOfTheCells) {
             for (const SurfacePoint& s : sites) {
                 positions.push_back(position(surface.mesh.view(), s));
             }
-            const auto flipped =
-                remesh::make_delaunay(surface, sites, positions, found.triangles, {});
+            const auto flipped = remesh::make_delaunay(surface, sites, positions, found.triangles,
+                                                       {.may_fold = true});
             const Diagram diagram = build_diagram(surface, sites, propagate(surface, sites));
             const auto dual = remesh::make_delaunay(surface, sites, positions,
                                                     remesh::build_dual(surface, diagram), {});
