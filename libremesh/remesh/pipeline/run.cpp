@@ -313,7 +313,7 @@ struct EnoughSamples {
 // A number of samples that works. Large numbers are not tried: a run would take minutes.
 EnoughSamples find_enough(const CleanedInput& cleaned, const RemeshResult& after_cleaning,
                           const RemeshOptions& options, Index reached) {
-    constexpr int max_tries = 12;
+    constexpr int max_tries = 6;
     constexpr Index most_tried = 10'000;
     if (reached > std::max(most_tried, options.num_samples)) return {.count = reached};
     RemeshOptions more = options;

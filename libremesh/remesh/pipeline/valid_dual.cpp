@@ -1,8 +1,7 @@
 // Flips lead from any triangulation of the sites to the intrinsic Delaunay one, which is the dual
 // of the cells, so labels of vertices suffice for the first. Where these fail, and without flips,
-// the cells themselves are found, whose dual is right where all cells and what they have in common
-// are discs and arcs ([edelsbrunner1997]). Narrow patches lack that: they are simplified to their
-// sites
+// the cells are found. Their dual is right where all cells and what they have in common are discs
+// and arcs ([edelsbrunner1997]). Narrow patches lack that: they are simplified to their sites
 // ([liu2023]).
 #include "remesh/pipeline/valid_dual.h"
 
@@ -34,9 +33,7 @@ public:
           sites_(sites),
           chain_(chain_by_part(placed.chain, static_cast<Index>(patches_.size()),
                                [&](Index site) { return patch_of(sites_[site]); })),
-          has_failed_(patches_.size(), false) {
-        dual_.has_cell.assign(sites.size(), 1);
-    }
+          has_failed_(patches_.size(), false) {}
 
     ValidDual run(DualSource source) {
         dual_.is_of_cells = source == DualSource::Cells || asks_for_cells() || !take_labels();
@@ -57,15 +54,19 @@ private:
                options_.propagation.max_error.has_value();
     }
 
-    // \return whether the triangles of all patches are right.
+    // \return whether all sites have triangles, and those of all patches are right.
     bool take_labels() {
         const StageClock clock(Stage::Dual, result_);
         const Progress progress = progress_at(Stage::Dual, options_, 0);
         DistanceBounds labels =
             label_vertices(domain_.prepared, placed_.sites, options_.num_threads, progress);
-        const auto [triangles, narrow] =
-            triangulate_by_labels(surface_, labels, sites_, ends_of(placed_.chain), progress);
-        if (!narrow.empty()) return false;
+        const std::vector<Triangle> triangles =
+            triangulate_by_labels(surface_, labels, sites_, ends_of(placed_.chain));
+        dual_.has_cell.assign(sites_.size(), 0);
+        for (const Triangle& t : triangles) {
+            for (const Index site : t) dual_.has_cell[site] = 1;
+        }
+        if (std::ranges::find(dual_.has_cell, 0) != dual_.has_cell.end()) return false;
         triangles_ = by_patch(triangles);
         find_failed();
         if (std::ranges::find(has_failed_, true) != has_failed_.end()) return false;

@@ -7,7 +7,6 @@
 #include "agvd/mesh/surface_points.h"
 #include "remesh/curves/walk.h"
 #include "remesh/dual/fan_mesh.h"
-#include "remesh/sites/site_mesh.h"
 
 namespace remesh::detail {
 namespace {
@@ -15,15 +14,12 @@ namespace {
 class LabelTriangulation {
 public:
     LabelTriangulation(const Surface& surface, const DistanceBounds& labels,
-                       std::span<const SurfacePoint> sites, std::span<const DirectedEdge> chain,
-                       const Progress& progress)
+                       std::span<const SurfacePoint> sites, std::span<const DirectedEdge> chain)
         : sites_(sites),
-          chain_(chain.begin(), chain.end()),
-          poller_(progress),
+          chain_(chain),
           faces_(surface.mesh.triangles),
           label_(labels.site),
           is_on_chain_(sites.size(), 0) {
-        std::ranges::sort(chain_);
         for (const auto& [from, to] : chain_) is_on_chain_[from] = is_on_chain_[to] = 1;
         std::vector<std::uint8_t> has_vertex(sites.size(), 0);
         for (Index v = 0; v < label_.size(); ++v) {
@@ -34,12 +30,12 @@ public:
         insert_missing(has_vertex);
     }
 
-    LabelTriangles run() {
-        LabelTriangles result{merge(), {}};
-        if (!chain_.empty()) close_rim(chain_, result.triangles);
-        result.narrow = find_broken(result.triangles);
-        if (!chain_.empty()) open_ears(result.triangles);
-        return result;
+    std::vector<Triangle> run() {
+        std::vector<Triangle> triangles = merge();
+        if (chain_.empty()) return triangles;
+        close_rim(chain_, triangles);
+        open_ears(triangles);
+        return triangles;
     }
 
 private:
@@ -127,26 +123,8 @@ private:
         triangles = mesh.triangles();
     }
 
-    // Sites whose triangles are no fan, and ends of edges by which rim and chain differ.
-    std::vector<Index> find_broken(const std::vector<Triangle>& triangles) {
-        std::vector<Index> broken;
-        if (!chain_.empty()) {
-            std::vector<DirectedEdge> wrong;
-            std::ranges::set_symmetric_difference(rim_of(triangles), chain_,
-                                                  std::back_inserter(wrong));
-            for (const auto& [from, to] : wrong) broken.insert(broken.end(), {from, to});
-        }
-        const std::vector<Fan> fans =
-            find_fans(build_site_mesh(triangles, num_sites(), Ticker(poller_)));
-        for (Index s = 0; s < num_sites(); ++s) {
-            if (fans[s] == Fan::Broken) broken.push_back(s);
-        }
-        return distinct(std::move(broken));
-    }
-
     const std::span<const SurfacePoint> sites_;
-    std::vector<DirectedEdge> chain_;  // Ascending.
-    Poller poller_;
+    const std::span<const DirectedEdge> chain_;
     std::vector<Triangle> faces_;            // Of the surface; some are divided.
     std::vector<Index> label_;               // By vertex, those of missing sites last.
     std::vector<std::uint8_t> is_on_chain_;  // #sites
@@ -154,11 +132,10 @@ private:
 
 }  // namespace
 
-LabelTriangles triangulate_by_labels(const Surface& surface, const DistanceBounds& labels,
-                                     std::span<const SurfacePoint> sites,
-                                     std::span<const DirectedEdge> chain,
-                                     const Progress& progress) {
-    return LabelTriangulation(surface, labels, sites, chain, progress).run();
+std::vector<Triangle> triangulate_by_labels(const Surface& surface, const DistanceBounds& labels,
+                                            std::span<const SurfacePoint> sites,
+                                            std::span<const DirectedEdge> chain) {
+    return LabelTriangulation(surface, labels, sites, chain).run();
 }
 
 void correct_labels(const PreparedSurface& surface, std::span<const SurfacePoint> sites,

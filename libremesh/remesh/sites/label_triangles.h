@@ -12,25 +12,17 @@
 
 namespace remesh::detail {
 
-//! A triangulation of sites.
-struct LabelTriangles {
-    std::vector<Triangle> triangles;  //!< Of site indices.
-    //! Ascending: sites whose labels cover no disc, as around a narrow part: the triangles around
-    //! them are no fan, or not on the chain.
-    std::vector<Index> narrow;
-};
-
 //! The surface with all vertices of a label merged into one: a triangle for each face whose corners
-//! have three labels. Sites that label no vertex get one. If no site is narrow the result has the
-//! topology of the surface, and flips turn it into the dual of the cells: see make_delaunay.
+//! have three labels. Sites that label no vertex get one. If each label covers a disc the result
+//! has the topology of the surface, and flips turn it into the dual of the cells: see
+//! make_delaunay.
 //! \param sites  on the surface, those that `labels` are of.
 //! \param chain  edges that the rim is to have: see close_rim.
 //! Cost: O(n log n).
-[[nodiscard]] LabelTriangles triangulate_by_labels(const Surface& surface,
-                                                   const DistanceBounds& labels,
-                                                   std::span<const SurfacePoint> sites,
-                                                   std::span<const DirectedEdge> chain = {},
-                                                   const Progress& progress = {});
+[[nodiscard]] std::vector<Triangle> triangulate_by_labels(const Surface& surface,
+                                                          const DistanceBounds& labels,
+                                                          std::span<const SurfacePoint> sites,
+                                                          std::span<const DirectedEdge> chain = {});
 
 //! Corrects labels, which are rough where cells hold few vertices: of the site that a label names
 //! and those around it the nearest in space counts, if the surface faces the same side at both.

@@ -16,6 +16,7 @@
 #include "remesh/curves/glue.h"
 #include "remesh/curves/walk.h"
 #include "remesh/dual/build_dual.h"
+#include "remesh/sites/label_triangles.h"
 #include "remesh/sites/shares.h"
 #include "remesh/sites/site_dual.h"
 #include "remesh/sites/size_field.h"
@@ -26,15 +27,17 @@ namespace {
 
 // Steps between two measurements of the cells.
 constexpr int steps_per_sweep = 10;
-// With this many vertices for each site, most neighbours have labels that meet.
+// With this many vertices for each site, labels tell which sites are neighbours.
 constexpr std::size_t vertices_per_site = 8;
-// With this many vertices for each site, labels and measurements of cells are meaningful.
+// With this many vertices for each site, measurements of cells are meaningful.
 constexpr std::size_t vertices_per_cell = 2;
-// Distance error of a propagation that only has to tell which sites are neighbours.
-constexpr double neighbour_error = 1e-2;
+// Flaws of a triangulation, as a share of the sites, above which a propagation pays.
+constexpr double most_flaws = 2e-3;
 // Relaxation would do harm if more than this share of the triangles face against the surface, or of
 // the sites are in no triangle.
 constexpr double hopeless_share = 0.1;
+// Distance error of a propagation that only has to tell which sites are neighbours.
+constexpr double neighbour_error = 1e-2;
 
 }  // namespace
 
@@ -91,24 +94,26 @@ DistanceBounds Levels::label(std::span<const SurfacePoint> sites) const {
     return label_vertices(prepared_, sites, options_.num_threads, progress_);
 }
 
-LabelTriangles Levels::triangulate(const DistanceBounds& labels,
-                                   std::span<const SurfacePoint> sites,
-                                   std::span<const ChainEdge> chain) const {
-    const std::vector<SurfacePoint> on_base = prepared_.base.to_intrinsic(sites);
-    const std::vector<DirectedEdge> ends = ends_of(chain);
-    if (gives_cells(surface_, sites.size())) {
-        LabelTriangles found = triangulate_by_labels(surface_, labels, on_base, ends, progress_);
-        if (found.narrow.empty() || gives_neighbours(surface_, sites.size())) return found;
+std::vector<Triangle> Levels::triangulate(const DistanceBounds& labels,
+                                          std::span<const SurfacePoint> sites,
+                                          std::span<const ChainEdge> chain) const {
+    std::vector<Triangle> triangles;
+    if (gives_neighbours(surface_, sites.size())) {
+        triangles = triangulate_by_labels(surface_, labels, prepared_.base.to_intrinsic(sites),
+                                          ends_of(chain));
+    } else {
+        const std::vector<SurfacePoint> on_base = prepared_.base.to_intrinsic(sites);
+        const Propagation propagation = propagate(surface_, prepared_.layout, on_base,
+                                                  {.max_error = neighbour_error,
+                                                   .num_threads = options_.num_threads,
+                                                   .progress = progress_});
+        const Diagram diagram =
+            build_diagram(surface_, on_base, propagation,
+                          {.num_threads = options_.num_threads, .progress = progress_});
+        triangles = build_dual(surface_, diagram, progress_);
+        if (!chain.empty()) close_rim(ends_of(chain), triangles);
     }
-    const Propagation propagation = propagate(
-        surface_, prepared_.layout, on_base,
-        {.max_error = neighbour_error, .num_threads = options_.num_threads, .progress = progress_});
-    const Diagram diagram =
-        build_diagram(surface_, on_base, propagation,
-                      {.num_threads = options_.num_threads, .progress = progress_});
-    LabelTriangles result{build_dual(surface_, diagram, progress_), {}};
-    if (!ends.empty()) close_rim(ends, result.triangles);
-    return result;
+    return triangles;
 }
 
 double Levels::fraction() const {
@@ -128,10 +133,14 @@ void Levels::sweep(Relaxation& relaxation, std::span<const ChainEdge> chain) {
     const auto num_sites = static_cast<Index>(relaxation.sites().size());
     if (!gives_cells(surface_, num_sites)) return;
     const DistanceBounds labels = label(relaxation.sites());
+    const Index flaws = relaxation.num_flaws();
     const bool is_cheap = gives_neighbours(surface_, num_sites);
-    if (relaxation.num_flaws() > 0 && (is_cheap || num_given_up_ < levels_.size()) &&
-        !relaxation.repair(triangulate(labels, relaxation.sites(), chain))) {
-        num_given_up_ = levels_.size();
+    // Not with curves, which hold the triangulation together: it costs more than it gains.
+    const bool is_useful =
+        chain.empty() && num_repaired_ < levels_.size() && flaws > most_flaws * num_sites;
+    if (flaws > 0 && (is_cheap || is_useful)) {
+        if (!is_cheap) num_repaired_ = levels_.size();
+        relaxation.repair(triangulate(labels, relaxation.sites(), chain));
     }
     look(relaxation, labels);
 }
@@ -189,9 +198,9 @@ RelaxResult relax_sites(const PreparedSurface& surface, std::vector<SurfacePoint
         move_inner_to_boundary(surface, options, levels.progress(), sites);
     }
     const DistanceBounds labels = levels.label(sites);
-    auto [triangles, narrow] = levels.triangulate(labels, sites);
-    Relaxation relaxation(surface.input(), {sites, std::move(triangles), {}, std::move(narrow)},
-                          options.is_fixed, options.num_threads, levels.progress());
+    std::vector<Triangle> triangles = levels.triangulate(labels, sites);
+    Relaxation relaxation(surface.input(), {sites, std::move(triangles)}, options.is_fixed,
+                          options.num_threads, levels.progress());
     if (is_hopeless(relaxation)) return {std::move(sites), {}};
     levels.run(relaxation, &labels);
     return {is_hopeless(relaxation) ? std::move(sites) : relaxation.sites(), levels.levels()};

@@ -3,7 +3,6 @@
 //! measurements of the surface between them.
 #pragma once
 
-#include "remesh/sites/label_triangles.h"
 #include "remesh/sites/relaxation.h"
 #include "remesh/sites/sites.h"
 
@@ -28,7 +27,7 @@ void even_out(const PreparedSurface& surface, std::vector<SurfacePoint>& sites,
 //! Whether labels of the vertices tell which sites are neighbours.
 [[nodiscard]] bool gives_neighbours(const Surface& surface, std::size_t num_sites);
 
-//! Whether labels of the vertices tell the sites' triangulation, and what their cells hold.
+//! Whether there are enough vertices for labels to tell what cells hold.
 [[nodiscard]] bool gives_cells(const Surface& surface, std::size_t num_sites);
 
 //! Whether triangles are as large as the features of the surface, or too many sites are in none.
@@ -58,9 +57,9 @@ public:
     //! labels.
     //! \param labels  of the base's vertices.
     //! \param chain   edges that its rim is to have.
-    [[nodiscard]] LabelTriangles triangulate(const DistanceBounds& labels,
-                                             std::span<const SurfacePoint> sites,
-                                             std::span<const ChainEdge> chain = {}) const;
+    [[nodiscard]] std::vector<Triangle> triangulate(const DistanceBounds& labels,
+                                                    std::span<const SurfacePoint> sites,
+                                                    std::span<const ChainEdge> chain = {}) const;
 
     //! Those that were run.
     [[nodiscard]] const std::vector<RelaxLevel>& levels() const { return levels_; }
@@ -76,7 +75,7 @@ private:
     Progress progress_;
     int steps_planned_;
     int steps_done_ = 0;
-    std::size_t num_given_up_ = 0;  // Levels up to the last one whose flaws no triangles mend.
+    std::size_t num_repaired_ = 0;  // Levels up to the last one that used a propagation.
     std::vector<RelaxLevel> levels_;
 };
 

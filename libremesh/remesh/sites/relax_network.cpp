@@ -207,9 +207,9 @@ public:
             levels_.run(*last, nullptr, chain);
         } else {
             last = start(fine_, sample(fine_, num_inner_, plan_.spacing));
-            const DistanceBounds labels = levels_.label(last->sites());
-            find_narrow(fine_, last->sites(),
-                        levels_.triangulate(labels, last->sites(), chain).narrow);
+            std::vector<Triangle> triangles =
+                levels_.triangulate(levels_.label(last->sites()), last->sites(), chain);
+            find_narrow(fine_, last->sites(), triangles);
         }
         return finish(*last);
     }
@@ -257,11 +257,14 @@ private:
         return std::move(simple.triangles);
     }
 
+    // Inner sites without a closed fan.
     void find_narrow(const CurveSites& curves, const std::vector<SurfacePoint>& sites,
-                     std::span<const Index> narrow) {
+                     std::span<const Triangle> triangles) {
+        const std::vector<detail::Fan> fans = find_fans(detail::build_site_mesh(
+            {triangles.begin(), triangles.end()}, static_cast<Index>(sites.size())));
         narrow_points_.clear();
-        for (const Index i : narrow) {
-            if (i >= curves.sites.size()) narrow_points_.push_back(sites[i]);
+        for (std::size_t i = curves.sites.size(); i < sites.size(); ++i) {
+            if (fans[i] != detail::Fan::Closed) narrow_points_.push_back(sites[i]);
         }
     }
 
@@ -291,9 +294,7 @@ private:
         }
         level.sites = take(level.sites, order);
         level.weights = take(level.weights, order);
-        const std::vector<Index> place = places_in(order);
-        level.triangles = rename_vertices(level.triangles, place);
-        for (Index& i : level.narrow) i = place[i];
+        level.triangles = rename_vertices(level.triangles, places_in(order));
         std::ranges::sort(level.triangles, {}, [](const Triangle& t) {
             return std::pair(std::min({t[0], t[1], t[2]}), t);
         });
@@ -327,11 +328,10 @@ private:
                              options_.sizes);
         }
         const DistanceBounds labels = levels_.label(sites);
-        auto [triangles, narrow] = levels_.triangulate(labels, sites, chain);
+        std::vector<Triangle> triangles = levels_.triangulate(labels, sites, chain);
         repair_patches(chain, sites, triangles,
                        [&](Index patch) { return simplified(patch, sites); });
-        auto relaxation = make_relaxation(
-            {std::move(sites), std::move(triangles), {}, std::move(narrow)}, curves);
+        auto relaxation = make_relaxation({std::move(sites), std::move(triangles)}, curves);
         levels_.run(*relaxation, &labels, chain);
         return relaxation;
     }
@@ -365,9 +365,9 @@ private:
         const std::vector<ChainEdge> chain = chain_edges(plan_.network, plan_.cut, coarse);
         const Refinement refinement{plan_, coarse, fine_};
         const DistanceBounds labels = levels_.label(first.sites());
-        auto [triangles, narrow] = levels_.triangulate(labels, first.sites(), chain);
-        find_narrow(coarse, first.sites(), narrow);
-        detail::SiteDual dual{std::move(triangles), detail::label_middles(surface_.base, labels)};
+        detail::SiteDual dual{levels_.triangulate(labels, first.sites(), chain),
+                              detail::label_middles(surface_.base, labels)};
+        find_narrow(coarse, first.sites(), dual.triangles);
         const auto relaxed = sort_by_patch(first.triangles(), first.sites());
         repair_patches(chain, first.sites(), dual.triangles,
                        [&](Index patch) { return relaxed[patch]; });
@@ -399,7 +399,6 @@ private:
         std::optional<detail::TriangulatedSites> divided = detail::subdivide(
             plan_.cut.surface(), sites, weights, dual, count, lengths_at(options_.sizes, sites));
         if (!divided) return nullptr;
-        for (const Index i : narrow) divided->narrow.push_back(refinement.number(i));
         sort_in_space(fine_.sites.size(), *divided);
         return make_relaxation(*std::move(divided), fine_);
     }

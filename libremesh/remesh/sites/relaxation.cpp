@@ -61,7 +61,7 @@ Relaxation::Relaxation(const Surface& surface, TriangulatedSites start,
         // The vertex is a corner of the boundary, or as good a point as any on its loop.
         if (boundary_[i] != no_index && vertex_of(surface_, sites_[i])) is_fixed_[i] = 1;
     }
-    take_triangles({std::move(start.triangles), std::move(start.narrow)});
+    take_triangles(std::move(start.triangles));
 }
 
 void Relaxation::hold(const CurveNetwork& network, CurveSites curves) {
@@ -70,10 +70,9 @@ void Relaxation::hold(const CurveNetwork& network, CurveSites curves) {
     measure();
 }
 
-void Relaxation::take_triangles(LabelTriangles triangles) {
-    mesh_ =
-        build_site_mesh(std::move(triangles.triangles), static_cast<Index>(sites_.size()), ticker_);
-    find_stuck(triangles.narrow);
+void Relaxation::take_triangles(std::vector<Triangle> triangles) {
+    mesh_ = build_site_mesh(std::move(triangles), static_cast<Index>(sites_.size()), ticker_);
+    find_stuck();
     measure();
     for (int round = 0; round < most_flip_rounds; ++round) {
         if (flip_towards_delaunay(mesh_, at_, now_.cotangent, ticker_) == 0) break;
@@ -82,28 +81,24 @@ void Relaxation::take_triangles(LabelTriangles triangles) {
     find_turned(mesh_, at_, facing_, turned_);
 }
 
-void Relaxation::find_stuck(std::span<const Index> narrow) {
-    is_stuck_ = mesh_.is_rim;
-    for (const Index i : narrow) is_stuck_[i] = 1;
+void Relaxation::find_stuck() {
+    is_stuck_.assign(sites_.size(), 0);
     num_stuck_ = 0;
     for (Index i = 0; i < sites_.size(); ++i) {
-        if (boundary_[i] != no_index) is_stuck_[i] = 0;
+        is_stuck_[i] = mesh_.is_rim[i] != 0 && boundary_[i] == no_index ? 1 : 0;
         num_stuck_ += is_stuck_[i];
     }
 }
 
-bool Relaxation::repair(LabelTriangles triangles) {
-    const Index flaws = num_flaws(), num_stuck = num_stuck_;
+void Relaxation::repair(const std::vector<Triangle>& triangles) {
+    const Index flaws = num_flaws();
     SiteMesh before = std::move(mesh_);
-    std::vector<std::uint8_t> was_stuck = std::move(is_stuck_);
-    take_triangles(std::move(triangles));
-    if (num_flaws() < flaws) return true;
+    take_triangles(triangles);
+    if (num_flaws() < flaws) return;
     mesh_ = std::move(before);
-    is_stuck_ = std::move(was_stuck);
-    num_stuck_ = num_stuck;
+    find_stuck();
     measure();
     find_turned(mesh_, at_, facing_, turned_);
-    return false;
 }
 
 void Relaxation::set_density(const CellMeasures* cells, std::span<const double> length) {

@@ -6,7 +6,6 @@
 
 #include "remesh/sites/cell_measures.h"
 #include "remesh/sites/curve_motion.h"
-#include "remesh/sites/label_triangles.h"
 
 namespace remesh::detail {
 
@@ -18,8 +17,7 @@ namespace remesh::detail {
 class Relaxation {
 public:
     //! Sites on the boundary stay on it. Sites at boundary vertices do not move, nor do sites in no
-    //! triangle, inner sites around which triangles do not close, and narrow ones: the triangles
-    //! tell too little of the surface around these.
+    //! triangle, nor inner sites around which triangles do not close.
     //! \param start     its weights are the density at the start.
     //! \param is_fixed  #sites: 1 for sites that stay; or empty.
     //! \param progress  outlives this; polled by all long operations. If one of these throws
@@ -40,11 +38,10 @@ public:
 
     //! The number of triangles that face against the surface.
     [[nodiscard]] Index num_turned() const { return static_cast<Index>(turned_.size()); }
-    //! The number of these, of narrow sites, and of those around which triangles do not close.
+    //! The number of these and of sites around which triangles do not close.
     [[nodiscard]] Index num_flaws() const { return num_stuck_ + num_turned(); }
-    //! Replaces the triangles, and the narrow sites, if the new ones have fewer flaws.
-    //! \return whether they have.
-    bool repair(LabelTriangles triangles);
+    //! Replaces the triangles if the new ones have fewer flaws.
+    void repair(const std::vector<Triangle>& triangles);
 
     //! Cost: O(#sites) and the faces crossed.
     void step();
@@ -63,8 +60,8 @@ public:
 private:
     void weigh_cells(const CellMeasures& cells, double power_of_bending);
     void measure();
-    void find_stuck(std::span<const Index> narrow);
-    void take_triangles(LabelTriangles triangles);
+    void find_stuck();
+    void take_triangles(std::vector<Triangle> triangles);
     void locate(Index i);
     void choose_moves();
     void choose_move(Index i, double keep);
@@ -88,7 +85,7 @@ private:
     std::vector<double> weight_;                   // #sites
     std::vector<CellPlanes> planes_;               // #sites
     std::vector<std::uint8_t> is_fixed_;           // #sites
-    std::vector<std::uint8_t> is_stuck_;           // #sites: it does not move.
+    std::vector<std::uint8_t> is_stuck_;           // #sites: the triangles around do not close.
     std::vector<Index> boundary_;                  // #sites: the boundary half-edge, or no_index.
     Index num_stuck_ = 0;
     std::vector<Index> turned_;  // Triangles that face against the surface.

@@ -18,7 +18,6 @@ struct TriangulatedSites {
     std::vector<SurfacePoint> sites;
     std::vector<Triangle> triangles;
     std::vector<double> weights = {};  //!< #sites: their density; empty: all alike.
-    std::vector<Index> narrow = {};    //!< Sites whose cells are no discs.
 };
 
 //! Half-edge h = 3 t + k runs from corner k to corner k + 1 of triangle t.

@@ -301,7 +301,7 @@ TEST(Region, EdgesShrinkFromACoarseSeam) {
         mesh, upper_half(mesh), {.sizing = {.count = remesh::MeanEdge{0.05}}});
     const TriangleMesh part = new_part(result);
     EXPECT_GT(part.triangles.size(), 1000u);
-    EXPECT_GT(least_angle(part), 15);
+    EXPECT_GT(least_angle(part), 20);
 }
 
 TEST(Region, NumbersOfFacesCountInTheRegion) {

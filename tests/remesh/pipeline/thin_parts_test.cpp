@@ -115,6 +115,7 @@ TEST(ThinParts, OthersHaveEqualEdges) {
 TEST(ThinParts, FewVerticesSufficeForARod) {
     const RemeshResult result = remesh::remesh(ball_with_rod(0.03).view(), {.num_samples = 80});
     EXPECT_LT(result.verdict.largest_distance, 0.4);
+    EXPECT_GT(result.sizing.least_target, 0);
 }
 
 TEST(ThinParts, LengthsThatTheCallerGivesStay) {
