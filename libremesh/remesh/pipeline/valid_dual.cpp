@@ -60,8 +60,10 @@ private:
         const Progress progress = progress_at(Stage::Dual, options_, 0);
         DistanceBounds labels =
             label_vertices(domain_.prepared, placed_.sites, options_.num_threads, progress);
-        const std::vector<Triangle> triangles =
-            triangulate_by_labels(surface_, labels, sites_, ends_of(placed_.chain));
+        Poller poller(progress);
+        const auto [triangles, narrow, num_simplified] =
+            triangulate_by_labels(surface_, labels, sites_, ends_of(placed_.chain),
+                                  NarrowLabels::Simplify, Ticker(poller));
         dual_.has_cell.assign(sites_.size(), 0);
         for (const Triangle& t : triangles) {
             for (const Index site : t) dual_.has_cell[site] = 1;
@@ -72,6 +74,7 @@ private:
         if (std::ranges::find(has_failed_, true) != has_failed_.end()) return false;
         correct_labels(domain_.prepared, placed_.sites, triangles, labels.site);
         dual_.nearest_site = std::move(labels.site);
+        result_.features.simplified_patches = num_simplified;
         return true;
     }
 
@@ -83,6 +86,8 @@ private:
             if (!chain_[c].empty()) close_rim(chain_[c], triangles_[c]);
         }
         find_failed();
+        result_.features.simplified_patches =
+            static_cast<Index>(std::ranges::count(has_failed_, true));
         dual_.has_cell.clear();
         for (const double area : diagram.cell_area) dual_.has_cell.push_back(area > 0 ? 1 : 0);
         for (const SiteId site : diagram.nearest_site) {
@@ -127,11 +132,9 @@ private:
             dual_.site.push_back(s);
             dual_.points.push_back(sites_[s]);
         }
-        const auto num_failed = std::count(has_failed_.begin(), has_failed_.end(), true);
-        result_.features.simplified_patches = static_cast<Index>(num_failed);
         // By patch that is to be simplified: faces, ascending, and sites, one at each position.
         std::vector<std::vector<Index>> faces(patches_.size()), sites(patches_.size());
-        if (num_failed > 0) find_parts(faces, sites);
+        if (std::ranges::count(has_failed_, true) > 0) find_parts(faces, sites);
         for (Index c = 0; c < triangles_.size(); ++c) {
             if (has_failed_[c]) {
                 append_simplified(faces[c], sites[c]);

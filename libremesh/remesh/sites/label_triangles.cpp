@@ -2,44 +2,62 @@
 #include "remesh/sites/label_triangles.h"
 
 #include <algorithm>
+#include <iterator>
+#include <optional>
 #include <utility>
 
 #include "agvd/mesh/surface_points.h"
+#include "agvd/mesh/topology.h"
 #include "remesh/curves/walk.h"
 #include "remesh/dual/fan_mesh.h"
+#include "remesh/dual/reduce_vertices.h"
+#include "remesh/sites/site_mesh.h"
 
 namespace remesh::detail {
 namespace {
 
+// Edge lengths grow by this share of the longest, so that no triangle of a merged surface is flat.
+constexpr double least_slack = 1e-6;
+
 class LabelTriangulation {
 public:
     LabelTriangulation(const Surface& surface, const DistanceBounds& labels,
-                       std::span<const SurfacePoint> sites, std::span<const DirectedEdge> chain)
-        : sites_(sites),
-          chain_(chain),
+                       std::span<const SurfacePoint> sites, std::span<const DirectedEdge> chain,
+                       Ticker ticker)
+        : surface_(surface),
+          sites_(sites),
+          chain_(chain.begin(), chain.end()),
+          ticker_(ticker),
           faces_(surface.mesh.triangles),
-          label_(labels.site),
+          number_(labels.site),
+          place_(sites.size(), no_index),
           is_on_chain_(sites.size(), 0) {
+        std::ranges::sort(chain_);
         for (const auto& [from, to] : chain_) is_on_chain_[from] = is_on_chain_[to] = 1;
-        std::vector<std::uint8_t> has_vertex(sites.size(), 0);
-        for (Index v = 0; v < label_.size(); ++v) {
-            const Index s = label_[v];
+        for (Index v = 0; v < number_.size(); ++v) {
+            const Index s = number_[v];
             if (s == no_index) continue;
-            if (is_on_chain_[s] == 0 || surface.is_boundary_vertex(v)) has_vertex[s] = 1;
+            const bool is_inner = is_on_chain_[s] == 0;
+            if (!chain_.empty() && is_inner == surface.is_boundary_vertex(v)) continue;
+            Index& best = place_[s];
+            if (best == no_index || labels.distance[v] < labels.distance[best]) best = v;
         }
-        insert_missing(has_vertex);
+        insert_missing();
     }
 
-    std::vector<Triangle> run() {
-        std::vector<Triangle> triangles = merge();
-        if (chain_.empty()) return triangles;
-        close_rim(chain_, triangles);
-        open_ears(triangles);
-        return triangles;
+    LabelTriangles run(NarrowLabels narrow) {
+        LabelTriangles result{.triangles = closed(merge())};
+        result.narrow = find_narrow(result.triangles);
+        if (narrow == NarrowLabels::Simplify && split(result.narrow)) simplify_narrow(result);
+        if (!chain_.empty()) open_ears(result.triangles);
+        return result;
     }
 
 private:
     [[nodiscard]] Index num_sites() const { return static_cast<Index>(sites_.size()); }
+    [[nodiscard]] Index num_numbers() const {
+        return num_sites() + static_cast<Index>(vertex_.size());
+    }
 
     // A corner of a part of a face: the vertex, and where it lies in the face.
     struct PartCorner {
@@ -49,10 +67,10 @@ private:
     using Part = std::array<PartCorner, 3>;
 
     // Divides the faces that hold sites which label no vertex, so that each gets one.
-    void insert_missing(std::span<const std::uint8_t> has_vertex) {
+    void insert_missing() {
         std::vector<std::pair<Index, Index>> missing;  // By face.
         for (Index s = 0; s < num_sites(); ++s) {
-            if (has_vertex[s] == 0) missing.emplace_back(sites_[s].face.value(), s);
+            if (place_[s] == no_index) missing.emplace_back(sites_[s].face.value(), s);
         }
         std::ranges::sort(missing);
         for (std::size_t i = 0; i < missing.size();) {
@@ -69,8 +87,9 @@ private:
     }
 
     void insert(Index site, std::vector<Part>& parts) {
-        const PartCorner added{static_cast<Index>(label_.size()), sites_[site].barycentric};
-        label_.push_back(site);
+        const PartCorner added{static_cast<Index>(number_.size()), sites_[site].barycentric};
+        number_.push_back(site);
+        place_[site] = added.vertex;
         const auto around = [&](const Part& part) {
             std::array<Part, 3> three{part, part, part};
             for (std::size_t k = 0; k < 3; ++k) three[k][k] = added;
@@ -101,10 +120,135 @@ private:
     [[nodiscard]] std::vector<Triangle> merge() const {
         std::vector<Triangle> triangles;
         for (const Triangle& t : faces_) {
-            const Index a = label_[t[0]], b = label_[t[1]], c = label_[t[2]];
+            const Index a = number_[t[0]], b = number_[t[1]], c = number_[t[2]];
             if (a != b && b != c && c != a) triangles.push_back({a, b, c});
         }
         return triangles;
+    }
+
+    [[nodiscard]] std::vector<Triangle> closed(std::vector<Triangle> triangles) const {
+        if (!chain_.empty()) close_rim(chain_, triangles);
+        return triangles;
+    }
+
+    // Twice the Euler characteristic of each label. Of a disc it is 2, of a label that wraps around
+    // a tube 0, which the triangles do not tell if all others wrap around it, too.
+    [[nodiscard]] std::vector<Index> twice_euler() const {
+        std::vector<Index> twice(num_numbers(), 0);
+        for (const Index i : number_) {
+            if (i != no_index) twice[i] += 2;
+        }
+        for (const Triangle& t : faces_) {
+            const Index a = number_[t[0]], b = number_[t[1]], c = number_[t[2]];
+            if (a == no_index) continue;  // So are the others.
+            twice[a] -= (a == b ? 1 : 0) + (c == a ? 1 : 0);
+            twice[b] -= b == c ? 1 : 0;
+            if (a == b && b == c) twice[a] += 2;
+        }
+        for (Index h = 0; h < surface_.twin.size(); ++h) {
+            if (surface_.twin[h] != no_index) continue;
+            const Index a = number_[surface_.tail(h)];
+            if (a != no_index && a == number_[surface_.head(h)]) --twice[a];
+        }
+        return twice;
+    }
+
+    // Sites whose labels are no disc or whose triangles are no fan.
+    [[nodiscard]] std::vector<Index> find_broken(std::vector<Triangle> triangles) const {
+        const std::vector<Fan> fans =
+            find_fans(build_site_mesh(std::move(triangles), num_numbers(), ticker_));
+        const std::vector<Index> euler = twice_euler();
+        std::vector<Index> broken;
+        for (Index s = 0; s < num_sites(); ++s) {
+            if (fans[s] == Fan::Broken || euler[s] != 2) broken.push_back(s);
+        }
+        return broken;
+    }
+
+    // Of closed triangles; also the ends of edges by which rim and chain differ.
+    [[nodiscard]] std::vector<Index> find_narrow(std::vector<Triangle> triangles) const {
+        if (chain_.empty()) return find_broken(std::move(triangles));
+        std::vector<DirectedEdge> wrong;
+        std::ranges::set_symmetric_difference(rim_of(triangles), chain_,
+                                              std::back_inserter(wrong));
+        std::vector<Index> narrow = find_broken(std::move(triangles));
+        for (const auto& [from, to] : wrong) narrow.insert(narrow.end(), {from, to});
+        std::erase_if(narrow, [&](Index i) { return i >= num_sites(); });
+        return distinct(std::move(narrow));
+    }
+
+    // Gives the vertices that these sites label numbers of their own.
+    // \return whether there are any.
+    bool split(const std::vector<Index>& sites) {
+        const std::size_t before = vertex_.size();
+        for (Index v = 0; v < number_.size(); ++v) {
+            const Index s = number_[v];
+            if (s >= num_sites() || v == place_[s]) continue;
+            if (!std::ranges::binary_search(sites, s)) continue;
+            number_[v] = num_numbers();
+            vertex_.push_back(v);
+        }
+        return vertex_.size() > before;
+    }
+
+    // Leaves the vertices of narrow labels in place, and removes them by flips ([liu2023]).
+    void simplify_narrow(LabelTriangles& result) {
+        std::vector<Triangle> merged = merge();
+        while (split(find_narrow(closed(merged))) || split(find_broken(merged))) merged = merge();
+        result.triangles.clear();
+        const std::optional<Surface> surface = surface_of(merged);
+        if (!surface) return;
+        const FaceLabels part = label_components(surface->twin, ticker_);
+        std::vector<std::vector<Index>> faces(part.count);
+        for (Index f = 0; f < surface->num_faces(); ++f) faces[part.of_face[f]].push_back(f);
+        for (const std::vector<Index>& some : faces) append_simplified(*surface, some, result);
+        result.triangles = closed(std::move(result.triangles));
+    }
+
+    // The merged surface by straight edges.
+    [[nodiscard]] std::optional<Surface> surface_of(std::span<const Triangle> merged) const {
+        TriangleMesh mesh{{}, {merged.begin(), merged.end()}};
+        for (const SurfacePoint& s : sites_) {
+            mesh.positions.push_back(position(surface_.mesh.view(), s));
+        }
+        for (const Index v : vertex_) mesh.positions.push_back(surface_.mesh.positions[v]);
+        std::optional<Connectivity> connectivity = find_connectivity(mesh.view());
+        if (!connectivity) return std::nullopt;
+        std::vector<double> length;
+        for (const Triangle& t : merged) {
+            for (Index k = 0; k < 3; ++k) {
+                length.push_back((mesh.positions[t[(k + 1) % 3]] - mesh.positions[t[k]]).norm());
+            }
+        }
+        const double slack = least_slack * std::ranges::max(length);
+        for (double& l : length) l += slack;
+        return build_surface(std::move(mesh), *std::move(connectivity), length, 1, {});
+    }
+
+    // Appends a component, simplified to its sites; nothing if that leaves other vertices.
+    void append_simplified(const Surface& surface, std::span<const Index> faces,
+                           LabelTriangles& result) const {
+        std::vector<Index> numbers;
+        for (const Index f : faces) {
+            const Triangle& t = surface.mesh.triangles[f];
+            numbers.insert(numbers.end(), t.begin(), t.end());
+        }
+        numbers = distinct(std::move(numbers));
+        const auto others = std::ranges::lower_bound(numbers, num_sites());
+        if (others == numbers.end()) {
+            for (const Index f : faces) result.triangles.push_back(surface.mesh.triangles[f]);
+            return;
+        }
+        numbers.erase(others, numbers.end());
+        std::vector<SurfacePoint> points;
+        for (const Index s : numbers) points.push_back(point_at(surface, s));
+        SimplifiedMesh part = simplify_patch(surface, faces, points);
+        if (!chain_.empty()) free_rim(surface, points, part);
+        for (const auto& [i, j, k] : part.triangles) {
+            if (std::max({i, j, k}) >= numbers.size()) continue;
+            result.triangles.push_back({numbers[i], numbers[j], numbers[k]});
+        }
+        ++result.num_simplified;
     }
 
     // A site of a curve that labels no inner vertex gets one triangle, which may be flat where the
@@ -123,19 +267,24 @@ private:
         triangles = mesh.triangles();
     }
 
+    const Surface& surface_;
     const std::span<const SurfacePoint> sites_;
-    const std::span<const DirectedEdge> chain_;
+    std::vector<DirectedEdge> chain_;  // Ascending.
+    Ticker ticker_;
     std::vector<Triangle> faces_;            // Of the surface; some are divided.
-    std::vector<Index> label_;               // By vertex, those of missing sites last.
+    std::vector<Index> number_;              // By vertex, those of missing sites last.
+    std::vector<Index> place_;               // #sites: the vertex where it stays.
     std::vector<std::uint8_t> is_on_chain_;  // #sites
+    std::vector<Index> vertex_;              // By number, from the number of sites on.
 };
 
 }  // namespace
 
-std::vector<Triangle> triangulate_by_labels(const Surface& surface, const DistanceBounds& labels,
-                                            std::span<const SurfacePoint> sites,
-                                            std::span<const DirectedEdge> chain) {
-    return LabelTriangulation(surface, labels, sites, chain).run();
+LabelTriangles triangulate_by_labels(const Surface& surface, const DistanceBounds& labels,
+                                     std::span<const SurfacePoint> sites,
+                                     std::span<const DirectedEdge> chain, NarrowLabels narrow,
+                                     Ticker ticker) {
+    return LabelTriangulation(surface, labels, sites, chain, ticker).run(narrow);
 }
 
 void correct_labels(const PreparedSurface& surface, std::span<const SurfacePoint> sites,

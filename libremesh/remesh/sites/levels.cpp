@@ -94,26 +94,27 @@ DistanceBounds Levels::label(std::span<const SurfacePoint> sites) const {
     return label_vertices(prepared_, sites, options_.num_threads, progress_);
 }
 
-std::vector<Triangle> Levels::triangulate(const DistanceBounds& labels,
-                                          std::span<const SurfacePoint> sites,
-                                          std::span<const ChainEdge> chain) const {
-    std::vector<Triangle> triangles;
+LabelTriangles Levels::triangulate(const DistanceBounds& labels,
+                                   std::span<const SurfacePoint> sites,
+                                   std::span<const ChainEdge> chain, NarrowLabels narrow) const {
+    const std::vector<SurfacePoint> on_base = prepared_.base.to_intrinsic(sites);
     if (gives_neighbours(surface_, sites.size())) {
-        triangles = triangulate_by_labels(surface_, labels, prepared_.base.to_intrinsic(sites),
-                                          ends_of(chain));
-    } else {
-        const std::vector<SurfacePoint> on_base = prepared_.base.to_intrinsic(sites);
-        const Propagation propagation = propagate(surface_, prepared_.layout, on_base,
-                                                  {.max_error = neighbour_error,
-                                                   .num_threads = options_.num_threads,
-                                                   .progress = progress_});
-        const Diagram diagram =
-            build_diagram(surface_, on_base, propagation,
-                          {.num_threads = options_.num_threads, .progress = progress_});
-        triangles = build_dual(surface_, diagram, progress_);
-        if (!chain.empty()) close_rim(ends_of(chain), triangles);
+        return triangulate_by_labels(surface_, labels, on_base, ends_of(chain), narrow);
     }
-    return triangles;
+    const Propagation propagation = propagate(
+        surface_, prepared_.layout, on_base,
+        {.max_error = neighbour_error, .num_threads = options_.num_threads, .progress = progress_});
+    const Diagram diagram =
+        build_diagram(surface_, on_base, propagation,
+                      {.num_threads = options_.num_threads, .progress = progress_});
+    LabelTriangles result{.triangles = build_dual(surface_, diagram, progress_)};
+    if (!chain.empty()) close_rim(ends_of(chain), result.triangles);
+    const std::vector<Fan> fans =
+        find_fans(build_site_mesh(result.triangles, static_cast<Index>(sites.size())));
+    for (Index s = 0; s < fans.size(); ++s) {
+        if (fans[s] != Fan::Closed) result.narrow.push_back(s);
+    }
+    return result;
 }
 
 double Levels::fraction() const {
@@ -140,7 +141,8 @@ void Levels::sweep(Relaxation& relaxation, std::span<const ChainEdge> chain) {
         chain.empty() && num_repaired_ < levels_.size() && flaws > most_flaws * num_sites;
     if (flaws > 0 && (is_cheap || is_useful)) {
         if (!is_cheap) num_repaired_ = levels_.size();
-        relaxation.repair(triangulate(labels, relaxation.sites(), chain));
+        relaxation.repair(
+            triangulate(labels, relaxation.sites(), chain, NarrowLabels::Merge).triangles);
     }
     look(relaxation, labels);
 }
@@ -152,6 +154,7 @@ namespace {
 using detail::gives_neighbours;
 using detail::is_hopeless;
 using detail::Levels;
+using detail::NarrowLabels;
 using detail::Relaxation;
 
 void check_options(const RelaxOptions& options, std::size_t num_sites) {
@@ -198,7 +201,8 @@ RelaxResult relax_sites(const PreparedSurface& surface, std::vector<SurfacePoint
         move_inner_to_boundary(surface, options, levels.progress(), sites);
     }
     const DistanceBounds labels = levels.label(sites);
-    std::vector<Triangle> triangles = levels.triangulate(labels, sites);
+    std::vector<Triangle> triangles =
+        levels.triangulate(labels, sites, {}, NarrowLabels::Simplify).triangles;
     Relaxation relaxation(surface.input(), {sites, std::move(triangles)}, options.is_fixed,
                           options.num_threads, levels.progress());
     if (is_hopeless(relaxation)) return {std::move(sites), {}};

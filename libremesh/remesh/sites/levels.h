@@ -3,6 +3,7 @@
 //! measurements of the surface between them.
 #pragma once
 
+#include "remesh/sites/label_triangles.h"
 #include "remesh/sites/relaxation.h"
 #include "remesh/sites/sites.h"
 
@@ -57,9 +58,10 @@ public:
     //! labels.
     //! \param labels  of the base's vertices.
     //! \param chain   edges that its rim is to have.
-    [[nodiscard]] std::vector<Triangle> triangulate(const DistanceBounds& labels,
-                                                    std::span<const SurfacePoint> sites,
-                                                    std::span<const ChainEdge> chain = {}) const;
+    [[nodiscard]] LabelTriangles triangulate(const DistanceBounds& labels,
+                                             std::span<const SurfacePoint> sites,
+                                             std::span<const ChainEdge> chain,
+                                             NarrowLabels narrow) const;
 
     //! Those that were run.
     [[nodiscard]] const std::vector<RelaxLevel>& levels() const { return levels_; }

@@ -24,6 +24,7 @@
 namespace remesh {
 namespace {
 
+using detail::NarrowLabels;
 using detail::Relaxation;
 
 // Least number of inner sites of a coarse start.
@@ -207,15 +208,16 @@ public:
             levels_.run(*last, nullptr, chain);
         } else {
             last = start(fine_, sample(fine_, num_inner_, plan_.spacing));
-            std::vector<Triangle> triangles =
-                levels_.triangulate(levels_.label(last->sites()), last->sites(), chain);
-            find_narrow(fine_, last->sites(), triangles);
+            const std::vector<SurfacePoint>& sites = last->sites();
+            take_narrow(fine_, sites,
+                        levels_.triangulate(levels_.label(sites), sites, chain, NarrowLabels::Merge)
+                            .narrow);
         }
         return finish(*last);
     }
 
 private:
-    // Replaces the triangles of patches whose rim is not their chain.
+    // Replaces the triangles of patches that have none, or whose rim is not their chain.
     // \param instead  gives other triangles for a patch, which may have a wrong rim too.
     template <typename Instead>
     void repair_patches(std::span<const ChainEdge> chain, std::span<const SurfacePoint> sites,
@@ -225,7 +227,7 @@ private:
         const auto wanted = chain_by_part(chain, patch_.count, part_of);
         triangles.clear();
         for (Index i = 0; i < faces_.size(); ++i) {
-            const bool is_right = rim_of(by_patch[i]) == wanted[i];
+            const bool is_right = !by_patch[i].empty() && rim_of(by_patch[i]) == wanted[i];
             const std::vector<Triangle> chosen = is_right ? by_patch[i] : instead(i);
             triangles.insert(triangles.end(), chosen.begin(), chosen.end());
         }
@@ -257,14 +259,12 @@ private:
         return std::move(simple.triangles);
     }
 
-    // Inner sites without a closed fan.
-    void find_narrow(const CurveSites& curves, const std::vector<SurfacePoint>& sites,
-                     std::span<const Triangle> triangles) {
-        const std::vector<detail::Fan> fans = find_fans(detail::build_site_mesh(
-            {triangles.begin(), triangles.end()}, static_cast<Index>(sites.size())));
+    // Keeps the places of inner sites.
+    void take_narrow(const CurveSites& curves, const std::vector<SurfacePoint>& sites,
+                     std::span<const Index> narrow) {
         narrow_points_.clear();
-        for (std::size_t i = curves.sites.size(); i < sites.size(); ++i) {
-            if (fans[i] != detail::Fan::Closed) narrow_points_.push_back(sites[i]);
+        for (const Index i : narrow) {
+            if (i >= curves.sites.size()) narrow_points_.push_back(sites[i]);
         }
     }
 
@@ -328,7 +328,8 @@ private:
                              options_.sizes);
         }
         const DistanceBounds labels = levels_.label(sites);
-        std::vector<Triangle> triangles = levels_.triangulate(labels, sites, chain);
+        std::vector<Triangle> triangles =
+            levels_.triangulate(labels, sites, chain, NarrowLabels::Simplify).triangles;
         repair_patches(chain, sites, triangles,
                        [&](Index patch) { return simplified(patch, sites); });
         auto relaxation = make_relaxation({std::move(sites), std::move(triangles)}, curves);
@@ -365,9 +366,11 @@ private:
         const std::vector<ChainEdge> chain = chain_edges(plan_.network, plan_.cut, coarse);
         const Refinement refinement{plan_, coarse, fine_};
         const DistanceBounds labels = levels_.label(first.sites());
-        detail::SiteDual dual{levels_.triangulate(labels, first.sites(), chain),
+        detail::LabelTriangles by_labels =
+            levels_.triangulate(labels, first.sites(), chain, NarrowLabels::Simplify);
+        take_narrow(coarse, first.sites(), by_labels.narrow);
+        detail::SiteDual dual{std::move(by_labels.triangles),
                               detail::label_middles(surface_.base, labels)};
-        find_narrow(coarse, first.sites(), dual.triangles);
         const auto relaxed = sort_by_patch(first.triangles(), first.sites());
         repair_patches(chain, first.sites(), dual.triangles,
                        [&](Index patch) { return relaxed[patch]; });

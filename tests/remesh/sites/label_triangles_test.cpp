@@ -20,6 +20,8 @@
 
 using namespace agvd;
 using remesh::PreparedSurface;
+using remesh::detail::LabelTriangles;
+using remesh::detail::NarrowLabels;
 using remesh::detail::triangulate_by_labels;
 
 namespace {
@@ -62,7 +64,8 @@ TEST(LabelTriangles, FlipsLeadToTheDualOfTheCells) {
             const std::vector<SurfacePoint> sites =
                 remesh::relax_sites(prepared, start, {.steps = 10}).sites;
             const DistanceBounds labels = remesh::detail::label_vertices(prepared, sites, 1);
-            const std::vector<Triangle> found = triangulate_by_labels(surface, labels, sites);
+            const std::vector<Triangle> found =
+                triangulate_by_labels(surface, labels, sites).triangles;
             std::vector<Vec3> positions;
             for (const SurfacePoint& s : sites) {
                 positions.push_back(position(surface.mesh.view(), s));
@@ -85,22 +88,111 @@ TEST(LabelTriangles, FlipsLeadToTheDualOfTheCells) {
     EXPECT_GT(num_flips, 10u);
 }
 
-// Where cells wrap around a tube that is narrower than the spacing the caller finds it out.
-TEST(LabelTriangles, HaveTheTopologyWhereLabelsCoverDiscs) {
+// Cells wrap around tubes that are narrower than the spacing.
+TEST(LabelTriangles, KeepTheTopologyOfNarrowParts) {
     for (const auto& [mesh, n, is_narrow] : {std::tuple{shapes::torus(240, 24, 0.05), 120U, true},
+                                             {shapes::torus(240, 24, 0.05), 160U, true},
                                              {shapes::torus(120, 12, 0.08), 80U, true},
                                              {shapes::torus(60, 30), 200U, false}}) {
         const Surface surface = build_surface(mesh.view());
         const PreparedSurface prepared(surface, not_refined);
         const std::vector<SurfacePoint> sites = remesh::sample_sites(surface, {.num_samples = n});
         const DistanceBounds labels = remesh::detail::label_vertices(prepared, sites, 1);
-        const Topology topology = topology_of(triangulate_by_labels(surface, labels, sites), n);
-        EXPECT_EQ(topology.is_manifold, !is_narrow) << n;
-        if (is_narrow) continue;
-        EXPECT_TRUE(topology.is_oriented);
-        ASSERT_EQ(topology.components.size(), 1u);
-        EXPECT_EQ(topology.components[0].genus, 1);
+        const LabelTriangles merged = triangulate_by_labels(surface, labels, sites);
+        EXPECT_EQ(topology_of(merged.triangles, n).is_manifold, !is_narrow) << n;
+        EXPECT_EQ(!merged.narrow.empty(), is_narrow) << n;
+        const LabelTriangles found =
+            triangulate_by_labels(surface, labels, sites, {}, NarrowLabels::Simplify);
+        EXPECT_EQ(found.narrow, merged.narrow) << n;
+        EXPECT_EQ(found.num_simplified, is_narrow ? 1u : 0u) << n;
+        EXPECT_EQ(found.triangles.size(), 2 * n);  // All sites are vertices.
+        const Topology topology = topology_of(found.triangles, n);
+        EXPECT_TRUE(topology.is_manifold && topology.is_oriented) << n;
+        ASSERT_EQ(topology.components.size(), 1u) << n;
+        EXPECT_EQ(topology.components[0].genus, 1) << n;
     }
+}
+
+// Where labels cover discs their triangles stay as they are.
+TEST(LabelTriangles, OnlyComponentsWithNarrowLabelsChange) {
+    const TriangleMesh ball = shapes::moved(shapes::sphere(3), {3, 0, 0});
+    const TriangleMesh mesh = shapes::join(ball, shapes::torus(240, 24, 0.05));
+    const Surface surface = build_surface(mesh.view());
+    const PreparedSurface prepared(surface, not_refined);
+    const std::vector<SurfacePoint> sites = remesh::sample_sites(surface, {.num_samples = 200});
+    const DistanceBounds labels = remesh::detail::label_vertices(prepared, sites, 1);
+    const LabelTriangles merged = triangulate_by_labels(surface, labels, sites);
+    const LabelTriangles found =
+        triangulate_by_labels(surface, labels, sites, {}, NarrowLabels::Simplify);
+    EXPECT_EQ(found.num_simplified, 1u);
+    const auto on_ball = [&](const std::vector<Triangle>& triangles) {
+        std::vector<Triangle> some;
+        for (const Triangle& t : triangles) {
+            if (position(surface.mesh.view(), sites[t[0]]).x() > 1.5) some.push_back(t);
+        }
+        return sorted(some);
+    };
+    EXPECT_GT(on_ball(found.triangles).size(), 50u);
+    EXPECT_EQ(on_ball(found.triangles), on_ball(merged.triangles));
+}
+
+// A torus needs seven vertices.
+TEST(LabelTriangles, ComponentsWithTooFewSitesGetNone) {
+    const Surface surface = build_surface(shapes::torus(60, 30).view());
+    const PreparedSurface prepared(surface, not_refined);
+    const std::vector<SurfacePoint> sites = remesh::sample_sites(surface, {.num_samples = 5});
+    const DistanceBounds labels = remesh::detail::label_vertices(prepared, sites, 1);
+    const LabelTriangles found =
+        triangulate_by_labels(surface, labels, sites, {}, NarrowLabels::Simplify);
+    EXPECT_TRUE(found.triangles.empty());
+    EXPECT_EQ(found.num_simplified, 0u);
+}
+
+// Two sites at one position, so that a merged triangle has no area.
+TEST(LabelTriangles, FlatTrianglesAreSimplified) {
+    const Surface surface = build_surface(shapes::torus(240, 24, 0.05).view());
+    const PreparedSurface prepared(surface, not_refined);
+    std::vector<SurfacePoint> sites = remesh::sample_sites(surface, {.num_samples = 120});
+    sites.push_back(sites[7]);
+    const DistanceBounds labels = remesh::detail::label_vertices(prepared, sites, 1);
+    const LabelTriangles found =
+        triangulate_by_labels(surface, labels, sites, {}, NarrowLabels::Simplify);
+    EXPECT_EQ(found.num_simplified, 1u);
+    EXPECT_EQ(found.triangles.size(), 2u * 121);
+    EXPECT_TRUE(topology_of(found.triangles, sites.size()).is_manifold);
+}
+
+// The cells of inner sites wrap around a tube; its rims have every third vertex.
+TEST(LabelTriangles, RimsOfNarrowPartsAreTheirChains) {
+    TriangleMesh mesh = shapes::tube(24, 120);
+    for (Vec3& p : mesh.positions) p = {0.05 * p.x(), 0.05 * p.y(), p.z()};
+    const Surface surface = build_surface(mesh.view());
+    const PreparedSurface prepared(surface, not_refined);
+    std::vector<SurfacePoint> sites;
+    std::vector<remesh::DirectedEdge> chain;
+    for (const std::vector<Index>& loop : boundary_loops(surface)) {
+        const auto first = static_cast<Index>(sites.size());
+        for (std::size_t i = 0; i < loop.size(); i += 3) {
+            sites.push_back(point_at(surface, surface.tail(loop[i])));
+        }
+        for (Index i = first; i < sites.size(); ++i) {
+            chain.emplace_back(i, i + 1 < sites.size() ? i + 1 : first);
+        }
+    }
+    ASSERT_EQ(sites.size(), 16u);
+    for (const Index height : {30, 55, 90}) sites.push_back(point_at(surface, height));
+    const DistanceBounds labels = remesh::detail::label_vertices(prepared, sites, 1);
+    const auto n = static_cast<Index>(sites.size());
+    const LabelTriangles merged = triangulate_by_labels(surface, labels, sites, chain);
+    EXPECT_EQ(merged.narrow, std::vector<Index>({16, 17, 18}));
+    const LabelTriangles found =
+        triangulate_by_labels(surface, labels, sites, chain, NarrowLabels::Simplify);
+    EXPECT_EQ(found.num_simplified, 1u);
+    const Topology topology = topology_of(found.triangles, n);
+    EXPECT_TRUE(topology.is_manifold && topology.is_oriented);
+    std::ranges::sort(chain);
+    EXPECT_EQ(remesh::rim_of(found.triangles), chain);
+    EXPECT_EQ(found.triangles.size(), 2 * n - 16);  // Euler's formula.
 }
 
 TEST(LabelTriangles, SitesThatLabelNoVertexGetOne) {
@@ -114,7 +206,7 @@ TEST(LabelTriangles, SitesThatLabelNoVertexGetOne) {
         sites.push_back({FaceId(7), at});
     }
     const DistanceBounds labels = remesh::detail::label_vertices(prepared, sites, 1);
-    const std::vector<Triangle> found = triangulate_by_labels(surface, labels, sites);
+    const std::vector<Triangle> found = triangulate_by_labels(surface, labels, sites).triangles;
     EXPECT_EQ(found.size(), 20u + 2 * 3);
     const Topology topology = topology_of(found, sites.size());
     EXPECT_TRUE(topology.is_manifold && topology.is_oriented);
@@ -143,8 +235,8 @@ WrongLabels count_wrong(const TriangleMesh& mesh, Index num_sites, std::uint64_t
     const std::vector<SurfacePoint> sites = points::scattered(surface, num_sites, seed);
     const DistanceBounds labels = remesh::detail::label_vertices(prepared, sites, 1);
     std::vector<Index> corrected = labels.site;
-    remesh::detail::correct_labels(prepared, sites, triangulate_by_labels(surface, labels, sites),
-                                   corrected);
+    remesh::detail::correct_labels(
+        prepared, sites, triangulate_by_labels(surface, labels, sites).triangles, corrected);
     const Diagram diagram = build_diagram(surface, sites, propagate(surface, sites));
     WrongLabels wrong;
     for (Index v = 0; v < surface.num_vertices(); ++v) {

@@ -449,7 +449,8 @@ TEST(Relaxation, SitesAreDrawnToThePlanesOfTheirCells) {
     const auto distance_after_steps = [&](const remesh::detail::CellMeasures& known) {
         const agvd::Progress none;
         remesh::detail::Relaxation relaxation(
-            surface, {sites, remesh::detail::triangulate_by_labels(surface, labels, sites)}, {}, 1,
+            surface,
+            {sites, remesh::detail::triangulate_by_labels(surface, labels, sites).triangles}, {}, 1,
             none);
         relaxation.set_density(&known, {});
         for (int step = 0; step < 5; ++step) relaxation.step();
