@@ -1,4 +1,6 @@
-// The surface's faces, some divided, with all vertices of a label merged into their site.
+// The surface's faces, some divided, with all vertices of a label merged into their site. Those of
+// narrow labels stay at first: a label and its neighbours become narrow until the merged mesh is a
+// surface, which is then simplified.
 #include "remesh/sites/label_triangles.h"
 
 #include <algorithm>
@@ -169,8 +171,7 @@ private:
     [[nodiscard]] std::vector<Index> find_narrow(std::vector<Triangle> triangles) const {
         if (chain_.empty()) return find_broken(std::move(triangles));
         std::vector<DirectedEdge> wrong;
-        std::ranges::set_symmetric_difference(rim_of(triangles), chain_,
-                                              std::back_inserter(wrong));
+        std::ranges::set_symmetric_difference(rim_of(triangles), chain_, std::back_inserter(wrong));
         std::vector<Index> narrow = find_broken(std::move(triangles));
         for (const auto& [from, to] : wrong) narrow.insert(narrow.end(), {from, to});
         std::erase_if(narrow, [&](Index i) { return i >= num_sites(); });
