@@ -1,25 +1,19 @@
 // The surface's faces, some divided, with all vertices of a label merged into their site. Those of
-// narrow labels stay at first: a label and its neighbours become narrow until the merged mesh is a
-// surface, which is then simplified.
+// narrow labels stay, as do those of more labels until the merged mesh has the surface's topology.
 #include "remesh/sites/label_triangles.h"
 
 #include <algorithm>
 #include <iterator>
-#include <optional>
 #include <utility>
 
 #include "agvd/mesh/surface_points.h"
-#include "agvd/mesh/topology.h"
 #include "remesh/curves/walk.h"
 #include "remesh/dual/fan_mesh.h"
-#include "remesh/dual/reduce_vertices.h"
+#include "remesh/sites/simplify_merged.h"
 #include "remesh/sites/site_mesh.h"
 
 namespace remesh::detail {
 namespace {
-
-// Edge lengths grow by this share of the longest, so that no triangle of a merged surface is flat.
-constexpr double least_slack = 1e-6;
 
 class LabelTriangulation {
 public:
@@ -192,64 +186,13 @@ private:
         return vertex_.size() > before;
     }
 
-    // Leaves the vertices of narrow labels in place, and removes them by flips ([liu2023]).
+    // Leaves the vertices of narrow labels in place, and simplifies the components that have some.
     void simplify_narrow(LabelTriangles& result) {
         std::vector<Triangle> merged = merge();
         while (split(find_narrow(closed(merged))) || split(find_broken(merged))) merged = merge();
-        result.triangles.clear();
-        const std::optional<Surface> surface = surface_of(merged);
-        if (!surface) return;
-        const FaceLabels part = label_components(surface->twin, ticker_);
-        std::vector<std::vector<Index>> faces(part.count);
-        for (Index f = 0; f < surface->num_faces(); ++f) faces[part.of_face[f]].push_back(f);
-        for (const std::vector<Index>& some : faces) append_simplified(*surface, some, result);
+        result.num_simplified = simplify_merged(surface_, sites_, {merged, vertex_},
+                                                !chain_.empty(), result.triangles, ticker_);
         result.triangles = closed(std::move(result.triangles));
-    }
-
-    // The merged surface by straight edges.
-    [[nodiscard]] std::optional<Surface> surface_of(std::span<const Triangle> merged) const {
-        TriangleMesh mesh{{}, {merged.begin(), merged.end()}};
-        for (const SurfacePoint& s : sites_) {
-            mesh.positions.push_back(position(surface_.mesh.view(), s));
-        }
-        for (const Index v : vertex_) mesh.positions.push_back(surface_.mesh.positions[v]);
-        std::optional<Connectivity> connectivity = find_connectivity(mesh.view());
-        if (!connectivity) return std::nullopt;
-        std::vector<double> length;
-        for (const Triangle& t : merged) {
-            for (Index k = 0; k < 3; ++k) {
-                length.push_back((mesh.positions[t[(k + 1) % 3]] - mesh.positions[t[k]]).norm());
-            }
-        }
-        const double slack = least_slack * std::ranges::max(length);
-        for (double& l : length) l += slack;
-        return build_surface(std::move(mesh), *std::move(connectivity), length, 1, {});
-    }
-
-    // Appends a component, simplified to its sites; nothing if that leaves other vertices.
-    void append_simplified(const Surface& surface, std::span<const Index> faces,
-                           LabelTriangles& result) const {
-        std::vector<Index> numbers;
-        for (const Index f : faces) {
-            const Triangle& t = surface.mesh.triangles[f];
-            numbers.insert(numbers.end(), t.begin(), t.end());
-        }
-        numbers = distinct(std::move(numbers));
-        const auto others = std::ranges::lower_bound(numbers, num_sites());
-        if (others == numbers.end()) {
-            for (const Index f : faces) result.triangles.push_back(surface.mesh.triangles[f]);
-            return;
-        }
-        numbers.erase(others, numbers.end());
-        std::vector<SurfacePoint> points;
-        for (const Index s : numbers) points.push_back(point_at(surface, s));
-        SimplifiedMesh part = simplify_patch(surface, faces, points);
-        if (!chain_.empty()) free_rim(surface, points, part);
-        for (const auto& [i, j, k] : part.triangles) {
-            if (std::max({i, j, k}) >= numbers.size()) continue;
-            result.triangles.push_back({numbers[i], numbers[j], numbers[k]});
-        }
-        ++result.num_simplified;
     }
 
     // A site of a curve that labels no inner vertex gets one triangle, which may be flat where the
@@ -276,7 +219,7 @@ private:
     std::vector<Index> number_;              // By vertex, those of missing sites last.
     std::vector<Index> place_;               // #sites: the vertex where it stays.
     std::vector<std::uint8_t> is_on_chain_;  // #sites
-    std::vector<Index> vertex_;              // By number, from the number of sites on.
+    std::vector<Index> vertex_;              // See MergedMesh.
 };
 
 }  // namespace

@@ -16,16 +16,15 @@ namespace remesh::detail {
 //! What becomes of labels that cover no disc, such as the cells around a rod that is thinner than
 //! the spacing.
 enum class NarrowLabels : std::uint8_t {
-    Merge,  //!< They are merged as all others: the triangles around are no fan.
-    //! Their vertices are removed one by one (simplify_patch), so that the topology stays. Where
-    //! some cannot be removed, the component gets no triangles.
-    Simplify,
+    Merge,     //!< They are merged as all others: the triangles around are no fan.
+    Simplify,  //!< Their components are simplified to their sites: see simplify_merged.
 };
 
 //! The result of triangulate_by_labels().
 struct LabelTriangles {
     std::vector<Triangle> triangles;  //!< Of sites.
-    //! Ascending: sites around which merged labels are no fan, and those where the rim is wrong.
+    //! Ascending: sites whose labels are no disc, or around which merged labels are no fan, and
+    //! those where the rim is wrong.
     std::vector<Index> narrow = {};
     Index num_simplified = 0;  //!< Components.
 };

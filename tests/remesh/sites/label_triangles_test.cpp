@@ -136,16 +136,36 @@ TEST(LabelTriangles, OnlyComponentsWithNarrowLabelsChange) {
     EXPECT_EQ(on_ball(found.triangles), on_ball(merged.triangles));
 }
 
-// A torus needs seven vertices.
-TEST(LabelTriangles, ComponentsWithTooFewSitesGetNone) {
+// A torus needs seven vertices: some triangles are missing.
+TEST(LabelTriangles, ComponentsWithTooFewSitesStayOpen) {
     const Surface surface = build_surface(shapes::torus(60, 30).view());
     const PreparedSurface prepared(surface, not_refined);
     const std::vector<SurfacePoint> sites = remesh::sample_sites(surface, {.num_samples = 5});
     const DistanceBounds labels = remesh::detail::label_vertices(prepared, sites, 1);
     const LabelTriangles found =
         triangulate_by_labels(surface, labels, sites, {}, NarrowLabels::Simplify);
-    EXPECT_TRUE(found.triangles.empty());
-    EXPECT_EQ(found.num_simplified, 0u);
+    EXPECT_FALSE(found.narrow.empty());
+    EXPECT_LT(found.triangles.size(), 10u);
+    for (const Triangle& t : found.triangles) EXPECT_LT(*std::ranges::max_element(t), 5u);
+}
+
+// Around the tip of a spike edges of the base have equal ends, or come twice.
+TEST(LabelTriangles, SurfacesThatAreNoMeshAreSimplified) {
+    TriangleMesh mesh = shapes::sphere(3);
+    for (Index v = 0; v < mesh.positions.size(); v += 5) mesh.positions[v] *= 30;
+    const Surface surface = build_surface(mesh.view());
+    const PreparedSurface prepared(surface, not_refined);
+    const Surface& base = prepared.base.surface();
+    ASSERT_FALSE(find_connectivity(base.mesh.view()));
+    const std::vector<SurfacePoint> sites = remesh::sample_sites(surface, {.num_samples = 60});
+    const DistanceBounds labels = remesh::detail::label_vertices(prepared, sites, 1);
+    const LabelTriangles found = triangulate_by_labels(
+        base, labels, prepared.base.to_intrinsic(sites), {}, NarrowLabels::Simplify);
+    EXPECT_EQ(found.num_simplified, 1u);
+    EXPECT_EQ(found.triangles.size(), 2u * 60 - 4);
+    const Topology topology = topology_of(found.triangles, sites.size());
+    EXPECT_TRUE(topology.is_manifold && topology.is_oriented);
+    EXPECT_EQ(topology.components[0].euler, 2);
 }
 
 // Two sites at one position, so that a merged triangle has no area.
