@@ -126,10 +126,16 @@ TEST(ThinParts, OthersHaveEqualEdges) {
     EXPECT_EQ(result.sizing.least_target, 0);
 }
 
-// With equal edges 1.1 of 2 are lost.
+// Where sites on the rod do not move 1.1 of 2 are lost.
 TEST(ThinParts, FewVerticesSufficeForARod) {
     const RemeshResult result = remesh::remesh(ball_with_rod(0.03).view(), {.num_samples = 80});
     EXPECT_LT(result.verdict.largest_distance, 0.4);
+    EXPECT_EQ(result.sizing.least_target, 0);
+}
+
+TEST(ThinParts, AThinnerRodGetsShorterEdges) {
+    const RemeshResult result = remesh::remesh(ball_with_rod(0.015).view(), {.num_samples = 500});
+    EXPECT_LT(result.verdict.largest_distance, 0.1);
     EXPECT_GT(result.sizing.least_target, 0);
 }
 
