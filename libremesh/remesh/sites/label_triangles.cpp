@@ -33,8 +33,7 @@ public:
         for (Index v = 0; v < number_.size(); ++v) {
             const Index s = number_[v];
             if (s == no_index) continue;
-            const bool is_inner = is_on_chain_[s] == 0;
-            if (!chain_.empty() && is_inner == surface.is_boundary_vertex(v)) continue;
+            if (is_on_chain_[s] != 0 && !surface.is_boundary_vertex(v)) continue;
             Index& best = place_[s];
             if (best == no_index || labels.distance[v] < labels.distance[best]) best = v;
         }
@@ -149,25 +148,22 @@ private:
         return twice;
     }
 
-    // Sites whose labels are no disc or whose triangles are no fan.
-    [[nodiscard]] std::vector<Index> find_broken(std::vector<Triangle> triangles) const {
+    // Sites whose labels are no disc, or whose triangles are no fan, and ends of edges by which rim
+    // and chain differ.
+    [[nodiscard]] std::vector<Index> find_narrow(std::vector<Triangle> triangles) const {
+        std::vector<Index> narrow;
+        if (!chain_.empty()) {
+            std::vector<DirectedEdge> wrong;
+            std::ranges::set_symmetric_difference(rim_of(triangles), chain_,
+                                                  std::back_inserter(wrong));
+            for (const auto& [from, to] : wrong) narrow.insert(narrow.end(), {from, to});
+        }
         const std::vector<Fan> fans =
             find_fans(build_site_mesh(std::move(triangles), num_numbers(), ticker_));
         const std::vector<Index> euler = twice_euler();
-        std::vector<Index> broken;
         for (Index s = 0; s < num_sites(); ++s) {
-            if (fans[s] == Fan::Broken || euler[s] != 2) broken.push_back(s);
+            if (fans[s] == Fan::Broken || euler[s] != 2) narrow.push_back(s);
         }
-        return broken;
-    }
-
-    // Of closed triangles; also the ends of edges by which rim and chain differ.
-    [[nodiscard]] std::vector<Index> find_narrow(std::vector<Triangle> triangles) const {
-        if (chain_.empty()) return find_broken(std::move(triangles));
-        std::vector<DirectedEdge> wrong;
-        std::ranges::set_symmetric_difference(rim_of(triangles), chain_, std::back_inserter(wrong));
-        std::vector<Index> narrow = find_broken(std::move(triangles));
-        for (const auto& [from, to] : wrong) narrow.insert(narrow.end(), {from, to});
         std::erase_if(narrow, [&](Index i) { return i >= num_sites(); });
         return distinct(std::move(narrow));
     }
@@ -189,7 +185,7 @@ private:
     // Leaves the vertices of narrow labels in place, and simplifies the components that have some.
     void simplify_narrow(LabelTriangles& result) {
         std::vector<Triangle> merged = merge();
-        while (split(find_narrow(closed(merged))) || split(find_broken(merged))) merged = merge();
+        while (split(find_narrow(closed(merged)))) merged = merge();
         result.num_simplified = simplify_merged(surface_, sites_, {merged, vertex_},
                                                 !chain_.empty(), result.triangles, ticker_);
         result.triangles = closed(std::move(result.triangles));
