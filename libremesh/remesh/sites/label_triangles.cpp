@@ -186,8 +186,8 @@ private:
     void simplify_narrow(LabelTriangles& result) {
         std::vector<Triangle> merged = merge();
         while (split(find_narrow(closed(merged)))) merged = merge();
-        result.num_simplified = simplify_merged(surface_, sites_, {merged, vertex_},
-                                                !chain_.empty(), result.triangles, ticker_);
+        result.num_simplified =
+            simplify_merged(surface_, sites_, {merged, vertex_}, result.triangles, ticker_);
         result.triangles = closed(std::move(result.triangles));
     }
 

@@ -18,12 +18,10 @@ constexpr double least_slack = 1e-6;
 class MergedSimplifier {
 public:
     MergedSimplifier(const Surface& surface, std::span<const SurfacePoint> sites,
-                     const MergedMesh& merged, bool has_chain, Ticker ticker)
+                     const MergedMesh& merged, Ticker ticker)
         : surface_(surface),
           sites_(sites),
           merged_(merged),
-          has_chain_(has_chain),
-          ticker_(ticker),
           component_(label_components(surface.twin, ticker)) {}
 
     Index run(std::vector<Triangle>& triangles) const {
@@ -86,14 +84,14 @@ private:
             for (Index v = 0; v < numbers.size(); ++v) points.push_back(point_at(*merged, v));
             std::vector<Index> faces(merged->num_faces());
             std::iota(faces.begin(), faces.end(), Index{0});
-            append(simplified(*merged, faces, points), numbers, triangles);
+            append(simplify_patch(*merged, faces, points), numbers, triangles);
         } else {
-            append(simplified(surface_, part.faces, take(sites_, part.sites)), part.sites,
+            append(simplify_patch(surface_, part.faces, take(sites_, part.sites)), part.sites,
                    triangles);
         }
     }
 
-    // None if the triangles are no mesh, or not connected.
+    // None if the triangles are no mesh.
     // \param numbers  of their corners, ascending; the numbers of the surface's vertices are ranks.
     [[nodiscard]] std::optional<Surface> straight_surface(std::span<const Triangle> triangles,
                                                           std::span<const Index> numbers) const {
@@ -108,9 +106,7 @@ private:
                 {rank_of(numbers, a), rank_of(numbers, b), rank_of(numbers, c)});
         }
         std::optional<Connectivity> connectivity = find_connectivity(mesh.view());
-        if (!connectivity || label_components(connectivity->twin, ticker_).count != 1) {
-            return std::nullopt;
-        }
+        if (!connectivity) return std::nullopt;
         std::vector<double> length;
         for (const Triangle& t : mesh.triangles) {
             for (Index k = 0; k < 3; ++k) {
@@ -120,13 +116,6 @@ private:
         const double slack = least_slack * std::ranges::max(length);
         for (double& l : length) l += slack;
         return build_surface(std::move(mesh), *std::move(connectivity), length, 1, {});
-    }
-
-    [[nodiscard]] SimplifiedMesh simplified(const Surface& surface, std::span<const Index> faces,
-                                            std::span<const SurfacePoint> points) const {
-        SimplifiedMesh result = simplify_patch(surface, faces, points);
-        if (has_chain_) free_rim(surface, points, result);
-        return result;
     }
 
     static void append(const SimplifiedMesh& part, std::span<const Index> sites,
@@ -140,17 +129,14 @@ private:
     const Surface& surface_;
     const std::span<const SurfacePoint> sites_;
     const MergedMesh& merged_;
-    const bool has_chain_;
-    const Ticker ticker_;
     const FaceLabels component_;
 };
 
 }  // namespace
 
 Index simplify_merged(const Surface& surface, std::span<const SurfacePoint> sites,
-                      const MergedMesh& merged, bool has_chain, std::vector<Triangle>& triangles,
-                      Ticker ticker) {
-    return MergedSimplifier(surface, sites, merged, has_chain, ticker).run(triangles);
+                      const MergedMesh& merged, std::vector<Triangle>& triangles, Ticker ticker) {
+    return MergedSimplifier(surface, sites, merged, ticker).run(triangles);
 }
 
 }  // namespace remesh::detail

@@ -23,11 +23,10 @@ struct MergedMesh {
 //! merged mesh is none, as an edge of the surface may have equal ends or come twice, the surface
 //! itself is simplified. Triangles of vertices that cannot be removed are left out.
 //! \param sites      on the surface.
-//! \param has_chain  removes vertices of the rim as well (free_rim).
 //! \param triangles  of sites; edited in place.
 //! \return the number of such components. Cost: O(n log n), that of simplify_patch for each.
 [[nodiscard]] Index simplify_merged(const Surface& surface, std::span<const SurfacePoint> sites,
-                                    const MergedMesh& merged, bool has_chain,
-                                    std::vector<Triangle>& triangles, Ticker ticker);
+                                    const MergedMesh& merged, std::vector<Triangle>& triangles,
+                                    Ticker ticker);
 
 }  // namespace remesh::detail

@@ -145,6 +145,7 @@ TEST(LabelTriangles, ComponentsWithTooFewSitesStayOpen) {
     const LabelTriangles found =
         triangulate_by_labels(surface, labels, sites, {}, NarrowLabels::Simplify);
     EXPECT_FALSE(found.narrow.empty());
+    EXPECT_FALSE(found.triangles.empty());
     EXPECT_LT(found.triangles.size(), 10u);
     for (const Triangle& t : found.triangles) EXPECT_LT(*std::ranges::max_element(t), 5u);
 }
@@ -165,6 +166,7 @@ TEST(LabelTriangles, SurfacesThatAreNoMeshAreSimplified) {
     EXPECT_EQ(found.triangles.size(), 2u * 60 - 4);
     const Topology topology = topology_of(found.triangles, sites.size());
     EXPECT_TRUE(topology.is_manifold && topology.is_oriented);
+    ASSERT_EQ(topology.components.size(), 1u);
     EXPECT_EQ(topology.components[0].euler, 2);
 }
 
