@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "agvd/core/types.h"
+#include "agvd/mesh/mesh.h"
 #include "remesh/names.h"
 
 namespace remesh::detail {

@@ -90,10 +90,13 @@ private:
             for (std::size_t k = 0; k < 3; ++k) three[k][k] = added;
             return three;
         };
-        const auto holds = std::ranges::max_element(parts, {}, [&](const Part& part) {
+        const auto least_area = [&](const Part& part) {
             const std::array<Part, 3> three = around(part);
             return std::min({area(three[0]), area(three[1]), area(three[2])});
-        });
+        };
+        const auto holds = std::max_element(
+            parts.begin(), parts.end(),
+            [&](const Part& a, const Part& b) { return least_area(a) < least_area(b); });
         std::array<Part, 3> three = around(*holds);
         // A site on the boundary divides an edge: the third part has no area.
         std::ranges::sort(three, std::greater<>(), area);
@@ -154,8 +157,9 @@ private:
         std::vector<Index> narrow;
         if (!chain_.empty()) {
             std::vector<DirectedEdge> wrong;
-            std::ranges::set_symmetric_difference(rim_of(triangles), chain_,
-                                                  std::back_inserter(wrong));
+            const std::vector<DirectedEdge> rim = rim_of(triangles);
+            std::set_symmetric_difference(rim.begin(), rim.end(), chain_.begin(), chain_.end(),
+                                          std::back_inserter(wrong));
             for (const auto& [from, to] : wrong) narrow.insert(narrow.end(), {from, to});
         }
         const std::vector<Fan> fans =

@@ -79,7 +79,8 @@ private:
         for (const Triangle& t : part.merged) numbers.insert(numbers.end(), t.begin(), t.end());
         numbers = distinct(std::move(numbers));
         if (const std::optional<Surface> merged = straight_surface(part.merged, numbers)) {
-            numbers.erase(std::ranges::lower_bound(numbers, num_sites()), numbers.end());
+            numbers.erase(std::lower_bound(numbers.begin(), numbers.end(), num_sites()),
+                          numbers.end());
             std::vector<SurfacePoint> points;
             for (Index v = 0; v < numbers.size(); ++v) points.push_back(point_at(*merged, v));
             std::vector<Index> faces(merged->num_faces());
