@@ -92,7 +92,7 @@ private:
         }
     }
 
-    // None if the triangles are no mesh.
+    // None if the triangles are no mesh, or not connected.
     // \param numbers  of their corners, ascending; the numbers of the surface's vertices are ranks.
     [[nodiscard]] std::optional<Surface> straight_surface(std::span<const Triangle> triangles,
                                                           std::span<const Index> numbers) const {
@@ -107,7 +107,7 @@ private:
                 {rank_of(numbers, a), rank_of(numbers, b), rank_of(numbers, c)});
         }
         std::optional<Connectivity> connectivity = find_connectivity(mesh.view());
-        if (!connectivity) return std::nullopt;
+        if (!connectivity || label_components(connectivity->twin).count != 1) return std::nullopt;
         std::vector<double> length;
         for (const Triangle& t : mesh.triangles) {
             for (Index k = 0; k < 3; ++k) {

@@ -13,6 +13,7 @@
 #include "agvd/propagation/propagate.h"
 #include "remesh/dual/build_dual.h"
 #include "remesh/sites/sampling.h"
+#include "remesh/sites/simplify_merged.h"
 #include "remesh/sites/site_dual.h"
 #include "remesh/sites/sites.h"
 #include "support/points.h"
@@ -168,6 +169,22 @@ TEST(LabelTriangles, SurfacesThatAreNoMeshAreSimplified) {
     EXPECT_TRUE(topology.is_manifold && topology.is_oriented);
     ASSERT_EQ(topology.components.size(), 1u);
     EXPECT_EQ(topology.components[0].euler, 2);
+}
+
+// Nothing is left of the merged mesh of a needle whose faces have a corner twice, or pieces are.
+TEST(SimplifyMerged, WithoutAConnectedMeshTheSurfaceItselfIsSimplified) {
+    const Surface surface = build_surface(shapes::sphere(3).view());
+    const std::vector<SurfacePoint> sites = points::scattered(surface, 20, 3);
+    const std::vector<Triangle> pieces{{0, 1, 2}, {3, 4, 20}};
+    for (const std::span<const Triangle> merged :
+         {std::span<const Triangle>(), std::span(pieces)}) {
+        std::vector<Triangle> triangles{{5, 6, 7}};
+        const std::vector<Index> vertex{11};
+        EXPECT_EQ(remesh::detail::simplify_merged(surface, sites, {merged, vertex}, triangles, {}),
+                  1u);
+        EXPECT_EQ(triangles.size(), 2u * 20 - 4);
+        EXPECT_TRUE(topology_of(triangles, 20).is_manifold);
+    }
 }
 
 // Two sites at one position, so that a merged triangle has no area.
