@@ -202,7 +202,7 @@ async function checkTheme(page) {
 }
 
 test("a free form with target lengths", async (browser) => {
-  const { html, evaluation } = makePage(join(data, "organic.ply"), "organic", "-n", "600", "--adaptive");
+  const { html, evaluation } = makePage(join(data, "organic.ply"), "organic", "-n", "640", "--adaptive");
   const { page, problems, close } = await openPage(browser, html);
   await checkColors(page, ["quality", "angle", "distance", "target", "patch"]);
   await checkSwitch(page, "wire", "w", 0.05);

@@ -70,7 +70,7 @@ def test_exceptions_of_a_progress_function_pass_through(organic):
 def test_a_progress_function_that_returns_nothing_changes_nothing(torus):
     stages = []
     told = remesh.remesh(*torus, 500, progress=lambda fraction, stage: stages.append(stage))
-    assert {"clean", "relax", "propagate", "diagram", "transfer"} <= set(stages)
+    assert {"clean", "relax", "dual", "place", "transfer"} <= set(stages)
     assert told.V.tobytes() == remesh.remesh(*torus, 500).V.tobytes()
 
 
