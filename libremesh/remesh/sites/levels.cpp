@@ -207,7 +207,7 @@ RelaxResult relax_sites(const PreparedSurface& surface, std::vector<SurfacePoint
                           options.num_threads, levels.progress());
     if (is_hopeless(relaxation)) return {std::move(sites), {}};
     levels.run(relaxation, &labels);
-    return {is_hopeless(relaxation) ? std::move(sites) : relaxation.sites(), levels.levels()};
+    return {is_hopeless(relaxation) ? sites : relaxation.sites(), levels.levels()};
 }
 
 }  // namespace remesh
