@@ -54,6 +54,7 @@ std::string after_check(const RemeshResult& result) {
 }
 
 std::string after_propagate(const RemeshResult& result) {
+    if (result.propagation_bytes == 0) return "not needed: labels gave the triangles";
     std::ostringstream text;
     text.imbue(std::locale::classic());
     text.precision(3);

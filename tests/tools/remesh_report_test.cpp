@@ -335,7 +335,7 @@ TEST(RemeshReport, DetailsTellTopologyTimeAndMemory) {
     for (const char* part :
          {"1 component, genus 1, 0 boundary loops", "distances: window engine, at most 0.0123 %",
           "energy lowered by 50.0 %",
-          "\n26 patches simplified to the sites, because cells failed there\n",
+          "\n26 patches simplified to the sites, because cells are no discs there\n",
           "21 curves, 22 corners, 23 vertices; 2.5 long: creases kept; 2.625 long: creases left "
           "out "
           "as too close to stronger ones; 2.75 long: creases dropped; "
@@ -345,6 +345,10 @@ TEST(RemeshReport, DetailsTellTopologyTimeAndMemory) {
           "total 0.75 s", "12.3 MB"}) {
         EXPECT_NE(text.find(part), std::string::npos) << part << " in\n" << text;
     }
+    result.propagation_bytes = 0;  // No cells were needed.
+    const std::string without = remesh::details_to_text(result);
+    EXPECT_EQ(without.find("distances:"), std::string::npos) << without;
+    EXPECT_TRUE(without.ends_with("total 0.75 s")) << without;
     result.features = {.curves = 1, .nodes = 4, .vertices = 5};
     EXPECT_NE(remesh::details_to_text(result).find("1 curve, 4 corners, 5 vertices\n"),
               std::string::npos)

@@ -79,6 +79,8 @@ TEST(StageDetails, SaysWhatWasNotDone) {
     result.self_intersections.reset();
     EXPECT_EQ(line_of(result, "relax"), "sites stay as sampled");
     EXPECT_EQ(line_of(result, "propagate"), "1000 bytes, distances of unknown error");
+    result.propagation_bytes = 0;
+    EXPECT_EQ(line_of(result, "propagate"), "not needed: labels gave the triangles");
     EXPECT_EQ(line_of(result, "check").substr(0, 31), "self-intersections: not counted");
 }
 

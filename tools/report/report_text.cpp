@@ -246,8 +246,10 @@ std::string to_text(const RemeshResult& result, const RunInfo& info) {
 
 std::string details_to_text(const RemeshResult& result, const RunInfo& info) {
     std::string text = "surface: " + counted(result.input_topology.face_component.size(), "face") +
-                       ", " + describe(result.input_topology) + '\n' +
-                       to_text(info.options.propagation.engine, result.certified_error);
+                       ", " + describe(result.input_topology);
+    if (result.propagation_bytes > 0) {
+        text += '\n' + to_text(info.options.propagation.engine, result.certified_error);
+    }
     for (const RelaxLevel& level : result.relaxation) {
         text += "\nrelaxation: " + counted(level.num_sites, "site") + ", " +
                 counted(level.energy.size() - 1, "step");
@@ -258,7 +260,7 @@ std::string details_to_text(const RemeshResult& result, const RunInfo& info) {
     }
     if (result.features.simplified_patches > 0) {
         text += "\n" + counted(result.features.simplified_patches, "patch") +
-                " simplified to the sites, because cells failed there";
+                " simplified to the sites, because cells are no discs there";
     }
     if (info.options.features != Features::Off) text += describe(result.features);
     if (info.options.delaunay != Delaunay::Off) {
@@ -268,7 +270,9 @@ std::string details_to_text(const RemeshResult& result, const RunInfo& info) {
     for (const auto& [stage, seconds] : result.seconds) {
         text += std::string(" ") + stage_name(stage) + ' ' + fixed(seconds, 2) + " s,";
     }
-    return text + " total " + fixed(detail::total_seconds(result), 2) + " s; propagation memory " +
+    text += " total " + fixed(detail::total_seconds(result), 2) + " s";
+    if (result.propagation_bytes == 0) return text;
+    return text + "; propagation memory " +
            fixed(static_cast<double>(result.propagation_bytes) * 1e-6, 1) + " MB";
 }
 

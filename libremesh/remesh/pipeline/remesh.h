@@ -215,7 +215,7 @@ struct RemeshResult {
     //! Faces of the coarse surface that stood for the input (see docs/algorithm.md); 0: none did.
     Index coarse_faces = 0;
     Index tiles = 0;                    //!< In which the surface was meshed; 0: in one piece.
-    std::size_t propagation_bytes = 0;  //!< Peak of the last propagation, beyond the mesh.
+    std::size_t propagation_bytes = 0;  //!< Peak of the last propagation beyond the mesh; 0: none.
     std::vector<std::pair<Stage, double>> seconds = {};  //!< Wall time spent in each stage.
 };
 
