@@ -88,14 +88,19 @@ public:
     }
 
     RemeshResult run() {
-        run_all(true);
-        if (!best_) run_all(false);
-        if (!best_) throw TooFewSamples{options_.num_samples, num_needed_};
+        find_mesh();
         shorten_edges();
         if (may_repair(kept_) && !is_best_bound_) bring_near();
         best_->seconds = first_.seconds;
         best_->features.samples_for_all = samples_for_all_;
         return *std::move(best_);
+    }
+
+    // \throw TooFewSamples  no attempt gives a mesh.
+    void find_mesh() {
+        run_all(true);
+        if (!best_) run_all(false);
+        if (!best_) throw TooFewSamples{options_.num_samples, num_needed_};
     }
 
 private:
@@ -318,18 +323,17 @@ EnoughSamples find_enough(const CleanedInput& cleaned, const RemeshResult& after
     if (reached > std::max(most_tried, options.num_samples)) return {.count = reached};
     RemeshOptions more = options;
     more.sites.reset();
-    InputCrossings of_input;
     for (int tries = 0; tries < max_tries; ++tries) {
         more.num_samples = reached;
         RemeshResult result = after_cleaning;
-        RunSizes sizes;
-        if (!cleaned.locked.empty()) {
-            sizes = find_sizes(cleaned, {}, spacing_for(cleaned, more), {}, {}, {more, result});
+        const std::optional<CleanedInput> coarse =
+            coarse_input(cleaned, spacing_for(cleaned, more), {more, result});
+        try {
+            Attempts(coarse ? *coarse : cleaned, result, more, {}, nullptr).find_mesh();
+            return {.count = reached, .is_tried = true};
+        } catch (const TooFewSamples& failure) {
+            reached = failure.reached > reached + 1 ? failure.reached : reached + reached / 4 + 1;
         }
-        const AttemptEnd end =
-            run_attempt(cleaned, {}, {}, sizes.field.get(), nullptr, of_input, {more, result});
-        if (end.has_mesh) return {.count = reached, .is_tried = true};
-        reached = end.num_needed > reached ? end.num_needed : reached + reached / 4 + 1;
     }
     return {.count = more.num_samples, .is_too_few = true};
 }
@@ -403,11 +407,11 @@ RemeshResult run_stages(const InputMesh& input, const RemeshOptions& given) {
     if (!cleaned.locked.empty() && gives_num_samples(options.sizing)) {
         options.vertex_count = VertexCount::Add;
     }
-    std::optional<CleanedInput> coarse;
     try {
         options.num_samples = sample_count(cleaned, options);
         require_least_samples(cleaned.topology, options);
-        coarse = coarse_input(cleaned, spacing_for(cleaned, options), {options, result});
+        const std::optional<CleanedInput> coarse =
+            coarse_input(cleaned, spacing_for(cleaned, options), {options, result});
         const CleanedInput& used = coarse ? *coarse : cleaned;
         RemeshResult after_cleaning = result;
         const auto run = [&](const RemeshOptions& changed, std::span<const SizedPoint> lengths,
@@ -430,8 +434,7 @@ RemeshResult run_stages(const InputMesh& input, const RemeshOptions& given) {
             }
         }
     } catch (const TooFewSamples& failure) {
-        const EnoughSamples enough =
-            find_enough(coarse ? *coarse : cleaned, result, options, failure.reached);
+        const EnoughSamples enough = find_enough(cleaned, result, options, failure.reached);
         throw ConstraintUnmet(describe_too_few(failure, enough, cleaned, given) +
                               describe_gaps(cleaned));
     }

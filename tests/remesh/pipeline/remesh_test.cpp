@@ -134,6 +134,24 @@ TEST(Remesh, TooFewSamplesForTheTopologyAreRefused) {
     EXPECT_THROW((void)remesh::remesh(shapes::cube().view(), {.num_samples = 0}), InvalidOption);
 }
 
+// Of a mesh that is coarsened by the number of samples.
+TEST(Remesh, ANumberOfSamplesThatIsSaidToWorkDoes) {
+    const TriangleMesh mesh = remesh::read_mesh(files::find_mesh("data/organic.ply")).mesh;
+    for (std::uint64_t seed = 0; seed < 8; ++seed) {
+        std::string text;
+        try {
+            (void)remesh::remesh(mesh.view(), {.num_samples = 5, .seed = seed});
+        } catch (const ConstraintUnmet& error) {
+            text = error.what();
+        }
+        ASSERT_NE(text.find(", which were tried and work"), std::string::npos) << text;
+        const auto enough = static_cast<Index>(std::stoul(text.substr(text.find("use ") + 4)));
+        EXPECT_EQ(remesh::remesh(mesh.view(), {.num_samples = enough, .seed = seed})
+                      .mesh.positions.size(),
+                  enough);
+    }
+}
+
 TEST(Remesh, AStoppedRunThrows) {
     int calls = 0;
     const remesh::RemeshOptions options{
