@@ -217,7 +217,7 @@ public:
     }
 
 private:
-    // Replaces the triangles of patches that have none, or whose rim is not their chain.
+    // Replaces the triangles of patches whose rim is not their chain.
     // \param instead  gives other triangles for a patch, which may have a wrong rim too.
     template <typename Instead>
     void repair_patches(std::span<const ChainEdge> chain, std::span<const SurfacePoint> sites,
@@ -227,7 +227,7 @@ private:
         const auto wanted = chain_by_part(chain, patch_.count, part_of);
         triangles.clear();
         for (Index i = 0; i < faces_.size(); ++i) {
-            const bool is_right = !by_patch[i].empty() && rim_of(by_patch[i]) == wanted[i];
+            const bool is_right = rim_of(by_patch[i]) == wanted[i];
             const std::vector<Triangle> chosen = is_right ? by_patch[i] : instead(i);
             triangles.insert(triangles.end(), chosen.begin(), chosen.end());
         }
