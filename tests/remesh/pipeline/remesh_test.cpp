@@ -152,6 +152,12 @@ TEST(Remesh, ANumberOfSamplesThatIsSaidToWorkDoes) {
     }
 }
 
+TEST(Remesh, WhereLabelsGiveNoMeshCellsAreFound) {
+    const TriangleMesh mesh = remesh::read_mesh(files::find_mesh("data/parts.ply")).mesh;
+    EXPECT_GT(remesh::remesh(mesh.view(), {.num_samples = 300}).propagation_bytes, 0u);
+    EXPECT_EQ(remesh::remesh(mesh.view(), {.num_samples = 1000}).propagation_bytes, 0u);
+}
+
 TEST(Remesh, AStoppedRunThrows) {
     int calls = 0;
     const remesh::RemeshOptions options{

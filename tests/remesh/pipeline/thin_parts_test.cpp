@@ -137,6 +137,8 @@ TEST(ThinParts, AThinnerRodGetsShorterEdges) {
     const RemeshResult result = remesh::remesh(ball_with_rod(0.015).view(), {.num_samples = 500});
     EXPECT_LT(result.verdict.largest_distance, 0.1);
     EXPECT_GT(result.sizing.least_target, 0);
+    EXPECT_EQ(result.features.simplified_patches, 1u);  // Labels wrap around the rod.
+    EXPECT_EQ(result.propagation_bytes, 0u);            // Cells are not needed.
 }
 
 TEST(ThinParts, LengthsThatTheCallerGivesStay) {

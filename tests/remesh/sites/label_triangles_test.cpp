@@ -238,6 +238,31 @@ TEST(LabelTriangles, RimsOfNarrowPartsAreTheirChains) {
     EXPECT_EQ(found.triangles.size(), 2 * n - 12);  // Euler's formula.
 }
 
+// Of a square, each vertex of which is a site, two corners have one face.
+TEST(LabelTriangles, SitesOfCurvesGetTwoTriangles) {
+    const Surface surface = build_surface(shapes::grid(4).view());
+    const PreparedSurface prepared(surface, not_refined);
+    std::vector<SurfacePoint> sites;
+    std::vector<remesh::DirectedEdge> chain;
+    const std::vector<Index> loop = boundary_loops(surface).front();
+    for (Index i = 0; i < loop.size(); ++i) {
+        sites.push_back(point_at(surface, surface.tail(loop[i])));
+        chain.emplace_back(i, i + 1 < loop.size() ? i + 1 : 0);
+    }
+    for (Index v = 0; v < surface.num_vertices(); ++v) {
+        if (!surface.is_boundary_vertex(v)) sites.push_back(point_at(surface, v));
+    }
+    ASSERT_EQ(sites.size(), 25u);
+    const DistanceBounds labels = remesh::detail::label_vertices(prepared, sites, 1);
+    const LabelTriangles found = triangulate_by_labels(surface, labels, sites, chain);
+    std::vector<Index> count(sites.size(), 0);
+    for (const Triangle& t : found.triangles) {
+        for (const Index site : t) ++count[site];
+    }
+    EXPECT_GE(*std::ranges::min_element(count), 2u);
+    EXPECT_EQ(found.triangles.size(), 32u);  // Euler's formula.
+}
+
 TEST(LabelTriangles, SitesThatLabelNoVertexGetOne) {
     const Surface surface = build_surface(shapes::icosahedron().view());
     const PreparedSurface prepared(surface, not_refined);
