@@ -152,6 +152,15 @@ TEST(Remesh, ANumberOfSamplesThatIsSaidToWorkDoes) {
     }
 }
 
+// Some flips from triangles of labels would fold them in between.
+TEST(Remesh, FlipsFromLabelsLeadToDelaunayTriangles) {
+    const TriangleMesh mesh = remesh::read_mesh(files::find_mesh("data/part.off")).mesh;
+    const remesh::RemeshResult result = remesh::remesh(mesh.view(), {.num_samples = 500});
+    EXPECT_EQ(result.propagation_bytes, 0u);
+    EXPECT_GT(result.delaunay.failing_before, 0u);
+    EXPECT_EQ(result.delaunay.failing_after, 0u);
+}
+
 TEST(Remesh, WhereLabelsGiveNoMeshCellsAreFound) {
     const TriangleMesh mesh = remesh::read_mesh(files::find_mesh("data/parts.ply")).mesh;
     EXPECT_GT(remesh::remesh(mesh.view(), {.num_samples = 300}).propagation_bytes, 0u);
