@@ -100,7 +100,8 @@ std::size_t estimated_samples(const remesh::RemeshOptions& options, const agvd::
 }
 
 std::size_t least_memory(std::size_t num_faces, std::size_t num_samples) {
-    return 200 * num_faces + 3000 * num_samples;
+    constexpr std::size_t samples_of_tile = 10'000;
+    return 200 * num_faces + 3000 * std::min(num_samples, samples_of_tile) + 300 * num_samples;
 }
 
 }  // namespace cli

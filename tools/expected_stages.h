@@ -44,8 +44,8 @@ namespace cli {
 [[nodiscard]] std::size_t estimated_samples(const remesh::RemeshOptions& options,
                                             const agvd::MeshView& mesh);
 
-//! Bytes that a run of remesh needs at least. Meshes of 1 000 to 100 000 faces with 9 000 to 100
-//! 000 samples took 4000 to 7000 bytes a sample beyond 300 a face.
+//! Bytes that a run of remesh needs at least: those of a tile in work, and of the result. Meshes of
+//! 1 000 to 100 000 faces took 4000 to 7000 bytes a sample of a tile beyond 300 a face.
 [[nodiscard]] std::size_t least_memory(std::size_t num_faces, std::size_t num_samples);
 
 }  // namespace cli

@@ -280,16 +280,16 @@ TEST_F(Remesh, RefusesAFileThatCannotFit) {
 
 TEST_F(Remesh, RefusesMoreSamplesThanFitAndTellsWhatTheyNeed) {
     const std::string in = put("in.off", shapes::sphere(2));
-    // All three are about a million vertices.
+    // All three are about ten million vertices.
     for (const auto& [option, value] :
-         {std::pair("-n", "1000000"), {"--faces", "2e6"}, {"--edge-length", ".00376"}}) {
+         {std::pair("-n", "10000000"), {"--faces", "2e7"}, {"--edge-length", ".00119"}}) {
         SCOPED_TRACE(option);
         const auto outcome = remesh({in, at("out.ply"), option, value, "--memory-limit", "2G"});
         EXPECT_EQ(outcome.exit_code, 1);
         const std::string needs = "the program needs some ";
         const std::size_t begin = outcome.err.find(needs);
         ASSERT_NE(begin, std::string::npos) << outcome.err;
-        // 2.7 for a million vertices, and what the program already uses: more with sanitizers.
+        // 2.8 for ten million vertices, and what the program already uses: more with sanitizers.
         EXPECT_NEAR(std::stod(outcome.err.substr(begin + needs.size())), 2.85, .25);
         EXPECT_NE(outcome.err.find("more than the 2G of --memory-limit"), std::string::npos)
             << outcome.err;

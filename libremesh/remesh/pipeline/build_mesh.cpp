@@ -41,10 +41,11 @@ public:
     }
 
     std::optional<PlacedDual> place(BuiltMesh& built) {
-        if (!make_dual(DualSource::Labels, built) &&
-            (dual_.is_of_cells || !make_dual(DualSource::Cells, built))) {
-            return std::nullopt;
-        }
+        dual_ = build_valid_dual(domain_, placed_, on_base_, context_);
+        if (!has_chain(domain_, placed_.chain, dual_)) return std::nullopt;
+        built.num_wanted = num_wanted_ = find_target();
+        built.num_vertices = fix_edges();
+        if (built.num_vertices > num_wanted_) return std::nullopt;
         return place_dual(domain_, placed_.curves, dual_, points_of_vertices(), context_);
     }
 
@@ -71,15 +72,6 @@ public:
     }
 
 private:
-    // \return whether the dual has the edges and the number of vertices that it must have.
-    bool make_dual(DualSource source, BuiltMesh& built) {
-        dual_ = build_valid_dual(domain_, placed_, on_base_, source, context_);
-        if (!has_chain(domain_, placed_.chain, dual_)) return false;
-        built.num_wanted = num_wanted_ = find_target();
-        built.num_vertices = fix_edges();
-        return built.num_vertices <= num_wanted_;
-    }
-
     // How many vertices the result is to have: as many as were asked for, or one for each given
     // site that owns a part of the surface. Counts the other given sites.
     Index find_target() {

@@ -35,8 +35,8 @@ public:
                                [&](Index site) { return patch_of(sites_[site]); })),
           has_failed_(patches_.size(), false) {}
 
-    ValidDual run(DualSource source) {
-        dual_.is_of_cells = source == DualSource::Cells || asks_for_cells() || !take_labels();
+    ValidDual run() {
+        dual_.is_of_cells = asks_for_cells() || !take_labels();
         if (dual_.is_of_cells) take_cells();
         const StageClock clock(Stage::Dual, result_);
         poll(progress_of(Stage::Dual, options_), 0);
@@ -226,9 +226,8 @@ private:
 }  // namespace
 
 ValidDual build_valid_dual(Domain& domain, const PlacedSites& placed,
-                           std::span<const SurfacePoint> sites, DualSource source,
-                           const StageContext& context) {
-    return ValidDualBuilder(domain, placed, sites, context).run(source);
+                           std::span<const SurfacePoint> sites, const StageContext& context) {
+    return ValidDualBuilder(domain, placed, sites, context).run();
 }
 
 }  // namespace remesh::detail

@@ -27,12 +27,6 @@ struct ValidDual {
     bool is_of_cells = false;              //!< Its patches are duals of cells, or simplified.
 };
 
-//! Where triangles come from.
-enum class DualSource : std::uint8_t {
-    Labels,  //!< A triangulation by labels, from which flips lead to the dual of the cells.
-    Cells,   //!< That dual itself.
-};
-
 //! Triangles of the sites. Of cells, too, if labels do not give all patches their topology and
 //! rims, the sites are not relaxed, faces are too large for labels, or the options ask for an
 //! engine, an error or other flips. A patch whose dual is not right is simplified to its sites
@@ -43,7 +37,7 @@ enum class DualSource : std::uint8_t {
 //! Cost: that of label_vertices; for the dual a propagation and a diagram, and that of simplify for
 //! the patches that need it.
 [[nodiscard]] ValidDual build_valid_dual(Domain& domain, const PlacedSites& placed,
-                                         std::span<const SurfacePoint> sites, DualSource source,
+                                         std::span<const SurfacePoint> sites,
                                          const StageContext& context);
 
 }  // namespace remesh::detail
