@@ -11,6 +11,7 @@
 #include <atomic>
 #include <cstdint>
 #include <cstdlib>
+#include <functional>
 #include <new>
 
 namespace {
@@ -20,18 +21,20 @@ constexpr std::size_t page_size = std::size_t{1} << 21;
 constexpr std::size_t least_size = 2 * page_size;
 
 // End of the part of the heap for which large pages were requested.
-std::atomic<std::uintptr_t> heap_end = 0;
+// NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): there is one heap.
+std::atomic<char*> heap_end = nullptr;
 
 // The heap, where all smaller arrays are, grows a large page or more at a time (M_TOP_PAD): 1.4 M
 // faces took .81 of the processor time that they took with small pages there.
 void advise_heap(const void* memory) {
-    if (reinterpret_cast<std::uintptr_t>(memory) < heap_end.load(std::memory_order_relaxed)) return;
-    const auto end = reinterpret_cast<std::uintptr_t>(::sbrk(0));
-    const std::uintptr_t before = heap_end.load(std::memory_order_relaxed);
+    char* const before = heap_end.load(std::memory_order_relaxed);
+    if (std::less<const void*>()(memory, before)) return;
+    auto* const end = static_cast<char*>(::sbrk(0));
     if (end == before) return;
     heap_end.store(end, std::memory_order_relaxed);
-    const std::uintptr_t begin = before == 0 ? end / page_size * page_size : before;
-    if (end > begin) ::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
+    char* const begin =
+        before == nullptr ? end - reinterpret_cast<std::uintptr_t>(end) % page_size : before;
+    if (end > begin) ::madvise(begin, static_cast<std::size_t>(end - begin), MADV_HUGEPAGE);
 }
 
 // Whole pages only: the rest of the array stays in small ones, so that nothing is wasted.
