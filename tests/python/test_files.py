@@ -69,7 +69,7 @@ def test_warnings_are_those_of_reading_and_of_the_result(mesh):
 def test_more_memory_than_allowed_is_refused_before_the_work(mesh):
     stages = []
     with pytest.raises(remesh.OutOfMemory, match="use a smaller n .* or raise memory_limit") as error:
-        remesh.remesh(mesh, 10**8, progress=lambda fraction, stage: stages.append(stage))
+        remesh.remesh(mesh, 10**8, memory_limit="16G", progress=lambda _, stage: stages.append(stage))
     assert isinstance(error.value, MemoryError) and stages == []
     assert len(remesh.remesh(mesh, 100, memory_limit=None).V) == 100
     for wrong in ("many", "200%", 0):
