@@ -100,8 +100,9 @@ std::size_t estimated_samples(const remesh::RemeshOptions& options, const agvd::
 }
 
 std::size_t least_memory(std::size_t num_faces, std::size_t num_samples) {
-    constexpr std::size_t samples_of_tile = 10'000;
-    return 200 * num_faces + 3000 * std::min(num_samples, samples_of_tile) + 300 * num_samples;
+    const std::size_t in_work =
+        std::min<std::size_t>(num_samples, remesh::RemeshOptions{}.samples_per_tile);
+    return 200 * num_faces + 3000 * in_work + 300 * num_samples;
 }
 
 }  // namespace cli
