@@ -24,7 +24,7 @@ struct FaceChart {
 //! Charts of the faces that operations have changed.
 //!
 //! Lengths alone would suffice in exact arithmetic; in double, a few flips raise the error of a far
-//! corner to a power. Directions let errors add up and not multiply (docs/algorithm.md, "Charts").
+//! corner to a power. Directions let errors add up and not multiply (docs/algorithm/intrinsic.md).
 class FaceCharts {
 public:
     //! \param surface  outlives this; faces without a chart have not changed in it.

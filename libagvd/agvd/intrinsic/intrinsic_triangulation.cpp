@@ -1,4 +1,4 @@
-// Builds the base in the order of docs/algorithm.md, "Intrinsic triangulation": raise degenerate
+// Builds the base in the order of docs/algorithm/intrinsic.md: raise degenerate
 // faces, remove flat vertices, flip to Delaunay ([bobenko2007], [fisher2007]), split long edges,
 // longest first. FaceHistory records every change and maps points and segments both ways.
 #include "agvd/intrinsic/intrinsic_triangulation.h"

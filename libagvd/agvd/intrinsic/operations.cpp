@@ -1,5 +1,5 @@
 // Corners of faces are laid out in one plane from their charts, which pass rotations on and never
-// compute them from a short side (docs/algorithm.md, "Charts"). Flips: [bobenko2007].
+// compute them from a short side (docs/algorithm/intrinsic.md, "Charts"). Flips: [bobenko2007].
 #include "agvd/intrinsic/operations.h"
 
 #include "agvd/core/parallel.h"

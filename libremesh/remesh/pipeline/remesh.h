@@ -212,7 +212,7 @@ struct RemeshResult {
     Verdict verdict = {};  //!< What the result is too coarse to show.
     //! Of the last propagation: see Propagation. Infinity: nothing is certified.
     double certified_error = std::numeric_limits<double>::infinity();
-    //! Faces of the coarse surface that stood for the input (see docs/algorithm.md); 0: none did.
+    //! Faces of the coarse surface that stood for the input (docs/algorithm/input.md); 0: none did.
     Index coarse_faces = 0;
     Index tiles = 0;                    //!< In which the surface was meshed; 0: in one piece.
     std::size_t propagation_bytes = 0;  //!< Peak of the last propagation beyond the mesh; 0: none.
@@ -223,7 +223,7 @@ struct RemeshResult {
 //!
 //! The result is an oriented 2-manifold with the components of the cleaned input, each with its
 //! genus and boundary loops, and has num_samples vertices (or one for each of `sites` that owns a
-//! part of the surface). Both are checked; docs/algorithm.md says why they can be had. Where k
+//! part of the surface). Both are checked; docs/algorithm/dual.md says why they can be had. Where k
 //! sheets meet at a junction, it has k vertices at one point; Junctions::Keep welds them.
 //! \param mesh  #V x 3 positions, #F x 3 indices; read only during the call; may be dirty.
 //! \throw InvalidOption    an option is out of range.

@@ -1,7 +1,7 @@
 // Runs the windows ([mitchell1987]) of each site as far as the bounds allow, in batches of
 // parallel tasks, whose results are taken in a fixed order. Windows are kept as relays in the
 // faces near a change of label in the bounds. Where a site reaches a face of another one by the
-// bounds, that one runs once more (docs/algorithm.md, "Window engine").
+// bounds, that one runs once more (docs/algorithm/windows.md).
 #include "agvd/propagation/engines.h"
 
 #include <algorithm>
