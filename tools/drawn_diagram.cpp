@@ -84,7 +84,7 @@ DrawnDiagram draw_diagram(const agvd::MeshView& mesh, const DrawnSites& given_si
     drawn.certified_error = based.certified_error;
     if (read) read(surface, sites, drawn.diagram, options);
     drawn.cells = agvd::build_cells(drawn.diagram);
-    drawn.dual = remesh::build_dual(surface, drawn.diagram, progress_of("dual"));
+    drawn.dual = remesh::build_dual(drawn.diagram);
     drawn.lines = draw(drawn.diagram, surface.mesh.view());
     drawn.arcs = draw_arcs(surface, drawn.diagram, drawn.lines);
     for (const agvd::SurfacePoint& site : sites) {

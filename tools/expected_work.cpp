@@ -9,7 +9,7 @@ namespace {
 
 // Time for a million faces of the input and for a million samples: seconds of scripts/stage-shares
 // on bunny, fandisk, nefertiti, beetle, armadillo, fertility and rocker-arm, each with 500, 2000
-// and 20 000 samples; of sampling, propagation and diagram with `--relax 0`. Only their ratios
+// and 20 000 samples; of sampling with `--relax 0`. Only their ratios
 // count.
 struct StageWork {
     Stage stage;
@@ -37,9 +37,8 @@ std::vector<std::pair<Stage, double>> expected_work(std::size_t num_faces, std::
         double factor = 1;
         if (row.stage == Stage::Relax) {
             factor = std::min(steps, most_steps) / static_cast<double>(RemeshOptions{}.relax_steps);
-        } else if (row.stage == Stage::Sample || row.stage == Stage::Propagate ||
-                   row.stage == Stage::Diagram) {
-            factor = steps == 0 ? 1 : 0;  // Relaxed sites begin coarse, and need no diagram.
+        } else if (row.stage == Stage::Sample) {
+            factor = steps == 0 ? 1 : 0;  // Relaxed sites begin coarse.
         }
         work.emplace_back(row.stage, factor * (faces * row.of_faces + samples * row.of_samples));
     }

@@ -41,7 +41,11 @@ std::string after_relax(const RemeshResult& result) {
 }
 
 std::string after_dual(const RemeshResult& result) {
-    return "patches simplified: " + std::to_string(result.features.simplified_patches) +
+    const remesh::DualCounts& dual = result.dual;
+    return std::to_string(dual.sites_of_cells) + " of " + std::to_string(dual.sites) +
+           " sites with the triangles of their cells; cells that are no discs, or meet others " +
+           "along several arcs: " + std::to_string(dual.narrow_sites) +
+           "; parts simplified: " + std::to_string(dual.simplified_parts) +
            "; sites dropped: " + std::to_string(result.sites_dropped);
 }
 
@@ -54,7 +58,6 @@ std::string after_check(const RemeshResult& result) {
 }
 
 std::string after_propagate(const RemeshResult& result) {
-    if (result.propagation_bytes == 0) return "not needed: labels gave the triangles";
     std::ostringstream text;
     text.imbue(std::locale::classic());
     text.precision(3);

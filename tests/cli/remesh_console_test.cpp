@@ -70,8 +70,10 @@ TEST_F(Remesh, VerboseTellsTimeMemoryAndWorkOfEachStage) {
          {"\nread:, \n", "\nclean:, \n", "\nrelax:, \n", "\ncheck:, \n", "\ntransfer:, \n",
           "\nwrite:, \n", "\nclean  3600 faces, 3600 when cleaned, ", "; repaired: nothing; ",
           "\nsample  300 samples asked for\n", " sites, 60 steps, energy 1 ",
-          "\ndual  patches simplified: 0; sites dropped: 0\n", " flips, ",
-          "\nplace  300 vertices, 600 faces\n", " in the input; 0 vertices moved back\n"}) {
+          "\ndual  300 of 300 sites with the triangles of their cells; cells that are no discs, or "
+          "meet others along several arcs: 0; parts simplified: 0; sites dropped: 0\n",
+          " flips, ", "\nplace  300 vertices, 600 faces\n",
+          " in the input; 0 vertices moved back\n"}) {
         EXPECT_NE(text.find(line), std::string::npos) << line << " is missing in\n" << text;
     }
     const auto details = [](const std::string& all) {

@@ -48,7 +48,7 @@ TEST(StraightenAgainstExact, DualEdgesAreShortestPathsUnlessTheSurfaceBends) {
     const std::vector<SurfacePoint> sites = uniform_points(surface, 150, 1);
     const Diagram diagram = build_diagram(surface, sites, propagate(surface, sites));
     Index num_exact = 0, num_sides = 0;
-    for (const auto& [a, b, c] : remesh::build_dual(surface, diagram)) {
+    for (const auto& [a, b, c] : remesh::build_dual(diagram)) {
         const std::array targets{sites[b], sites[c]};
         const std::vector<double> exact = exact_distances(surface, sites[a], targets);
         for (std::size_t k = 0; k < 2; ++k) {

@@ -23,8 +23,9 @@ struct MovableMesh {
             corner.barycentric[h % 3] = 1;
             placed.points[surface.tail(h)] = corner;
         }
-        hard = remesh::rim_of(mesh.triangles);
-        for (const auto& [from, to] : hard) mobility[from] = remesh::detail::Mobility::Boundary;
+        placed.hard = remesh::rim_of(mesh.triangles);
+        for (const auto& [from, to] : placed.hard)
+            mobility[from] = remesh::detail::Mobility::Boundary;
         // Closed curves: without nodes all of their vertices may move.
         for (std::vector<agvd::Index>& loop : agvd::boundary_loops(surface)) {
             network.curves.push_back(remesh::curve_of_loop(surface, std::move(loop)));
@@ -45,5 +46,4 @@ struct MovableMesh {
     remesh::CurveNetwork network;  // Its boundary.
     remesh::PlacedMesh placed;
     std::vector<remesh::detail::Mobility> mobility;
-    std::vector<remesh::DirectedEdge> hard;
 };

@@ -33,7 +33,6 @@ remesh::RemeshResult example_result() {
                        .dropped_length = 2.75,
                        .uncarried_curves = 24,
                        .samples_for_all = 25,
-                       .simplified_patches = 26,
                        .gave_up = true,
                        .seam_length = 1.25,
                        .dropped_seam_length = 0.75};
@@ -56,6 +55,11 @@ remesh::RemeshResult example_result() {
                         .samples_for_all = 35,
                         .welded_edges = 36};
     result.sizing = {.num_samples = 77, .mean_edge = 1};
+    result.dual = {.sites = 61,
+                   .sites_of_cells = 62,
+                   .narrow_sites = 63,
+                   .simplified_parts = 26,
+                   .simplified_patches = 64};
     result.certified_error = 1.23e-4;
     result.coarse_faces = 64'000;
     result.tiles = 4;
@@ -145,10 +149,14 @@ TEST(RemeshReport, GivesEveryFieldOfTheResult) {
                                         {"dropped_crease_length_mesh_units", 2.75},
                                         {"curves_off_given_sites", 24},
                                         {"samples_for_all", 25},
-                                        {"simplified_patches", 26},
                                         {"gave_up", true},
                                         {"texture_seam_length_mesh_units", 1.25},
                                         {"dropped_texture_seam_length_mesh_units", 0.75}}));
+    EXPECT_EQ(report["dual"], json({{"sites", 61},
+                                    {"sites_of_cells", 62},
+                                    {"narrow_sites", 63},
+                                    {"simplified_parts", 26},
+                                    {"simplified_patches", 64}}));
     EXPECT_EQ(report["verdict"], json({{"spacing_mesh_units", 0.5},
                                        {"small_components", 41},
                                        {"samples_for_components", 42},
@@ -335,7 +343,8 @@ TEST(RemeshReport, DetailsTellTopologyTimeAndMemory) {
     for (const char* part :
          {"1 component, genus 1, 0 boundary loops", "distances: window engine, at most 0.0123 %",
           "energy lowered by 50.0 %",
-          "\n26 patches simplified to the sites, because cells are no discs there\n",
+          "\n26 parts simplified to the sites, because cells are no discs there: 101.6 % of the "
+          "sites have the triangles of their cells\n",
           "21 curves, 22 corners, 23 vertices; 2.5 long: creases kept; 2.625 long: creases left "
           "out "
           "as too close to stronger ones; 2.75 long: creases dropped; "
@@ -345,9 +354,8 @@ TEST(RemeshReport, DetailsTellTopologyTimeAndMemory) {
           "total 0.75 s", "12.3 MB"}) {
         EXPECT_NE(text.find(part), std::string::npos) << part << " in\n" << text;
     }
-    result.propagation_bytes = 0;  // No cells were needed.
+    result.propagation_bytes = 0;
     const std::string without = remesh::details_to_text(result);
-    EXPECT_EQ(without.find("distances:"), std::string::npos) << without;
     EXPECT_TRUE(without.ends_with("total 0.75 s")) << without;
     result.features = {.curves = 1, .nodes = 4, .vertices = 5};
     EXPECT_NE(remesh::details_to_text(result).find("1 curve, 4 corners, 5 vertices\n"),

@@ -37,7 +37,11 @@ remesh::RemeshResult some_result() {
     result.certified_error = 0.25;
     result.features.curves = 6;
     result.features.vertices = 7;
-    result.features.simplified_patches = 15;
+    result.dual = {.sites = 30,
+                   .sites_of_cells = 28,
+                   .narrow_sites = 2,
+                   .simplified_parts = 1,
+                   .simplified_patches = 0};
     result.sites_dropped = 14;
     result.delaunay.failing_before = 18;
     result.delaunay.flips = 19;
@@ -65,7 +69,9 @@ TEST(StageDetails, HasALineForEachStage) {
               "2 sites, 1 steps, energy 1 0.75; 5 sites, 11 steps, energy 1 0.25 0.125");
     EXPECT_EQ(line_of(result, "propagate"), "1000 bytes, distances at most 25 % above exact");
     EXPECT_EQ(line_of(result, "diagram"), "creases and boundary: 6 curves with 7 vertices");
-    EXPECT_EQ(line_of(result, "dual"), "patches simplified: 15; sites dropped: 14");
+    EXPECT_EQ(line_of(result, "dual"),
+              "28 of 30 sites with the triangles of their cells; cells that are no discs, or meet "
+              "others along several arcs: 2; parts simplified: 1; sites dropped: 14");
     EXPECT_EQ(line_of(result, "delaunay"), "18 edges failed, 19 flips, 21 fail");
     EXPECT_EQ(line_of(result, "place"), "4 vertices, 2 faces");
     EXPECT_EQ(line_of(result, "check"),
@@ -79,8 +85,6 @@ TEST(StageDetails, SaysWhatWasNotDone) {
     result.self_intersections.reset();
     EXPECT_EQ(line_of(result, "relax"), "sites stay as sampled");
     EXPECT_EQ(line_of(result, "propagate"), "1000 bytes, distances of unknown error");
-    result.propagation_bytes = 0;
-    EXPECT_EQ(line_of(result, "propagate"), "not needed: labels gave the triangles");
     EXPECT_EQ(line_of(result, "check").substr(0, 31), "self-intersections: not counted");
 }
 

@@ -72,6 +72,8 @@ std::vector<bench::Column> columns_for(const Arguments& arguments) {
                                        {"diagram_p0", "diagram P0", 1},
                                        {"diagram_beside_p0", "beside", 1},
                                        {"both_p0", "both P0", 1},
+                                       {"complex_p0", "complex P0", 1},
+                                       {"complex_beside_p0", "beside", 1},
                                        {"both_bytes_per_face", "both B/face", 0},
                                        {"working_bytes_per_face", "working", 0},
                                        {"most_relays", "most relays", 0}});
@@ -114,7 +116,7 @@ struct Contestant {
     const bench::Method& method;
     int threads;
     // Both: in one call, where faces are traced while the Steiner engine runs.
-    Timings propagate = {}, diagram = {}, both = {};
+    Timings propagate = {}, diagram = {}, both = {}, complex = {};
     Json result = {};  // What does not depend on the run.
 };
 
@@ -152,6 +154,9 @@ void run(const Case& c, const std::optional<std::vector<double>>& exact, bool wi
     contestant.propagate.add(propagating, before, p0.median);
     if (!with_diagram) return;
     const DiagramOptions drawing{.num_threads = contestant.threads};
+    contestant.complex.add(
+        bench::time([&] { (void)build_cell_complex(c.surface, c.on_base, propagation, drawing); }),
+        before, p0.median);
     contestant.diagram.add(
         bench::time(
             [&] { (void)build_diagram(c.surface, c.on_base, std::move(propagation), drawing); }),
@@ -204,6 +209,7 @@ Json row_of(const Case& c, const Contestant& contestant, double p0,
     if (!contestant.diagram.cpu.empty()) {
         contestant.diagram.tell("diagram", p0, faces, row);
         contestant.both.tell("both", p0, faces, row);
+        contestant.complex.tell("complex", p0, faces, row);
     }
     row.update(contestant.result);
     return row;

@@ -75,7 +75,7 @@ void run(const PaperCase& c, const Method& method, bool with_dual, Contestant& c
     }
     double dualizing = 0;
     if (with_dual) {
-        dualizing = time([&] { triangles = remesh::build_dual(c.surface, diagram); }).cpu;
+        dualizing = time([&] { triangles = remesh::build_dual(diagram); }).cpu;
     }
     if (contestant.peak_bytes == 0) contestant.peak_bytes = peak.bytes();
     if (is_traced) {

@@ -144,10 +144,17 @@ Json to_json(const FeatureCounts& counts) {
             {"dropped_crease_length_mesh_units", counts.dropped_length},
             {"curves_off_given_sites", counts.uncarried_curves},
             {"samples_for_all", counts.samples_for_all},
-            {"simplified_patches", counts.simplified_patches},
             {"gave_up", counts.gave_up},
             {"texture_seam_length_mesh_units", counts.seam_length},
             {"dropped_texture_seam_length_mesh_units", counts.dropped_seam_length}};
+}
+
+Json to_json(const DualCounts& counts) {
+    return {{"sites", counts.sites},
+            {"sites_of_cells", counts.sites_of_cells},
+            {"narrow_sites", counts.narrow_sites},
+            {"simplified_parts", counts.simplified_parts},
+            {"simplified_patches", counts.simplified_patches}};
 }
 
 Json to_json(const JunctionCounts& counts) {
@@ -315,6 +322,7 @@ std::string to_json(const RemeshResult& result, const RunInfo& info) {
     object["features"] = to_json(result.features);
     object["junctions"] = to_json(result.junctions);
     object["sizing"] = to_json(result.sizing);
+    object["dual"] = to_json(result.dual);
     object["delaunay"] = to_json(result.delaunay, info.options.delaunay);
     object["unfitted_vertices"] = result.unfitted_vertices;
     Json& levels = object["relaxation"] = Json::array();

@@ -247,9 +247,7 @@ std::string to_text(const RemeshResult& result, const RunInfo& info) {
 std::string details_to_text(const RemeshResult& result, const RunInfo& info) {
     std::string text = "surface: " + counted(result.input_topology.face_component.size(), "face") +
                        ", " + describe(result.input_topology);
-    if (result.propagation_bytes > 0) {
-        text += '\n' + to_text(info.options.propagation.engine, result.certified_error);
-    }
+    text += '\n' + to_text(info.options.propagation.engine, result.certified_error);
     for (const RelaxLevel& level : result.relaxation) {
         text += "\nrelaxation: " + counted(level.num_sites, "site") + ", " +
                 counted(level.energy.size() - 1, "step");
@@ -258,9 +256,11 @@ std::string details_to_text(const RemeshResult& result, const RunInfo& info) {
                     fixed(100 * std::abs(*energy - 1), 1) + " %";
         }
     }
-    if (result.features.simplified_patches > 0) {
-        text += "\n" + counted(result.features.simplified_patches, "patch") +
-                " simplified to the sites, because cells are no discs there";
+    if (result.dual.simplified_parts > 0) {
+        text += "\n" + counted(result.dual.simplified_parts, "part") +
+                " simplified to the sites, because cells are no discs there: " +
+                fixed(100.0 * result.dual.sites_of_cells / std::max(result.dual.sites, 1U), 1) +
+                " % of the sites have the triangles of their cells";
     }
     if (info.options.features != Features::Off) text += describe(result.features);
     if (info.options.delaunay != Delaunay::Off) {

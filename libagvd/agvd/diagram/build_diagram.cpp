@@ -2,9 +2,9 @@
 #include <string>
 
 #include "agvd/diagram/diagram.h"
-#include "agvd/diagram/own_places.h"
 #include "agvd/diagram/stages.h"
 #include "agvd/diagram/tracer.h"
+#include "agvd/mesh/surface_points.h"
 
 namespace agvd {
 namespace {
@@ -77,38 +77,77 @@ std::vector<Index> labelled_edges(const StageInput& in, const EdgeLabels& labels
     return half_edges;
 }
 
+// The faces in which a cell may lie that meets none of their corners, and those where labels change
+// more than three times. Elsewhere the label of the boundary tells what lies inside: its stretches
+// are of different sites, so the one with a corner is connected with the site. Finds the crossings
+// there that are guessed, and those beside sites on edges.
+std::vector<Index> faces_to_cut(const StageInput& in, std::span<const Index> all,
+                                EdgeLabels& labels) {
+    const bool are_plain = in.propagation.start_of_point.empty() && in.propagation.shapes.empty();
+    std::vector<Index> positions, half_edges;
+    Ticker ticker(in.poller);
+    for (const Index i : all) {
+        ticker.tick();
+        const Index h = 3 * in.propagation.mixed_faces[i];
+        Index num_inside = 0, num_changes = 0;
+        bool is_at_corner = false;
+        for (const PlacedSite& placed : in.placement.in_face(Surface::face(h))) {
+            if (half_edge_of(placed.point)) {
+                half_edges.insert(half_edges.end(), {h, h + 1, h + 2});
+                continue;
+            }
+            ++num_inside;
+            for (const Index v : in.surface.mesh.triangles[Surface::face(h)]) {
+                is_at_corner = is_at_corner || labels.point_site[v] == placed.site;
+            }
+        }
+        if (num_inside == 0) continue;
+        for (Index k = 0; k < 3; ++k) num_changes += labels.edge_rows[in.surface.edge[h + k]].count;
+        if (are_plain && num_inside == 1 && is_at_corner && num_changes <= 3) continue;
+        positions.push_back(i);
+        half_edges.insert(half_edges.end(), {h, h + 1, h + 2});
+    }
+    find_guessed(in, half_edges, labels);
+    return positions;
+}
+
 // \param relays  not null: freed when they have been read for the last time.
 Diagram build(const Surface& surface, std::span<const SurfacePoint> sites,
               const Propagation& propagation, const DiagramOptions& options,
               std::vector<Relay>* relays) {
     check_options(options, propagation.shapes);
-    Poller poller(options.progress);
-    poller.poll();
-    DiagramParts parts;
-    parts.labels = labels_of(surface, propagation);
-    const SitePlaces own = own_places(surface, sites, propagation, parts.labels);
-    const SitePlacement placement(surface, own.points, own.sites);
-    const StageInput input{surface,       own.points,          own.sites,
-                           placement,     propagation,         options.chord_tolerance,
-                           options.chord, options.num_threads, poller};
-    parts.num_sites = own.num_sites;
-    parts.labels.first_crossing_node = surface.num_vertices() + size_of(own.points);
-    std::vector<Index> all(propagation.mixed_faces.size());
-    std::iota(all.begin(), all.end(), Index{0});
-    label_vertices(input, all, vertices_in_mixed_faces(surface, parts.labels), parts.labels);
-    label_edges(input, labelled_edges(input, parts.labels), parts.labels);
-    cut_faces(input, all, parts.labels);
-    poller.tell(0.5);
-    parts.arcs.faces.resize(all.size());
-    trace_faces(input, all, parts);
-    poller.tell(0.9);
+    LabelledMesh mesh(surface, sites, propagation, options);
+    mesh.poller.tell(0.5);
+    trace_faces(mesh.input, mesh.all, mesh.parts);
+    mesh.poller.tell(0.9);
     const auto release = [&] {
         if (relays != nullptr) std::vector<Relay>().swap(*relays);
     };
-    return *draw(input, std::move(parts), release);
+    return *draw(mesh.input, std::move(mesh.parts), release);
 }
 
 }  // namespace
+
+LabelledMesh::LabelledMesh(const Surface& surface, std::span<const SurfacePoint> sites,
+                           const Propagation& propagation, const DiagramOptions& options,
+                           bool may_guess)
+    : poller(options.progress),
+      parts{.labels = labels_of(surface, propagation)},
+      own(own_places(surface, sites, propagation, parts.labels)),
+      placement(surface, own.points, own.sites),
+      input{surface,       own.points,          own.sites,
+            placement,     propagation,         options.chord_tolerance,
+            options.chord, options.num_threads, poller},
+      all(propagation.mixed_faces.size()) {
+    poller.poll();
+    parts.num_sites = own.num_sites;
+    parts.labels.first_crossing_node = surface.num_vertices() + size_of(own.points);
+    std::iota(all.begin(), all.end(), Index{0});
+    label_vertices(input, all, vertices_in_mixed_faces(surface, parts.labels), parts.labels);
+    label_edges(input, labelled_edges(input, parts.labels), parts.labels, may_guess);
+    cut_faces(input, may_guess ? faces_to_cut(input, all, parts.labels) : all, parts.labels);
+    parts.arcs.faces.resize(all.size());
+}
 
 std::optional<Diagram> draw(const StageInput& input, DiagramParts parts,
                             const std::function<void()>& release) {

@@ -69,30 +69,6 @@ public:
         if (area > 0) unit_ = std::ldexp(1.0, std::max(std::ilogb(area) - bits, least_exponent));
     }
 
-    // One boundary edge leaves each vertex of the boundary, and both are left out.
-    void count_points() {
-        for (Index v = 0; v < surface_.num_vertices(); ++v) {
-            if (surface_.outgoing[v] != no_index) count(labels_.point_site[v], 1);
-        }
-        for (const InnerPoint& point : labels_.inner_points) count(point.site, 1);
-    }
-
-    // The first interval of an edge has the label of the tail of its edge_half.
-    void count_edges() {
-        for (Index e = 0; e < surface_.num_edges(); ++e) {
-            const Index h = surface_.edge_half[e];
-            count(labels_.point_site[surface_.tail(h)], -1);
-            if (surface_.twin[h] == no_index) continue;
-            for (const Crossing& crossing : labels_.on_edge(e)) count(crossing.site_after, -1);
-        }
-        for (const Cut& cut : labels_.cuts) {
-            for (const Crossing& crossing : elements_of(labels_.crossings, cut.row)) {
-                count(crossing.site_before, -1);
-            }
-            count(labels_.point_site[cut.to.point], -1);
-        }
-    }
-
     void count_faces(Ticker& ticker) {
         for (Index f = 0; f < surface_.num_faces(); ++f) {
             ticker.tick();
@@ -147,13 +123,37 @@ private:
 
 }  // namespace
 
+void count_points_and_edges(const Surface& surface, const EdgeLabels& labels,
+                            std::span<int> euler) {
+    const auto count = [&](Index site, int change) {
+        if (site != no_index) euler[site] += change;
+    };
+    // One boundary edge leaves each vertex of the boundary, and both are left out.
+    for (Index v = 0; v < surface.num_vertices(); ++v) {
+        if (surface.outgoing[v] != no_index) count(labels.point_site[v], 1);
+    }
+    for (const InnerPoint& point : labels.inner_points) count(point.site, 1);
+    // The first interval of an edge has the label of the tail of its edge_half.
+    for (Index e = 0; e < surface.num_edges(); ++e) {
+        const Index h = surface.edge_half[e];
+        count(labels.point_site[surface.tail(h)], -1);
+        if (surface.twin[h] == no_index) continue;
+        for (const Crossing& crossing : labels.on_edge(e)) count(crossing.site_after, -1);
+    }
+    for (const Cut& cut : labels.cuts) {
+        for (const Crossing& crossing : elements_of(labels.crossings, cut.row)) {
+            count(crossing.site_before, -1);
+        }
+        count(labels.point_site[cut.to.point], -1);
+    }
+}
+
 void measure_cells(const Surface& surface, const DiagramParts& parts, Ticker ticker,
                    Diagram& diagram) {
     CellTally tally(surface, parts, diagram.num_sites);
-    tally.count_points();
-    tally.count_edges();
     tally.count_faces(ticker);
     tally.write(diagram);
+    count_points_and_edges(surface, parts.labels, diagram.cell_euler);
 }
 
 void collect_loops(const Diagram& diagram, Ticker& ticker, Cells& cells) {

@@ -199,6 +199,39 @@ struct TracedDiagram {
                                           const PropagationOptions& propagating,
                                           const DiagramOptions& options = {});
 
+//! What the dual of a diagram needs: which cells meet, not where. Its labels, Voronoi vertices and
+//! Euler characteristics are those of build_diagram().
+//! Held by CellComplex.IsThatOfTheDiagram in tests/agvd/diagram.
+struct CellComplex {
+    Index num_sites = 0;  //!< Sites, and cells: some may be empty.
+
+    //! The cells around each Voronoi vertex inside the surface, counter-clockwise from any of them.
+    //! At most one is invalid: where no site reaches.
+    std::vector<std::array<SiteId, 3>> vertex_sites;
+    std::vector<FaceId> vertex_face;  //!< In which each lies, ascending.
+
+    std::vector<SiteId> nearest_site;    //!< #V of the mesh, as Diagram::nearest_site.
+    std::vector<int> cell_euler;         //!< #sites, as Diagram::cell_euler.
+    std::vector<std::uint8_t> has_cell;  //!< #sites: whether each owns any point.
+
+    //! #E of the mesh: 1 where labels change more often along the edge than those of its ends tell:
+    //! from a to b and on to c, or to b and back.
+    std::vector<std::uint8_t> has_hidden_change;
+};
+
+//! The cells and Voronoi vertices of build_diagram() without arcs and positions. Bisectors are
+//! drawn only in faces that more than three change labels around, and everywhere if there are
+//! islands.
+//!
+//! Cost: some three quarters of build_diagram(); more than that where there are islands.
+//! Re-entrant.
+//! \param options  the chord is not used.
+//! \throw Cancelled  the progress callback returned false.
+[[nodiscard]] CellComplex build_cell_complex(const Surface& surface,
+                                             std::span<const SurfacePoint> sites,
+                                             const Propagation& propagation,
+                                             const DiagramOptions& options = {});
+
 //! The same complex with all points on base.input(): Voronoi edges get a point where they cross an
 //! edge of the input, so that consecutive points share a face of it as before. The distances of
 //! these points are interpolated. Labels are those of the input's vertices. With arcs these points

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "agvd/core/types.h"
+#include "agvd/mesh/surface.h"
 #include "agvd/propagation/propagate.h"
 
 namespace agvd {
@@ -50,6 +51,10 @@ struct LineId {
     [[nodiscard]] constexpr Index half_edge() const { return id.first(); }
     [[nodiscard]] constexpr Index cut() const { return id.second(); }
 };
+
+//! Place and distance of a change of label on an edge that is the only one there for certain, where
+//! label_edges() need not find it.
+inline constexpr double guessed = -1;
 
 //! A change of label on a mesh edge or a cut.
 struct Crossing {
@@ -128,6 +133,27 @@ struct EdgeLabels {
                          [](const CutFace& cut, Index wanted) { return cut.face < wanted; });
     if (found == labels.cut_faces.end() || found->face != face) return {};
     return elements_of(labels.cut_triangles, found->triangles);
+}
+
+//! The label changes along one side of a triangle.
+struct SideRow {
+    Block row;
+    bool forward;  //!< Whether they run counter-clockwise around the triangle.
+};
+
+[[nodiscard]] inline SideRow row_along(const Surface& surface, const EdgeLabels& labels,
+                                       Index half_edge) {
+    const Index edge = surface.edge[half_edge];
+    return {labels.edge_rows[edge], surface.edge_half[edge] == half_edge};
+}
+
+//! \param k  the side from point k of the triangle to the next one.
+[[nodiscard]] inline SideRow row_along(const Surface& surface, const EdgeLabels& labels,
+                                       const CutTriangle& triangle, std::size_t k) {
+    const LineId side = triangle.sides[k];
+    if (!side.is_cut()) return row_along(surface, labels, side.half_edge());
+    const Cut& cut = labels.cuts[side.cut()];
+    return {cut.row, cut.from.point == triangle.points[k].point};
 }
 
 //! Calls callback(crossing, before, site_before, after, site_after) for each crossing of a row with

@@ -162,7 +162,8 @@ struct LineSample {
     int source;
 };
 
-[[nodiscard]] inline LineSample sample(const LineRelay& relay, double x) {
+// By force: it is called in too many places for the compiler.
+[[nodiscard, gnu::always_inline]] inline LineSample sample(const LineRelay& relay, double x) {
     const int i = x < relay.first ? 0 : x > relay.last ? 2 : 1;
     const auto k = static_cast<std::size_t>(i);
     const double dx = x - relay.x[k];

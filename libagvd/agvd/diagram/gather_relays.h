@@ -19,7 +19,10 @@ public:
     //! Whether labels may change on an edge, all of whose faces are listed. Then `relays` holds
     //! those that could be the nearest somewhere on it, in the frame of the edge_half. Most lose by
     //! what they say at its ends, since distances are convex.
-    [[nodiscard]] bool may_change(Index edge, std::vector<LineRelay>& relays) {
+    //! \param changes_once  not null: may be set, if the label certainly changes once; the relays
+    //!                      are not written then.
+    [[nodiscard]] bool may_change(Index edge, std::vector<LineRelay>& relays,
+                                  bool* changes_once = nullptr) {
         const Index h = surface_.edge_half[edge];
         const Index site = labels_.point_site[surface_.tail(h)];
         scan(edge);
@@ -28,6 +31,7 @@ public:
                         [site](const Candidate& c) { return c.site == site; })) {
             return false;
         }
+        if (changes_once != nullptr && (*changes_once = is_single_change(edge))) return true;
         put_candidates(edge, relays);
         return true;
     }
@@ -189,6 +193,55 @@ private:
                    (least > last.lo + rise_last * where && c.lo > last.lo && c.hi > last.hi);
         };
         std::erase_if(candidates_, loses);
+    }
+
+    // Whether the candidates are of the sites a and b of the ends alone, and a - b certainly has
+    // one change of sign: because it rises all along; or because it rises where one of two relays
+    // is bent, and its signs where the image of each is first and last seen are different. There it
+    // has two zeros at most, as a quadratic equation has.
+    [[nodiscard]] bool is_single_change(Index edge) const {
+        const Index h = surface_.edge_half[edge];
+        const Index a = labels_.point_site[surface_.tail(h)];
+        const Index b = labels_.point_site[surface_.head(h)];
+        if (a == b || needs_tail_ || needs_head_) return false;
+        const Candidate *on_a = nullptr, *on_b = nullptr;
+        double least_rise = 1, most_rise = -1;  // Of a, and of b.
+        for (const Candidate& c : candidates_) {
+            if (c.site == a) {
+                on_a = &c;
+                least_rise = std::min(least_rise, c.slope_lo);
+            } else if (c.site == b) {
+                on_b = &c;
+                most_rise = std::max(most_rise, c.slope_hi);
+            } else {
+                return false;
+            }
+        }
+        if (least_rise > most_rise + 2 * slope_rounding) return true;
+        if (candidates_.size() != 2 || on_a == nullptr || on_b == nullptr) return false;
+        const double length = surface_.length[edge];
+        const auto from_a = straight_part(*on_a, length), from_b = straight_part(*on_b, length);
+        if (!from_a || !from_b || from_a->begin > 0 || from_b->end < length) return false;
+        const double clear = shortest_interval * (length + on_a->hi);
+        const auto is_nearer_at = [&](const StraightPiece& here, double bent, double x) {
+            return here.weight + root(x - here.from.x(), here.from.y()) + clear < bent;
+        };
+        return from_a->end <= from_b->begin ||
+               ((from_b->begin <= 0 ||
+                 is_nearer_at(*from_a, on_b->lo - from_b->begin, from_b->begin)) &&
+                (from_a->end >= length ||
+                 is_nearer_at(*from_b, on_a->hi - (length - from_a->end), from_a->end)));
+    }
+
+    // Where a candidate's image is seen from the edge, if it bends at the edge or not at all.
+    [[nodiscard]] std::optional<StraightPiece> straight_part(const Candidate& c,
+                                                             double length) const {
+        const Relay& r = *c.relay;
+        if (r.y >= 0 || r.half_edge != c.base || is_parallel(r)) return {};
+        const StraightPiece piece{{r.x, r.y}, r.weight, r.begin, r.end, c.site};
+        if (surface_.edge_half[surface_.edge[c.base]] == c.base) return piece;
+        return StraightPiece{
+            {length - r.x, -r.y}, r.weight, length - r.end, length - r.begin, c.site};
     }
 
     // The relays of one face whose image lies across the edge, with their slopes, and those in the

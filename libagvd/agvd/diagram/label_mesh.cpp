@@ -88,7 +88,7 @@ struct FoundRows {
 
 // Labels some edges one after the other.
 void label_some(const StageInput& input, const EdgeLabels& labels,
-                std::span<const Index> half_edges, FoundRows& out) {
+                std::span<const Index> half_edges, bool may_guess, FoundRows& out) {
     const Surface& surface = input.surface;
     RelayGatherer gatherer(surface, input.propagation, labels);
     std::vector<LineRelay> relays;  // Of the edge at hand.
@@ -106,12 +106,17 @@ void label_some(const StageInput& input, const EdgeLabels& labels,
         const Index mixed = labels.mixed_index[Surface::face(h)];
         ticker.tick(1 + relays_of(input.propagation, mixed).size());
         const Index edge = surface.edge[h];
-        if (!gatherer.may_change(edge, relays)) continue;
+        bool is_guess = false;
+        if (!gatherer.may_change(edge, relays, may_guess ? &is_guess : nullptr)) continue;
         const Index begin = size_of(out.crossings);
-        label_line(relays, LineId::of_edge(h),
-                   {surface.length[edge], labels.point_site[surface.tail(h)],
-                    labels.point_site[surface.head(h)]},
-                   scratch, out.crossings);
+        const Index a = labels.point_site[surface.tail(h)];
+        const Index b = labels.point_site[surface.head(h)];
+        if (is_guess) {
+            out.crossings.push_back({guessed, guessed, a, b, LineId::of_edge(h)});
+        } else {
+            label_line(relays, LineId::of_edge(h), {surface.length[edge], a, b}, scratch,
+                       out.crossings);
+        }
         if (input.chord) {
             settle_crossings(relays, surface.length[edge], std::span(out.crossings).subspan(begin));
         }
@@ -144,12 +149,13 @@ void label_vertices(const StageInput& input, std::span<const Index> positions,
     }
 }
 
-void label_edges(const StageInput& input, std::span<const Index> half_edges, EdgeLabels& labels) {
+void label_edges(const StageInput& input, std::span<const Index> half_edges, EdgeLabels& labels,
+                 bool may_guess) {
     constexpr Index grain = 512;
     const auto count = static_cast<Index>(half_edges.size());
     std::vector<FoundRows> found(num_chunks(count, grain));
     const auto label_chunk = [&](Index chunk, Index begin, Index end) {
-        label_some(input, labels, half_edges.subspan(begin, end - begin), found[chunk]);
+        label_some(input, labels, half_edges.subspan(begin, end - begin), may_guess, found[chunk]);
     };
     parallel_chunks(count, grain, input.num_threads, label_chunk, input.poller);
     if (labels.crossings.empty()) {
@@ -165,6 +171,17 @@ void label_edges(const StageInput& input, std::span<const Index> half_edges, Edg
         }
         append_to<Crossing>(labels.crossings, chunk.crossings);
     }
+}
+
+void find_guessed(const StageInput& input, std::vector<Index>& half_edges, EdgeLabels& labels) {
+    for (Index& h : half_edges) h = input.surface.edge_half[input.surface.edge[h]];
+    std::sort(half_edges.begin(), half_edges.end());
+    half_edges.erase(std::unique(half_edges.begin(), half_edges.end()), half_edges.end());
+    std::erase_if(half_edges, [&](Index h) {
+        const auto row = labels.on_edge(input.surface.edge[h]);
+        return row.empty() || row[0].distance != guessed;
+    });
+    label_edges(input, half_edges, labels);
 }
 
 }  // namespace agvd

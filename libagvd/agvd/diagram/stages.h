@@ -7,6 +7,7 @@
 
 #include "agvd/diagram/arc_shapes.h"
 #include "agvd/diagram/diagram.h"
+#include "agvd/diagram/own_places.h"
 #include "agvd/propagation/site_placement.h"
 
 namespace agvd {
@@ -30,11 +31,27 @@ inline constexpr RelayRange dropped_relays{no_index, no_index};
 
 struct DiagramParts {
     Index num_sites = 0;
-    std::vector<std::vector<Index>> boundary_loops;  //!< Of the surface: half-edges.
-    EdgeLabels labels;
-    Arcs arcs;  //!< Faces by position.
-    JoinedEdges joined;
-    ArcShapes shapes;
+    std::vector<std::vector<Index>> boundary_loops = {};  //!< Of the surface: half-edges.
+    EdgeLabels labels = {};
+    Arcs arcs = {};  //!< Faces by position.
+    JoinedEdges joined = {};
+    ArcShapes shapes = {};
+};
+
+//! The stages up to the cuts in faces. Keeps references to the arguments of build_diagram().
+struct LabelledMesh {
+    //! \param may_guess  as of label_edges(). Then only faces are cut in which cells may lie that
+    //!                   their labels do not tell of, and nothing is guessed there.
+    LabelledMesh(const Surface& surface, std::span<const SurfacePoint> sites,
+                 const Propagation& propagation, const DiagramOptions& options,
+                 bool may_guess = false);
+
+    Poller poller;
+    DiagramParts parts;  //!< All labels; no arcs.
+    SitePlaces own;
+    SitePlacement placement;
+    StageInput input;
+    std::vector<Index> all;  //!< The positions of the mixed faces.
 };
 
 //! Relabels vertices all of whose faces are mixed: they take the nearest site over the relays of
@@ -49,8 +66,13 @@ void label_vertices(const StageInput& input, std::span<const Index> positions,
 //! Labels edges all of whose faces are mixed, by the lower envelope of the relays of both sides and
 //! of the edge's ends, which are labelled.
 //! \param half_edges  the lower one of each edge.
+//! \param may_guess   crossings that are certain may be left where they are not known: `guessed`.
 //! Parallel. Cost: O(relays) an edge, O(relays) and a few square roots a crossing.
-void label_edges(const StageInput& input, std::span<const Index> half_edges, EdgeLabels& labels);
+void label_edges(const StageInput& input, std::span<const Index> half_edges, EdgeLabels& labels,
+                 bool may_guess = false);
+
+//! Labels edges again that have guessed crossings. \param half_edges  in any order; changed.
+void find_guessed(const StageInput& input, std::vector<Index>& half_edges, EdgeLabels& labels);
 
 //! Cuts faces with sites inside into triangles at them. Sites that lie on edges reach the boundary
 //! by themselves; a site that owns nothing at its own position is left out.
@@ -98,6 +120,10 @@ void draw_points(const Surface& surface, const DiagramParts& parts, Ticker ticke
 
 //! Sets the loops of cells. Cost: O(edges).
 void collect_loops(const Diagram& diagram, Ticker& ticker, Cells& cells);
+
+//! Adds what points, edges and cuts are to the Euler characteristics of the cells that hold them.
+//! \param euler  #sites
+void count_points_and_edges(const Surface& surface, const EdgeLabels& labels, std::span<int> euler);
 
 //! Sets cell_area and cell_euler. Cost: O(#F + crossings).
 void measure_cells(const Surface& surface, const DiagramParts& parts, Ticker ticker,

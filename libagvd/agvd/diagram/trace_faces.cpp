@@ -134,21 +134,15 @@ private:
     }
 
     [[nodiscard]] TriangleSide mesh_side(Index h, const Vec2& from, const Vec2& to) const {
-        const Index edge = surface_.edge[h];
-        const bool forward = surface_.edge_half[edge] == h;
-        return {from, to, surface_.head(h), labels_.edge_rows[edge], forward, !forward};
+        const auto [row, forward] = row_along(surface_, labels_, h);
+        return {from, to, surface_.head(h), row, forward, !forward};
     }
 
     [[nodiscard]] TriangleSide cut_side(const CutTriangle& triangle, std::size_t k,
                                         const std::array<Vec2, 3>& corners) const {
-        const Cut& cut = labels_.cuts[triangle.sides[k].cut()];
+        const auto [row, forward] = row_along(surface_, labels_, triangle, k);
         const std::size_t next = (k + 1) % 3;
-        return {corners[k],
-                corners[next],
-                triangle.points[next].point,
-                cut.row,
-                cut.from.point == triangle.points[k].point,
-                false};
+        return {corners[k], corners[next], triangle.points[next].point, row, forward, false};
     }
 
     // \param site  of its first corner.

@@ -17,7 +17,7 @@ namespace {
 class DuplicateFaces {
 public:
     DuplicateFaces(Soup& soup, std::span<const EdgeSide> sides)
-        : soup_(soup), sides_(sides), is_dead_(soup.triangles.size(), false) {}
+        : soup_(soup), sides_(sides), is_dead_(soup.mesh.triangles.size(), false) {}
 
     bool drop() {
         for_each_edge(sides_, [&](std::span<const EdgeSide> edge) { compare(edge); });
@@ -107,7 +107,7 @@ bool is_degenerate(const std::vector<Vec3>& positions, const Triangle& t) {
 }
 
 double length_sq(const Soup& soup, Index a, Index b) {
-    return (soup.positions[a] - soup.positions[b]).squaredNorm();
+    return (soup.mesh.positions[a] - soup.mesh.positions[b]).squaredNorm();
 }
 
 Index longest_side(const Soup& soup, Index face) {
@@ -127,8 +127,8 @@ void flip(Soup& soup, std::vector<Index>& twin, Index h) {
     const Index a = soup.tail(h), b = soup.head(h), c = soup.apex(h), d = soup.apex(o);
     const std::array<Index, 4> rim{twin[Surface::next(o)], twin[Surface::previous(o)],
                                    twin[Surface::next(h)], twin[Surface::previous(h)]};
-    soup.triangles[f] = {a, d, c};
-    soup.triangles[g] = {d, b, c};
+    soup.mesh.triangles[f] = {a, d, c};
+    soup.mesh.triangles[g] = {d, b, c};
     const auto join = [&](Index side, Index across) {
         twin[side] = across;
         if (across != no_index) twin[across] = side;
@@ -145,10 +145,10 @@ void flip(Soup& soup, std::vector<Index>& twin, Index h) {
 class DegenerateFaces {
 public:
     DegenerateFaces(Soup& soup, std::vector<Index>& twin)
-        : soup_(soup), twin_(twin), is_degenerate_(soup.triangles.size()) {
+        : soup_(soup), twin_(twin), is_degenerate_(soup.mesh.triangles.size()) {
         for (Index f = 0; f < is_degenerate_.size(); ++f) {
             soup.ticker.tick();
-            is_degenerate_[f] = is_degenerate(soup.positions, soup.triangles[f]);
+            is_degenerate_[f] = is_degenerate(soup.mesh.positions, soup.mesh.triangles[f]);
             if (is_degenerate_[f]) waiting_.push_back(f);
         }
     }
@@ -174,9 +174,10 @@ private:
         if (o == no_index) return false;
         const Index other = o / 3;
         const Index a = soup_.tail(h), b = soup_.head(h), c = soup_.apex(h), d = soup_.apex(o);
-        if (c == d || are_joined(soup_.triangles, twin_, Surface::previous(h), d)) return false;
-        const std::array<bool, 2> degenerate{is_degenerate(soup_.positions, {a, d, c}),
-                                             is_degenerate(soup_.positions, {d, b, c})};
+        if (c == d || are_joined(soup_.mesh.triangles, twin_, Surface::previous(h), d))
+            return false;
+        const std::array<bool, 2> degenerate{is_degenerate(soup_.mesh.positions, {a, d, c}),
+                                             is_degenerate(soup_.mesh.positions, {d, b, c})};
         const int before = is_degenerate_[other] ? 2 : 1;
         const int after = int{degenerate[0]} + int{degenerate[1]};
         if (after > before ||

@@ -41,7 +41,7 @@ struct CleanResult {
     //! #V of the input, if welding moved vertices (else empty): its positions with those that were
     //! welded at one position.
     std::vector<Vec3> welded_positions;
-    CleanCounts counts;  //!< What was repaired.
+    CleanCounts counts = {};  //!< What was repaired.
     //! Of the longest slit that was welded, in mesh units. A slit is a chain of boundary edges
     //! whose two sides coincide; it begins at a vertex that both have.
     double slit_length = 0;

@@ -7,12 +7,15 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "agvd/core/bucket_sort.h"
 #include "agvd/core/groups.h"
 #include "agvd/core/parallel.h"
+#include "agvd/mesh/any_mesh.h"
 #include "agvd/mesh/scale.h"
+#include "agvd/mesh/surface_points.h"
 
 namespace remesh {
 namespace {
@@ -90,7 +93,7 @@ public:
           name_(surface.num_vertices()),
           is_used_(surface.num_vertices(), 0),
           middle_(middle_of(box_of(surface.mesh.view(), options.num_threads))) {
-        for (Index v = 0; v < name_.size(); ++v) name_[v] = v;
+        std::iota(name_.begin(), name_.end(), Index{0});
         mark_.reserve(surface.twin.size());
         for (Index h = 0; h < surface.twin.size(); ++h) {
             const std::uint8_t own = mark.empty() ? 0 : mark[surface.edge[h]];
@@ -331,20 +334,8 @@ private:
 
     [[nodiscard]] CoarseMesh result() {
         CoarseMesh coarse;
-        std::vector<Index> number(name_.size(), no_index);
-        for (const Triangle& t : triangles_) {
-            for (const Index v : t) number[v] = 0;
-        }
-        for (Index v = 0; v < number.size(); ++v) {
-            if (number[v] == no_index) continue;
-            number[v] = static_cast<Index>(coarse.vertex_origin.size());
-            coarse.vertex_origin.push_back(v);
-            coarse.mesh.positions.push_back(at(v));
-        }
-        for (Triangle& t : triangles_) {
-            for (Index& v : t) v = number[v];
-        }
-        coarse.mesh.triangles = std::move(triangles_);
+        coarse.vertex_origin = drop_unused(surface_.num_vertices(), triangles_);
+        coarse.mesh = {take(surface_.mesh.positions, coarse.vertex_origin), std::move(triangles_)};
         for (std::uint8_t& mark : mark_) mark &= ~boundary_mark;
         coarse.mark = std::move(mark_);
         return coarse;

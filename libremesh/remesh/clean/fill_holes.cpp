@@ -13,7 +13,7 @@ namespace {
 class HoleFiller {
 public:
     HoleFiller(Soup& soup, std::span<const EdgeSide> sides)
-        : soup_(soup), next_(soup.positions.size(), no_index) {
+        : soup_(soup), next_(soup.mesh.positions.size(), no_index) {
         for_each_edge(sides, [&](std::span<const EdgeSide> edge) {
             soup.ticker.tick();
             edges_.push_back(edge[0].ends);
@@ -39,8 +39,8 @@ private:
         soup_.ticker.poll();
         std::vector<Vec3> rim, beyond;
         for (const Index h : loop) {
-            rim.push_back(soup_.positions[soup_.head(h)]);
-            beyond.push_back(soup_.positions[soup_.apex(h)]);
+            rim.push_back(soup_.mesh.positions[soup_.head(h)]);
+            beyond.push_back(soup_.mesh.positions[soup_.apex(h)]);
         }
         const auto triangles = triangulate_hole(rim, beyond);
         if (!triangles) {
@@ -64,7 +64,7 @@ private:
             }
         }
         if (!fits(faces, chords, loop)) return;
-        soup_.triangles.insert(soup_.triangles.end(), faces.begin(), faces.end());
+        soup_.mesh.triangles.insert(soup_.mesh.triangles.end(), faces.begin(), faces.end());
         soup_.face_origin.insert(soup_.face_origin.end(), origins.begin(), origins.end());
         ++soup_.counts.filled_holes;
     }
@@ -74,7 +74,7 @@ private:
               const std::vector<Index>& loop) {
         if (faces.size() + 2 != loop.size()) return false;
         for (const Triangle& t : faces) {
-            if (!(smallest_doubled_area(soup_.positions, t) > 0)) return false;
+            if (!(smallest_doubled_area(soup_.mesh.positions, t) > 0)) return false;
         }
         if (loop.size() == 3 && loop[0] / 3 == loop[1] / 3) return false;  // A triangle alone.
         chords = distinct(std::move(chords));
@@ -97,7 +97,7 @@ private:
 }  // namespace
 
 void fill_holes(Soup& soup, Index most_edges) {
-    HoleFiller(soup, sorted_edge_sides(soup.triangles, soup.ticker)).fill(most_edges);
+    HoleFiller(soup, sorted_edge_sides(soup.mesh.triangles, soup.ticker)).fill(most_edges);
 }
 
 }  // namespace remesh::detail

@@ -58,9 +58,9 @@ Patch spread(const Soup& soup, const std::vector<Index>& across, Index seed,
 
 // Six times the signed volume between a face and a point.
 double volume_to(const Soup& soup, Index face, const Vec3& origin) {
-    const auto& [a, b, c] = soup.triangles[face];
-    return (soup.positions[a] - origin)
-        .dot((soup.positions[b] - origin).cross(soup.positions[c] - origin));
+    const auto& [a, b, c] = soup.mesh.triangles[face];
+    return (soup.mesh.positions[a] - origin)
+        .dot((soup.mesh.positions[b] - origin).cross(soup.mesh.positions[c] - origin));
 }
 
 // Whether the first face, and those oriented like it, are to be turned.
@@ -69,7 +69,7 @@ bool first_side_yields(const Soup& soup, const Patch& patch, const std::vector<b
     const bool is_minority = 2 * static_cast<double>(patch.turned) > total;
     const double majority = (is_minority ? patch.turned : total - patch.turned) / total;
     if (!patch.is_closed || majority >= clear_majority) return is_minority;
-    const Vec3& origin = soup.positions[soup.triangles[patch.faces[0]][0]];
+    const Vec3& origin = soup.mesh.positions[soup.mesh.triangles[patch.faces[0]][0]];
     double volume = 0;  // If the turned faces were turned back.
     for (const Index face : patch.faces) {
         volume += (is_turned[face] ? -1 : 1) * volume_to(soup, face, origin);
@@ -102,10 +102,10 @@ struct InsideAngle {
 // body that they bound: about 2 pi where they lie on each other.
 // \param is_turned  bodies lie on the side of the normals.
 InsideAngle angle_inside(const Soup& soup, Index a, Index b, bool is_turned) {
-    const Vec3& origin = soup.positions[soup.tail(a)];
-    const Vec3 along = (soup.positions[soup.head(a)] - origin).normalized();
-    const Vec3 normal = along.cross(soup.positions[soup.apex(a)] - origin).normalized();
-    const Vec3 up = soup.positions[soup.apex(b)] - origin;
+    const Vec3& origin = soup.mesh.positions[soup.tail(a)];
+    const Vec3 along = (soup.mesh.positions[soup.head(a)] - origin).normalized();
+    const Vec3 normal = along.cross(soup.mesh.positions[soup.apex(a)] - origin).normalized();
+    const Vec3 up = soup.mesh.positions[soup.apex(b)] - origin;
     const double below = (is_turned ? 1 : -1) * normal.dot(up);
     const double beside = normal.cross(along).dot(up);
     const double angle = portable::atan2(below, beside);
@@ -119,9 +119,9 @@ bool is_inside_out(Soup& soup, std::span<const EdgeSide> sides) {
     bool is_closed = true;
     for_each_edge(sides, [&](auto edge) { is_closed &= edge.size() % 2 == 0; });
     if (!is_closed) return false;
-    const Vec3& origin = soup.positions[soup.triangles[0][0]];
+    const Vec3& origin = soup.mesh.positions[soup.mesh.triangles[0][0]];
     double volume = 0;
-    for (Index f = 0; f < soup.triangles.size(); ++f) {
+    for (Index f = 0; f < soup.mesh.triangles.size(); ++f) {
         soup.ticker.tick();
         volume += volume_to(soup, f, origin);
     }
@@ -174,23 +174,23 @@ void pair_faces(const Soup& soup, std::span<const EdgeSide> edge, bool is_turned
 
 // Gives each fan of faces its own vertex; the first fan keeps the old one.
 void separate_fans(Soup& soup, const std::vector<Index>& twin) {
-    std::vector<bool> is_taken(soup.positions.size(), false);
+    std::vector<bool> is_taken(soup.mesh.positions.size(), false);
     std::vector<bool> is_done(soup.num_half_edges(), false);
     for (Index start = 0; start < soup.num_half_edges(); ++start) {
         soup.ticker.tick();
         if (is_done[start]) continue;
         Index vertex = soup.tail(start);
         if (is_taken[vertex]) {
-            soup.positions.push_back(Vec3(soup.positions[vertex]));
+            soup.mesh.positions.push_back(Vec3(soup.mesh.positions[vertex]));
             soup.vertex_origin.push_back(soup.vertex_origin[vertex]);
-            vertex = static_cast<Index>(soup.positions.size() - 1);
+            vertex = static_cast<Index>(soup.mesh.positions.size() - 1);
             ++soup.counts.split_vertices;
         } else {
             is_taken[vertex] = true;
         }
         const auto take = [&](Index h) {
             is_done[h] = true;
-            soup.triangles[h / 3][h % 3] = vertex;
+            soup.mesh.triangles[h / 3][h % 3] = vertex;
         };
         Index h = start;
         do {
@@ -220,13 +220,12 @@ bool orient_faces(Soup& soup, std::span<const EdgeSide> sides) {
         soup.ticker.tick();
         if (edge.size() != 2) return;
         const Index a = edge[0].half_edge, b = edge[1].half_edge;
-        across[a] = b;
-        across[b] = a;
+        join(across, a, b);
         if (soup.runs_up(a) == soup.runs_up(b)) is_consistent = false;
     });
     if (is_consistent) return false;
 
-    const auto num_faces = static_cast<Index>(soup.triangles.size());
+    const auto num_faces = static_cast<Index>(soup.mesh.triangles.size());
     std::vector<bool> is_seen(num_faces, false), is_turned(num_faces, false);
     std::vector<Index> to_turn;
     for (Index seed = 0; seed < num_faces; ++seed) {
@@ -238,7 +237,8 @@ bool orient_faces(Soup& soup, std::span<const EdgeSide> sides) {
             if (is_turned[face] != first_yields) to_turn.push_back(face);
         }
     }
-    for (const Index face : to_turn) std::swap(soup.triangles[face][1], soup.triangles[face][2]);
+    for (const Index face : to_turn)
+        std::swap(soup.mesh.triangles[face][1], soup.mesh.triangles[face][2]);
     soup.counts.flipped_faces += static_cast<Index>(to_turn.size());
     return true;
 }
@@ -268,7 +268,8 @@ void split_vertices(Soup& soup, std::vector<Index>& twin) {
     for (bool is_first_round = true;; is_first_round = false) {
         bool is_clear = true;
         for_each_edge(
-            sorted_edge_sides(soup.triangles, soup.ticker), [&](std::span<const EdgeSide> edge) {
+            sorted_edge_sides(soup.mesh.triangles, soup.ticker),
+            [&](std::span<const EdgeSide> edge) {
                 soup.ticker.tick();
                 if (is_told_by_indices(soup, edge)) return;
                 is_clear = false;

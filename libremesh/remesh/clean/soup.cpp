@@ -21,11 +21,11 @@ namespace {
 Soup as_soup(const MeshView& mesh, Ticker ticker) {
     Soup soup;
     soup.ticker = ticker;
-    soup.positions.assign(mesh.positions.begin(), mesh.positions.end());
-    soup.triangles.assign(mesh.triangles.begin(), mesh.triangles.end());
+    soup.mesh.positions.assign(mesh.positions.begin(), mesh.positions.end());
+    soup.mesh.triangles.assign(mesh.triangles.begin(), mesh.triangles.end());
     ticker.poll();
-    soup.vertex_origin.resize(soup.positions.size());
-    soup.face_origin.resize(soup.triangles.size());
+    soup.vertex_origin.resize(soup.mesh.positions.size());
+    soup.face_origin.resize(soup.mesh.triangles.size());
     std::iota(soup.vertex_origin.begin(), soup.vertex_origin.end(), Index{0});
     std::iota(soup.face_origin.begin(), soup.face_origin.end(), Index{0});
     ticker.poll();
@@ -86,13 +86,8 @@ std::optional<CleanResult> take_clean(const MeshView& mesh, const CleanOptions& 
         }
     }
     Soup soup = as_soup(mesh, ticker);
-    return CleanResult{{std::move(soup.positions), std::move(soup.triangles)},
-                       std::move(soup.vertex_origin),
-                       std::move(soup.face_origin),
-                       {},
-                       {},
-                       0,
-                       *std::move(found)};
+    soup.connectivity = *std::move(found);
+    return soup;
 }
 
 void check_options(const CleanOptions& options) {
@@ -106,7 +101,7 @@ void check_options(const CleanOptions& options) {
 }
 
 void check_not_empty(const Soup& soup) {
-    if (!soup.triangles.empty()) return;
+    if (!soup.mesh.triangles.empty()) return;
     throw InvalidInput("the mesh has no face with an area; check that the file holds a surface");
 }
 
@@ -136,17 +131,17 @@ void check_elements(const MeshView& mesh, Ticker ticker) {
 Index drop_faces(Soup& soup, const std::vector<bool>& is_dead, std::vector<Index>* twin) {
     const auto dropped = static_cast<Index>(std::count(is_dead.begin(), is_dead.end(), true));
     if (dropped == 0) return 0;
-    std::vector<Index> new_face(soup.triangles.size(), no_index);
+    std::vector<Index> new_face(soup.mesh.triangles.size(), no_index);
     Index count = 0;
     for (Index f = 0; f < new_face.size(); ++f) {
         soup.ticker.tick();
         if (is_dead[f]) continue;
         new_face[f] = count;
-        soup.triangles[count] = soup.triangles[f];
+        soup.mesh.triangles[count] = soup.mesh.triangles[f];
         soup.face_origin[count] = soup.face_origin[f];
         ++count;
     }
-    soup.triangles.resize(count);
+    soup.mesh.triangles.resize(count);
     soup.face_origin.resize(count);
     if (twin == nullptr) return dropped;
     for (Index h = 0; h < twin->size(); ++h) {
@@ -162,10 +157,10 @@ Index drop_faces(Soup& soup, const std::vector<bool>& is_dead, std::vector<Index
 }
 
 bool drop_repeated_corners(Soup& soup) {
-    std::vector<bool> is_dead(soup.triangles.size());
+    std::vector<bool> is_dead(soup.mesh.triangles.size());
     for (std::size_t f = 0; f < is_dead.size(); ++f) {
         soup.ticker.tick();
-        const auto& [a, b, c] = soup.triangles[f];
+        const auto& [a, b, c] = soup.mesh.triangles[f];
         is_dead[f] = a == b || b == c || c == a;
     }
     const Index dropped = drop_faces(soup, is_dead);
@@ -174,12 +169,12 @@ bool drop_repeated_corners(Soup& soup) {
 }
 
 void drop_isolated_vertices(Soup& soup) {
-    const auto before = static_cast<Index>(soup.positions.size());
-    const std::vector<Index> left = drop_unused(before, soup.triangles);
+    const auto before = static_cast<Index>(soup.mesh.positions.size());
+    const std::vector<Index> left = drop_unused(before, soup.mesh.triangles);
     if (left.size() == before) return;
     soup.counts.isolated_vertices +=
         before - static_cast<Index>(left.size()) - soup.counts.welded_vertices;
-    soup.positions = take(soup.positions, left);
+    soup.mesh.positions = take(soup.mesh.positions, left);
     soup.vertex_origin = take(soup.vertex_origin, left);
 }
 
@@ -194,15 +189,14 @@ Index drop_components(CleanResult& clean, const Topology& topology, double least
                             " % of the area or more; use a smaller drop_components");
     }
     clean.connectivity = {};
-    Soup soup{std::move(clean.mesh.positions), std::move(clean.mesh.triangles),
-              std::move(clean.vertex_origin), std::move(clean.face_origin)};
+    const CleanCounts counts = clean.counts;  // Of the repair alone.
+    Soup soup{std::move(clean)};
     std::vector<bool> is_dead;
     for (const Index c : topology.face_component) is_dead.push_back(goes(topology.components[c]));
     (void)drop_faces(soup, is_dead);
     drop_isolated_vertices(soup);
-    clean.mesh = {std::move(soup.positions), std::move(soup.triangles)};
-    clean.vertex_origin = std::move(soup.vertex_origin);
-    clean.face_origin = std::move(soup.face_origin);
+    clean = std::move(soup);
+    clean.counts = counts;
     return static_cast<Index>(dropped);
 }
 
@@ -224,9 +218,9 @@ CleanResult clean_input(const MeshView& mesh, const CleanOptions& options) {
     }
     Soup soup = as_soup(mesh, ticker);
 
-    std::vector<EdgeSide> sides = sorted_edge_sides(soup.triangles, soup.ticker);
+    std::vector<EdgeSide> sides = sorted_edge_sides(soup.mesh.triangles, soup.ticker);
     const auto refresh = [&](bool is_changed) {
-        if (is_changed) sides = sorted_edge_sides(soup.triangles, soup.ticker);
+        if (is_changed) sides = sorted_edge_sides(soup.mesh.triangles, soup.ticker);
     };
     if (!options.keep_slits) refresh(weld_cracks(soup, sides, options.weld));
     const bool is_collapsed = collapse_zero_edges(soup);
@@ -241,12 +235,7 @@ CleanResult clean_input(const MeshView& mesh, const CleanOptions& options) {
     drop_isolated_vertices(soup);
     if (options.fill_holes > 0) fill_holes(soup, options.fill_holes);
 
-    return {{std::move(soup.positions), std::move(soup.triangles)},
-            std::move(soup.vertex_origin),
-            std::move(soup.face_origin),
-            std::move(soup.welded_positions),
-            soup.counts,
-            soup.slit_length};
+    return soup;
 }
 
 }  // namespace remesh

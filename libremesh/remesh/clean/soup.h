@@ -16,18 +16,14 @@
 
 namespace remesh::detail {
 
-struct Soup {
-    std::vector<Vec3> positions;
-    std::vector<Triangle> triangles;
-    std::vector<Index> vertex_origin;         //!< #V: input vertex.
-    std::vector<Index> face_origin;           //!< #F: input face.
-    std::vector<Vec3> welded_positions = {};  //!< See CleanResult.
-    CleanCounts counts = {};
-    double slit_length = 0;  //!< See CleanResult.
-    Ticker ticker = {};      //!< Of clean_input(): every pass ticks it.
+//! What becomes the result.
+struct Soup : CleanResult {
+    Ticker ticker = {};  //!< Of clean_input(): every pass ticks it.
 
-    [[nodiscard]] Index num_half_edges() const { return static_cast<Index>(3 * triangles.size()); }
-    [[nodiscard]] Index tail(Index h) const { return triangles[h / 3][h % 3]; }
+    [[nodiscard]] Index num_half_edges() const {
+        return static_cast<Index>(3 * mesh.triangles.size());
+    }
+    [[nodiscard]] Index tail(Index h) const { return mesh.triangles[h / 3][h % 3]; }
     [[nodiscard]] Index head(Index h) const { return tail(Surface::next(h)); }
     [[nodiscard]] Index apex(Index h) const { return tail(Surface::previous(h)); }
     //! Whether it runs from the lower to the higher vertex. Two faces of an edge are oriented alike

@@ -51,7 +51,7 @@ double median(std::vector<double> values) {
 // \param num_merged  how many unions there were.
 bool apply(UnionFind& sets, Index num_merged, Soup& soup) {
     if (num_merged == 0) return false;
-    for (Triangle& t : soup.triangles) {
+    for (Triangle& t : soup.mesh.triangles) {
         soup.ticker.tick();
         for (Index& v : t) v = sets.root(v);
     }
@@ -61,11 +61,11 @@ bool apply(UnionFind& sets, Index num_merged, Soup& soup) {
 
 // Vertices of a set that have other positions than its root get that of the root.
 void keep_welded_positions(UnionFind& sets, Soup& soup) {
-    for (Index v = 0; v < soup.positions.size(); ++v) {
+    for (Index v = 0; v < soup.mesh.positions.size(); ++v) {
         const Index root = sets.root(v);
-        if (soup.positions[root] == soup.positions[v]) continue;
-        if (soup.welded_positions.empty()) soup.welded_positions = soup.positions;
-        soup.welded_positions[v] = soup.positions[root];
+        if (soup.mesh.positions[root] == soup.mesh.positions[v]) continue;
+        if (soup.welded_positions.empty()) soup.welded_positions = soup.mesh.positions;
+        soup.welded_positions[v] = soup.mesh.positions[root];
     }
 }
 
@@ -77,8 +77,8 @@ Index end_at(const Soup& soup, std::span<const Index> position, const EdgeSide& 
 
 // The vertices of each part of the mesh: faces that are joined by vertices.
 UnionFind find_parts(Soup& soup) {
-    UnionFind parts(soup.positions.size());
-    for (const Triangle& t : soup.triangles) {
+    UnionFind parts(soup.mesh.positions.size());
+    for (const Triangle& t : soup.mesh.triangles) {
         soup.ticker.tick();
         (void)parts.unite(t[0], t[1]);
         (void)parts.unite(t[0], t[2]);
@@ -90,9 +90,10 @@ UnionFind find_parts(Soup& soup) {
 // closes by welding, as their sides have ends of their own.
 // \param open  boundary edges, sorted by the positions of their ends.
 double longest_slit(Soup& soup, std::span<const EdgeSide> open, std::span<const Index> position) {
-    UnionFind parts = find_parts(soup), chains(soup.positions.size());
-    std::vector<bool> is_tip(soup.positions.size(), false);
-    std::vector<double> length(soup.positions.size(), 0);  // By position, of edges from it upwards.
+    UnionFind parts = find_parts(soup), chains(soup.mesh.positions.size());
+    std::vector<bool> is_tip(soup.mesh.positions.size(), false);
+    std::vector<double> length(soup.mesh.positions.size(),
+                               0);  // By position, of edges from it upwards.
     for_each_edge(open, [&](std::span<const EdgeSide> edge) {
         soup.ticker.tick();
         const Index low = edge[0].low(), high = edge[0].high();
@@ -102,14 +103,14 @@ double longest_slit(Soup& soup, std::span<const EdgeSide> open, std::span<const 
             return;
         }
         (void)chains.unite(low, high);
-        length[low] += (soup.positions[high] - soup.positions[low]).norm();
+        length[low] += (soup.mesh.positions[high] - soup.mesh.positions[low]).norm();
         for (const Index where : {low, high}) {
             if (end_at(soup, position, edge[0], where) == end_at(soup, position, edge[1], where)) {
                 is_tip[where] = true;
             }
         }
     });
-    std::vector<double> of_chain(soup.positions.size(), 0);
+    std::vector<double> of_chain(soup.mesh.positions.size(), 0);
     for (Index v = 0; v < length.size(); ++v) of_chain[chains.root(v)] += length[v];
     double longest = 0;
     for (Index v = 0; v < length.size(); ++v) {
@@ -164,16 +165,16 @@ bool weld_cracks(Soup& soup, std::span<const EdgeSide> sides, double tolerance) 
     });
     if (open.empty()) return false;
 
-    std::vector<bool> is_boundary(soup.positions.size(), false);
+    std::vector<bool> is_boundary(soup.mesh.positions.size(), false);
     for (const EdgeSide& side : open) is_boundary[side.low()] = is_boundary[side.high()] = true;
-    const std::vector<Index> position = find_common_positions({soup.positions, soup.triangles},
-                                                              is_boundary, soup.ticker, tolerance);
+    const std::vector<Index> position =
+        find_common_positions(soup.mesh.view(), is_boundary, soup.ticker, tolerance);
     for (EdgeSide& side : open) {
         side.ends = edge_key(position[side.low()], position[side.high()]);
     }
-    open = sort_edge_sides(open, static_cast<Index>(soup.positions.size()), soup.ticker);
+    open = sort_edge_sides(open, static_cast<Index>(soup.mesh.positions.size()), soup.ticker);
 
-    UnionFind sets(soup.positions.size());
+    UnionFind sets(soup.mesh.positions.size());
     Index num_merged = 0;
     for_each_edge(open, [&](std::span<const EdgeSide> edge) {
         soup.ticker.tick(edge.size());
@@ -191,12 +192,12 @@ bool weld_cracks(Soup& soup, std::span<const EdgeSide> sides, double tolerance) 
 }
 
 bool collapse_zero_edges(Soup& soup) {
-    UnionFind sets(soup.positions.size());
+    UnionFind sets(soup.mesh.positions.size());
     Index num_merged = 0;
     for (Index h = 0; h < soup.num_half_edges(); ++h) {
         soup.ticker.tick();
         const Index a = soup.tail(h), b = soup.head(h);
-        if (a == b || soup.positions[a] != soup.positions[b]) continue;
+        if (a == b || soup.mesh.positions[a] != soup.mesh.positions[b]) continue;
         num_merged += sets.unite(a, b) ? 1 : 0;
     }
     return apply(sets, num_merged, soup);

@@ -24,21 +24,27 @@ struct CreaseChain {
 class CreaseSet {
 public:
     explicit CreaseSet(const Surface& surface)
-        : surface_(&surface), is_in_(surface.num_edges()), degree_(surface.num_vertices()) {}
+        : surface_(&surface), is_in_(surface.num_edges()), degree_(surface.num_vertices()) {
+        for (Index v = 0; v < surface.num_vertices(); ++v) {
+            is_anchor_.push_back(surface.is_boundary_vertex(v) ? 1 : 0);
+        }
+    }
 
     void add(Index edge) { change(edge, true); }
     void remove(Index edge) { change(edge, false); }
+    //! Chains end at the vertex as they do on the boundary.
+    void anchor(Index vertex) { is_anchor_[vertex] = 1; }
     [[nodiscard]] bool has(Index edge) const { return is_in_[edge] != 0; }
     //! The first edge of the set from `edge` on; the number of edges if there is none.
     [[nodiscard]] Index next(Index edge) const;
     [[nodiscard]] Index degree(Index vertex) const { return degree_[vertex]; }
-    //! A chain ends here, away from other chains and from the boundary.
+    //! A chain ends here, away from other chains, from the boundary and from anchors.
     [[nodiscard]] bool is_open_end(Index vertex) const {
-        return degree_[vertex] == 1 && !surface_->is_boundary_vertex(vertex);
+        return degree_[vertex] == 1 && is_anchor_[vertex] == 0;
     }
     //! A chain passes through here.
     [[nodiscard]] bool is_inner(Index vertex) const {
-        return degree_[vertex] == 2 && !surface_->is_boundary_vertex(vertex);
+        return degree_[vertex] == 2 && is_anchor_[vertex] == 0;
     }
     [[nodiscard]] const Surface& surface() const { return *surface_; }
     [[nodiscard]] std::vector<std::uint8_t> take_flags() { return std::move(is_in_); }
@@ -54,8 +60,9 @@ private:
     }
 
     const Surface* surface_;
-    std::vector<std::uint8_t> is_in_;  // #E.
-    std::vector<Index> degree_;        // #V.
+    std::vector<std::uint8_t> is_in_;      // #E.
+    std::vector<Index> degree_;            // #V.
+    std::vector<std::uint8_t> is_anchor_;  // #V.
 };
 
 //! All chains, ascending by their lowest edge. Cost: O(#E).

@@ -17,17 +17,19 @@ namespace {
 constexpr double most_turn = std::numbers::pi / 6;
 constexpr double most_rate = 2;
 
-// The turn of a curve over a length around a position: twice the angle between chords.
-double turn_over(const Surface& surface, const Curve& curve, double along, double length) {
+// How many times closer sites are around a position, by the turn of the curve over a spacing:
+// twice the angle between chords.
+double rate_at(const Surface& surface, const Curve& curve, double along, double spacing) {
     const auto at = [&](double at_length) {
         const double inside =
             curve.is_closed() ? at_length : std::clamp(at_length, 0.0, curve.length());
         return position(surface.mesh.view(), point_on_curve(curve, inside));
     };
-    const double reach = std::min(length / 2, curve.length() / 4);
+    const double reach = std::min(spacing / 2, curve.length() / 4);
     const Vec3 here = at(along);
     const double angle = angle_between(here - at(along - reach), at(along + reach) - here);
-    return 2 * angle * length / (2 * reach);
+    const double turn = 2 * angle * spacing / (2 * reach);
+    return std::clamp(turn / most_turn, 1.0, most_rate);
 }
 
 // Where a curve has how many spacings behind it; linear in between.
@@ -55,8 +57,7 @@ CurveMeasure measure_curve(const Surface& surface, const Curve& curve, double sp
             const double step = spacing_at(begin + (end - begin) * 1e-3) / 2;
             const double next = end - begin < 1.5 * step ? end : begin + step;
             const double local = spacing_at((begin + next) / 2);
-            const double turn = turn_over(surface, curve, (begin + next) / 2, local);
-            const double rate = std::clamp(turn / most_turn, 1.0, most_rate);
+            const double rate = rate_at(surface, curve, (begin + next) / 2, local);
             result.position.push_back(next);
             result.count.push_back(result.count.back() + rate * (next - begin) / local);
             begin = next;
@@ -127,8 +128,7 @@ std::vector<double> spacings_along(const Surface& surface, const Curve& curve, d
     std::vector<double> result{0};
     for (std::size_t i = 0; i < curve.num_edges(); ++i) {
         const double length = curve.up_to[i + 1] - curve.up_to[i];
-        const double turn = turn_over(surface, curve, curve.up_to[i] + length / 2, spacing);
-        const double rate = std::clamp(turn / most_turn, 1.0, most_rate);
+        const double rate = rate_at(surface, curve, curve.up_to[i] + length / 2, spacing);
         result.push_back(result.back() + rate * length / spacing);
     }
     return result;

@@ -2,7 +2,6 @@
 //! Sites on the curves of a network, with a copy on each side of the cut. Private to remeshing.
 #pragma once
 
-#include <algorithm>
 #include <functional>
 
 #include "remesh/curves/curve_network.h"
@@ -95,20 +94,6 @@ struct ChainEdge {
 
 //! The ends of the edges, in the same order.
 [[nodiscard]] std::vector<DirectedEdge> ends_of(std::span<const ChainEdge> chain);
-
-//! The same for each part of the surface, each in ascending order.
-//! \param part_of  gives the part of a site: Index -> Index below num_parts.
-template <typename PartOf>
-[[nodiscard]] std::vector<std::vector<DirectedEdge>> chain_by_part(std::span<const ChainEdge> chain,
-                                                                   Index num_parts,
-                                                                   const PartOf& part_of) {
-    std::vector<std::vector<DirectedEdge>> parts(num_parts);
-    for (const ChainEdge& edge : chain) {
-        parts[part_of(edge.from)].emplace_back(edge.from, edge.to);
-    }
-    for (std::vector<DirectedEdge>& part : parts) std::sort(part.begin(), part.end());
-    return parts;
-}
 
 //! The group of each copy: #sites.
 [[nodiscard]] std::vector<Index> groups_of_copies(const CurveSites& sites);

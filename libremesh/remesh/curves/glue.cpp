@@ -119,31 +119,24 @@ bool flip_repeated(std::vector<Triangle>& triangles, std::span<const Index> vert
     return !has_repeated;
 }
 
-GluedMesh glue(std::span<const Triangle> triangles, std::span<const Index> group,
-               std::span<const Index> vertex) {
-    GluedMesh result;
-    result.triangles.assign(triangles.begin(), triangles.end());
-    const Numbering groups = number_sets(group);
+bool flip_repeated(std::vector<Triangle>& triangles, std::span<const Index> group) {
     const auto is_repeated = [](std::span<const EdgeSide> sides) {
         return sides.size() > 2 || is_loop(sides.front());
     };
-    const auto is_taken = [](std::uint64_t) { return false; };
-    flip_repeated(result.triangles, groups.number, is_repeated, is_taken);
-    Numbering vertices = vertex.empty() ? groups : number_sets(vertex);
-    result.vertex = std::move(vertices.number);
-    result.representative = std::move(vertices.first);
-    for (const Index v : result.representative) {
-        result.first_of_group.push_back(groups.first[groups.number[v]]);
-    }
-    result.in_patches = std::move(result.triangles);
-    result.triangles = rename_vertices(result.in_patches, result.vertex);
-    return result;
+    return flip_repeated(triangles, group, is_repeated, [](std::uint64_t) { return false; });
 }
 
-std::vector<InnerEdge> repeated_edges(const GluedMesh& mesh) {
+GluedMesh glue(std::span<const Triangle> triangles, std::span<const Index> group) {
+    Numbering glued = number_sets(group);
+    return {rename_vertices(triangles, glued.number), std::move(glued.number),
+            std::move(glued.first)};
+}
+
+std::vector<InnerEdge> repeated_edges(std::span<const Triangle> patches,
+                                      std::span<const Index> group) {
     std::vector<InnerEdge> repeated;
-    const auto& patches = mesh.in_patches;
-    for_each_edge(sorted_edge_sides(mesh.triangles), [&](std::span<const EdgeSide> sides) {
+    const std::vector<Triangle> glued = rename_vertices(patches, group);
+    for_each_edge(sorted_edge_sides(glued), [&](std::span<const EdgeSide> sides) {
         const bool joins_one = is_loop(sides.front());
         if (sides.size() <= 2 && !joins_one) return;
         std::vector<InnerEdge> inner;
@@ -210,17 +203,6 @@ void close_rim(std::span<const DirectedEdge> chain, std::vector<Triangle>& trian
             triangles.push_back({from, past[i - 1], past[i]});
         }
     }
-}
-
-std::vector<Index> weld_sheets(std::span<const Index> group, TriangleMesh& mesh) {
-    if (group.empty()) return {};
-    Numbering welded = number_sets(group);
-    for (Index v = 0; v < welded.first.size(); ++v) {
-        mesh.positions[v] = mesh.positions[welded.first[v]];
-    }
-    mesh.positions.resize(welded.first.size());
-    mesh.triangles = rename_vertices(mesh.triangles, welded.number);
-    return std::move(welded.first);
 }
 
 Index num_branched_edges(std::span<const Triangle> triangles) {

@@ -13,32 +13,27 @@
 
 namespace remesh {
 
+//! A mesh of which some vertices were made one.
 struct GluedMesh {
-    std::vector<Triangle> triangles;    //!< In the given order; corners are glued vertices.
-    std::vector<Triangle> in_patches;   //!< The same before that: corners are given vertices.
-    std::vector<Index> vertex;          //!< Of each given vertex: the glued one.
-    std::vector<Index> representative;  //!< Of each glued vertex: the first given one.
-    //! Of each glued vertex: the first given vertex of its group. Equal for vertices of different
-    //! sheets at one position.
-    std::vector<Index> first_of_group;
+    std::vector<Triangle> triangles;  //!< In the given order; corners are glued vertices.
+    std::vector<Index> vertex;        //!< Of each given vertex: the glued one.
+    std::vector<Index> first;         //!< Of each glued vertex: the first given one.
 };
 
-//! Makes the vertices of a group one. An inner edge of a patch that joins the same groups as an
-//! edge of another patch is flipped if possible: the glued edge would have more than two faces.
-//! \param group   #V: equal for copies at one position. Two groups are to have at most one edge.
-//! \param vertex  #V: equal for the copies of a group that become one vertex; empty: all of them.
-//! Cost: O(n log n).
-[[nodiscard]] GluedMesh glue(std::span<const Triangle> triangles, std::span<const Index> group,
-                             std::span<const Index> vertex = {});
+//! Makes the vertices of a group one. Cost: O(n).
+//! \param group  #V: equal for those that become one vertex.
+[[nodiscard]] GluedMesh glue(std::span<const Triangle> triangles, std::span<const Index> group);
 
 //! The two sides of an inner edge of a patch.
 struct InnerEdge {
     Index half_edge, other;  //!< 3 t + k: from corner k of triangle t to the next one.
 };
 
-//! Inner edges of patches that coincide with other edges of the glued mesh: all but one at each
-//! place, or all if rims of patches meet there.
-[[nodiscard]] std::vector<InnerEdge> repeated_edges(const GluedMesh& mesh);
+//! Inner edges of patches that would coincide with other edges if the patches were glued: all but
+//! one at each place, or all if rims of patches meet there.
+//! \param group  #V, as for glue(). Cost: O(n log n).
+[[nodiscard]] std::vector<InnerEdge> repeated_edges(std::span<const Triangle> patches,
+                                                    std::span<const Index> group);
 
 //! Flips inner edges of patches, so that fewer edges of the glued mesh are repeated: in rounds of
 //! one flip for each repeated edge, as a flip can cause another repetition.
@@ -50,6 +45,10 @@ struct InnerEdge {
 bool flip_repeated(std::vector<Triangle>& triangles, std::span<const Index> vertex,
                    const std::function<bool(std::span<const EdgeSide>)>& is_repeated,
                    const std::function<bool(std::uint64_t)>& is_taken);
+
+//! The same for edges that would have more than two faces, or equal ends.
+//! \param group  #V, as for glue().
+bool flip_repeated(std::vector<Triangle>& triangles, std::span<const Index> group);
 
 using DirectedEdge = std::pair<Index, Index>;  //!< From, to.
 
@@ -63,11 +62,6 @@ using DirectedEdge = std::pair<Index, Index>;  //!< From, to.
 //! \param chain  edges that the rim is to have.
 //! Cost: O(n log n).
 void close_rim(std::span<const DirectedEdge> chain, std::vector<Triangle>& triangles);
-
-//! Merges the vertices of each group into the first one.
-//! \param group  #V.
-//! \return the vertices that stay, ascending; these are the new vertices in order. Cost: O(n).
-std::vector<Index> weld_sheets(std::span<const Index> group, TriangleMesh& mesh);
 
 //! The number of edges with more than two faces. Cost: O(n).
 [[nodiscard]] Index num_branched_edges(std::span<const Triangle> triangles);

@@ -57,9 +57,7 @@ public:
 
     void run() {
         for (const std::vector<CurveEnd>& ends : at_node_) {
-            const auto shortest = std::min_element(
-                ends.begin(), ends.end(),
-                [](const CurveEnd& a, const CurveEnd& b) { return a.length < b.length; });
+            const auto shortest = std::ranges::min_element(ends, {}, &CurveEnd::length);
             if (shortest == ends.end() || ends_strip(ends, *shortest)) continue;
             for (const CurveEnd& end : ends) {
                 if (network_.curves[end.curve].is_locked) continue;

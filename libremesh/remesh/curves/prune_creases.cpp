@@ -12,7 +12,7 @@
 namespace remesh::detail {
 namespace {
 
-// The second edge of the set at an inner vertex.
+// The edge of the set at a vertex that is not `edge`, where there is one such.
 Index other_edge(const CreaseSet& set, Index vertex, Index edge) {
     Index other = no_index;
     for_each_outgoing(set.surface(), vertex, [&](Index h) {
@@ -127,7 +127,7 @@ private:
         const auto ends = chains_[c].ends;
         for (int k = 0; k < 2; ++k) {
             auto& here = incident_[ends[k]];
-            here.erase(std::remove(here.begin(), here.end(), c), here.end());
+            std::erase(here, c);
             if (k == 1 && ends[0] == ends[1]) continue;
             if (set_.is_inner(ends[k]) && here.size() == 2) join(ends[k], here[0], here[1]);
             for (const Index other : incident_[ends[k]]) enqueue(other);
@@ -241,39 +241,30 @@ void drop_narrow_charts(const Surface& surface, double width, std::vector<std::u
 void drop_spurs(const Surface& surface, std::span<const std::uint8_t> is_crease,
                 double least_length, std::vector<std::uint8_t>& is_seam, Ticker& ticker) {
     detail::CreaseSet seams(surface);
-    std::vector<bool> is_anchor(surface.num_vertices(), false);
     for (Index e = 0; e < surface.num_edges(); ++e) {
-        const Index h = surface.edge_half[e];
         if (is_seam[e] != 0) seams.add(e);
-        if (surface.twin[h] != no_index && (is_crease.empty() || is_crease[e] == 0)) continue;
-        is_anchor[surface.tail(h)] = is_anchor[surface.head(h)] = true;
+        if (is_crease.empty() || is_crease[e] == 0) continue;
+        const Index h = surface.edge_half[e];
+        seams.anchor(surface.tail(h));
+        seams.anchor(surface.head(h));
     }
-    const auto is_free = [&](Index v) { return seams.degree(v) == 1 && !is_anchor[v]; };
     std::vector<Index> ends;
     for (Index v = 0; v < surface.num_vertices(); ++v) {
-        if (is_free(v)) ends.push_back(v);
+        if (seams.is_open_end(v)) ends.push_back(v);
     }
     while (!ends.empty()) {
-        Index at = ends.back();
+        const Index end = ends.back();
         ends.pop_back();
-        if (!is_free(at)) continue;
+        if (!seams.is_open_end(end)) continue;
+        const Index first = detail::other_edge(seams, end, no_index);
+        std::vector<Index> chain{first};
+        const Index far = detail::follow(seams, first, other_end(surface, first, end), chain);
         double length = 0;
-        std::vector<Index> chain;
-        do {
-            Index edge = no_index;
-            for_each_edge_at(surface, at, [&](Index h, Index) {
-                const Index e = surface.edge[h];
-                if (seams.has(e) && (chain.empty() || e != chain.back())) edge = e;
-            });
-            if (edge == no_index) break;
-            at = other_end(surface, edge, at);
-            chain.push_back(edge);
-            length += surface.length[edge];
-        } while (seams.degree(at) == 2 && !is_anchor[at]);
+        for (const Index e : chain) length += surface.length[e];
         ticker.tick(chain.size() + 1);
         if (!(length < least_length)) continue;
         for (const Index e : chain) seams.remove(e);
-        if (is_free(at)) ends.push_back(at);
+        if (seams.is_open_end(far)) ends.push_back(far);
     }
     is_seam = seams.take_flags();
 }

@@ -12,13 +12,32 @@
 
 namespace remesh {
 
-//! Triangles of site indices, oriented like the surface. A Voronoi vertex of degree k > 3 (or
-//! several joined) gives a k-gon, with diagonals that repeat no edge if possible. The caller checks
-//! the topology. Sites without a cell or Voronoi vertex occur in no triangle.
-//! \throw Cancelled  the progress callback returned false.
-//! Cost: O(size of the complex) and a sort.
-[[nodiscard]] std::vector<Triangle> build_dual(const Surface& surface, const Diagram& diagram,
-                                               const Progress& progress = {});
+//! Triangles of site indices, oriented like the surface: one for each Voronoi vertex, k - 2 where k
+//! cells meet. They are a triangulation of the surface where all cells are discs and share no more
+//! than arcs; the caller checks that. Sites without a cell or Voronoi vertex occur in no triangle.
+//! Cost: O(#vertices).
+[[nodiscard]] std::vector<Triangle> build_dual(const Diagram& diagram);
+
+//! Where the triangles of a dual come from. Copies of a site on the sides of a curve count each.
+struct DualCounts {
+    Index sites = 0;           //!< Those that own a part of the surface.
+    Index sites_of_cells = 0;  //!< Of these: all their triangles are those of the cells.
+    //! Sites whose cells are no discs or share more than one arc, and those of curves where the
+    //! cell of another site meets the curve.
+    Index narrow_sites = 0;
+    Index simplified_parts = 0;  //!< Parts around these that were simplified to their sites.
+    //! Of these: whole patches between curves, or components, as narrow sites are all around.
+    Index simplified_patches = 0;
+
+    //! Adds those of another part of the surface.
+    void add(const DualCounts& more) {
+        sites += more.sites;
+        sites_of_cells += more.sites_of_cells;
+        narrow_sites += more.narrow_sites;
+        simplified_parts += more.simplified_parts;
+        simplified_patches += more.simplified_patches;
+    }
+};
 
 //! The lengths by which the Delaunay condition is tested.
 enum class Delaunay : std::uint8_t {
@@ -33,9 +52,9 @@ enum class Delaunay : std::uint8_t {
 //! `{}` gives the defaults.
 struct DelaunayOptions {
     Delaunay mode = Delaunay::Intrinsic;  //!< Which edges to flip.
-    //! Also where a flip folds the mesh: by geodesic lengths flips then lead from any triangles to
-    //! Delaunay ones. A dual of cells is so near to these that it is better not folded.
-    bool may_fold = false;
+    //! #V, below #V: equal for copies of one vertex on several sides of a cut; empty: all differ.
+    //! No flip joins two vertices that another edge joins already.
+    std::span<const Index> group = {};
     int num_threads = 0;     //!< >= 0; 0: all cores. Same bytes for any number.
     Progress progress = {};  //!< Polled during the call; see poll.
 };

@@ -1,6 +1,7 @@
 // Edges that fail by the lengths of locally shortest paths are flipped in passes. Edge (a, b) lies
 // in triangles (a, b, c) and (b, a, d).
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -46,25 +47,46 @@ bool is_above_pi(const Vec2& a, const Vec2& b) {
            std::numbers::pi + delaunay_tolerance;
 }
 
-// Edges are numbered by their two ends, ascending; the number is the label and stays in a flip.
+// The mesh of the groups. Edges are those of the copies; their number is the label, and stays in a
+// flip.
 struct NumberedMesh : detail::FanMesh {
-    std::vector<DirectedEdge> ends;  // By edge: of its first side.
+    std::vector<DirectedEdge> ends;  // By edge: copies, at the start.
+    std::vector<Index> side;         // By edge: a half-edge; no_index: it has no two faces.
+    std::vector<Triangle> copy;      // By face: the copies at its corners.
 
-    NumberedMesh(std::span<const Triangle> triangles, Index num_vertices, Ticker ticker)
-        : FanMesh(triangles, num_vertices, ticker) {
+    NumberedMesh(std::span<const Triangle> triangles, std::span<const Index> group,
+                 Index num_vertices, Ticker ticker)
+        : FanMesh(group.empty() ? std::vector<Triangle>(triangles.begin(), triangles.end())
+                                : rename_vertices(triangles, group),
+                  num_vertices, ticker),
+          copy(triangles.begin(), triangles.end()) {
         for_each_edge(sorted_edge_sides(triangles, ticker), [&](std::span<const EdgeSide> sides) {
-            for (const EdgeSide& side : sides) {
-                put_label(side.half_edge, static_cast<Index>(ends.size()));
-            }
+            for (const EdgeSide& s : sides) put_label(s.half_edge, num_edges());
             forget();
-            const Index h = sides.front().half_edge, other = twin(h);
-            const bool is_first = other == no_index || sides.front().forward;
-            ends.emplace_back(tail(is_first ? h : other), head(is_first ? h : other));
+            const bool has_two = sides.size() == 2 && twin(sides[0].half_edge) != no_index;
+            const Index h = sides[has_two && !sides[0].forward ? 1 : 0].half_edge;
+            ends.emplace_back(copy[h / 3][h % 3], copy[h / 3][(h + 1) % 3]);
+            side.push_back(has_two ? h : no_index);
         });
     }
     [[nodiscard]] Index num_edges() const { return static_cast<Index>(ends.size()); }
-    [[nodiscard]] Index first_side(Index edge) const {
-        return half_edge(ends[edge].first, ends[edge].second);
+    [[nodiscard]] Index copy_opposite(Index h) const { return copy[h / 3][(h + 2) % 3]; }
+
+    void flip_edge(Index edge) {
+        const Index h = side[edge], other = twin(h), f = h / 3, g = other / 3;
+        const Index a = copy[f][h % 3], b = copy[f][(h + 1) % 3];
+        const Index c = copy_opposite(h), d = copy_opposite(other);
+        flip(h);
+        copy[f] = {c, a, d};
+        copy[g] = {d, b, c};
+        put_label(3 * f + 2, edge);
+        put_label(3 * g + 2, edge);
+        forget();
+        for (const Index face : {f, g}) {
+            for (Index s = 3 * face; s < 3 * face + 3; ++s) {
+                if (side[label(s)] != no_index) side[label(s)] = s;
+            }
+        }
     }
 };
 
@@ -95,7 +117,7 @@ std::vector<double> measure_edges(const NumberedMesh& mesh, const Metric& metric
 
 class Flipper {
 public:
-    // \param positions  of the vertices where no flip may fold the mesh; or empty.
+    // \param positions  of the groups.
     Flipper(NumberedMesh& mesh, std::vector<double> length, std::span<const Vec3> positions,
             const Metric& metric, Ticker ticker)
         : ticker_(ticker),
@@ -137,20 +159,20 @@ private:
     }
 
     [[nodiscard]] bool fails(Index edge) const {
-        const Index h = mesh_.first_side(edge), other = mesh_.twin(h);
-        if (other == no_index) return false;
+        const Index h = mesh_.side[edge];
+        if (h == no_index) return false;
         const auto corner = [&](Index side) {
             return corner_opposite(length_[edge], length(mesh_.next(side)),
                                    length(mesh_.previous(side)));
         };
-        return is_above_pi(corner(h), corner(other));
+        return is_above_pi(corner(h), corner(mesh_.twin(h)));
     }
 
     bool try_flip(Index edge) {
-        const Index h = mesh_.first_side(edge);
+        const Index h = mesh_.side[edge];
         if (!mesh_.can_flip(h) || folds(h)) return false;
-        const Index other = mesh_.twin(h), c = mesh_.apex(h), d = mesh_.apex(other);
-        const double across = metric_(c, d).length;
+        const Index other = mesh_.twin(h);
+        const double across = metric_(mesh_.copy_opposite(h), mesh_.copy_opposite(other)).length;
         ticker_.tick(ticks_per_path);
         const double bc = length(mesh_.next(h)), ca = length(mesh_.previous(h));
         const double ad = length(mesh_.next(other)), db = length(mesh_.previous(other));
@@ -158,20 +180,15 @@ private:
         if (is_above_pi(corner_opposite(across, ca, ad), corner_opposite(across, db, bc))) {
             return false;
         }
-        mesh_.flip(h);
-        mesh_.ends[edge] = {c, d};
-        for (const Index side : {mesh_.half_edge(c, d), mesh_.half_edge(d, c)}) {
-            mesh_.put_label(side, edge);
-        }
-        mesh_.forget();
+        mesh_.flip_edge(edge);
         length_[edge] = across;
         return true;
     }
 
     [[nodiscard]] bool folds(Index h) const {
-        if (positions_.empty()) return false;
         return detail::flip_folds(
-            mesh_, h, [&](Index v) { return positions_[v]; }, [](Index, Index) { return true; });
+            mesh_, h, [&](Index v) { return positions_[v]; },
+            [&](Index side, Index) { return mesh_.side[mesh_.label(side)] != no_index; });
     }
 
     Ticker ticker_;
@@ -182,6 +199,24 @@ private:
 };
 
 }  // namespace
+
+std::vector<Triangle> build_dual(const Diagram& diagram) {
+    std::vector<Triangle> triangles;
+    for (Index v = 0; v < diagram.vertices.size(); ++v) {
+        const Index first = diagram.vertex_offsets[v], end = diagram.vertex_offsets[v + 1];
+        const auto cells = std::span(diagram.vertex_sites).subspan(first, end - first);
+        if (!std::ranges::all_of(cells, &SiteId::is_valid)) continue;  // On the boundary.
+        for (std::size_t i = 2; i < cells.size(); ++i) {
+            triangles.push_back({cells[0].value(), cells[i - 1].value(), cells[i].value()});
+        }
+    }
+    return triangles;
+}
+
+const char* delaunay_name(Delaunay delaunay) {
+    constexpr std::array names = {"intrinsic", "extrinsic", "off"};
+    return names[static_cast<std::size_t>(delaunay)];
+}
 
 DelaunayResult make_delaunay(const Surface& surface, std::span<const SurfacePoint> points,
                              std::span<const Vec3> positions, std::span<const Triangle> triangles,
@@ -198,16 +233,16 @@ DelaunayResult make_delaunay(const Surface& surface, std::span<const SurfacePoin
         return {(positions[a] - positions[b]).norm(), true};
     };
     const Metric& metric = options.mode == Delaunay::Intrinsic ? on_surface : in_space;
-    NumberedMesh mesh(triangles, static_cast<Index>(positions.size()), Ticker(poller));
+    std::vector<Vec3> of_group(positions.begin(), positions.end());
+    for (Index v = 0; v < options.group.size(); ++v) of_group[options.group[v]] = positions[v];
+    NumberedMesh mesh(triangles, options.group, static_cast<Index>(positions.size()),
+                      Ticker(poller));
     DelaunayCounts& counts = result.counts;
-    for (Index e = 0; e < mesh.num_edges(); ++e) {
-        counts.inner_edges += mesh.twin(mesh.first_side(e)) != no_index ? 1 : 0;
-    }
+    counts.inner_edges =
+        mesh.num_edges() - static_cast<Index>(std::ranges::count(mesh.side, no_index));
     std::vector<double> length = measure_edges(mesh, metric, options.num_threads, poller, counts);
-    Flipper(mesh, std::move(length), options.may_fold ? std::span<const Vec3>{} : positions, metric,
-            Ticker(poller))
-        .run(counts);
-    result.triangles = mesh.triangles();
+    Flipper(mesh, std::move(length), of_group, metric, Ticker(poller)).run(counts);
+    result.triangles = std::move(mesh.copy);
     return result;
 }
 

@@ -202,6 +202,22 @@ public:
         put_face(f, face);
     }
 
+    //! Labels both sides of edges, and empties the journal.
+    //! \param edges     in one direction or both.
+    //! \param label_of  label_of(from, to) of one that is there.
+    template <typename LabelOf>
+    void label_edges(std::span<const std::pair<Index, Index>> edges, const LabelOf& label_of) {
+        std::vector<std::pair<Index, Index>> both(edges.begin(), edges.end());
+        for (const auto& [from, to] : edges) both.emplace_back(to, from);
+        std::sort(both.begin(), both.end());
+        for (Index h = 0; h < 3 * num_faces(); ++h) {
+            const Index a = tail(h), b = head(h);
+            if (!std::binary_search(both.begin(), both.end(), std::pair(a, b))) continue;
+            put_label(h, label_of(a, b));
+        }
+        forget();
+    }
+
     [[nodiscard]] Mark mark() const {
         return {old_faces_.size(), old_fans_.size(), num_faces(), num_vertices()};
     }

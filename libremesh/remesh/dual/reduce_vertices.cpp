@@ -8,7 +8,6 @@
 #include <queue>
 
 #include "agvd/core/progress.h"
-#include "remesh/curves/glue.h"
 #include "remesh/dual/fan_mesh.h"
 
 namespace remesh {
@@ -162,19 +161,6 @@ std::vector<Vec3> positions_of(const Surface& surface, std::span<const SurfacePo
     return positions;
 }
 
-// Removes one vertex of the boundary, if that is possible.
-bool remove_vertex(Index v, const DirectedEdge& neighbours, const std::vector<Vec3>& positions,
-                   Index num_vertices, std::vector<Triangle>& triangles) {
-    FanMesh mesh(triangles, static_cast<Index>(positions.size()));
-    const Index h = mesh.half_edge(neighbours.first, neighbours.second);
-    if (h != no_index && mesh.can_flip(h)) mesh.flip(h);
-    std::vector<std::uint8_t> keep(positions.size(), 1);
-    keep[v] = 0;
-    if (Reducer(positions, mesh, keep, {}).run(num_vertices - 1) != std::vector{v}) return false;
-    triangles = mesh.triangles();
-    return true;
-}
-
 }  // namespace
 
 std::vector<Index> reduce_vertices(std::span<const Vec3> positions,
@@ -185,30 +171,6 @@ std::vector<Index> reduce_vertices(std::span<const Vec3> positions,
     std::vector<Index> gone = Reducer(positions, mesh, keep, Ticker(poller)).run(target);
     triangles = mesh.triangles();
     return gone;
-}
-
-void free_rim(const Surface& surface, std::span<const SurfacePoint> points, SimplifiedMesh& patch) {
-    if (patch.extra.empty()) return;
-    const std::vector<Vec3> positions = positions_of(surface, points, patch);
-    auto num_vertices = static_cast<Index>(positions.size());
-    for (Index i = 0; i < patch.extra.size(); ++i) {
-        const auto v = static_cast<Index>(points.size()) + i;
-        std::array<Index, 2> neighbours{no_index, no_index};
-        for (const auto& [from, to] : rim_of(patch.triangles)) {
-            if (to == v) neighbours[0] = from;
-            if (from == v) neighbours[1] = to;
-        }
-        if (neighbours[0] == no_index) continue;
-        if (remove_vertex(v, {neighbours[0], neighbours[1]}, positions, num_vertices,
-                          patch.triangles)) {
-            --num_vertices;
-        }
-    }
-    std::vector<SurfacePoint> left;
-    for (const Index v : drop_unused(static_cast<Index>(positions.size()), patch.triangles)) {
-        if (v >= points.size()) left.push_back(patch.extra[v - points.size()]);
-    }
-    patch.extra = std::move(left);
 }
 
 SimplifiedMesh simplify_patch(const Surface& surface, std::span<const Index> faces,

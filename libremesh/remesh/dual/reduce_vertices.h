@@ -38,10 +38,4 @@ namespace remesh {
 [[nodiscard]] SimplifiedMesh simplify_patch(const Surface& surface, std::span<const Index> faces,
                                             std::span<const SurfacePoint> points);
 
-//! Removes extra vertices on the boundary as far as topology allows. A vertex often stays because
-//! an inner edge joins its two neighbours on the boundary: then this edge is flipped first.
-//! \param points  those that the patch was simplified to.
-//! Cost: O(n log n) for each extra vertex on the boundary.
-void free_rim(const Surface& surface, std::span<const SurfacePoint> points, SimplifiedMesh& patch);
-
 }  // namespace remesh

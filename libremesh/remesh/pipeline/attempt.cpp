@@ -20,10 +20,14 @@ namespace {
 
 // Welds the sheets.
 // \return whether as many edges have more than two faces as the chain has along junctions.
-bool weld_junctions(const CurveNetwork& network, std::span<const ChainEdge> chain, BuiltMesh& built,
-                    RemeshResult& result) {
-    built.sites = take(built.sites, weld_sheets(built.first_of_group, built.mesh));
-    result.junctions.welded_edges = num_branched_edges(built.mesh.triangles);
+bool weld_junctions(const CurveNetwork& network, std::span<const ChainEdge> chain,
+                    PlacedMesh& placed, TriangleMesh& mesh, RemeshResult& result) {
+    if (!placed.place.empty()) {
+        GluedMesh welded = glue(mesh.triangles, placed.place);
+        mesh = {take(mesh.positions, welded.first), std::move(welded.triangles)};
+        placed.points = take(placed.points, welded.first);
+    }
+    result.junctions.welded_edges = num_branched_edges(mesh.triangles);
     Index num_wanted = 0;
     for (const ChainEdge& edge : chain) {
         const bool is_branched = network.curves[edge.curve].sides.size() > 2;
@@ -32,7 +36,7 @@ bool weld_junctions(const CurveNetwork& network, std::span<const ChainEdge> chai
     return result.junctions.welded_edges == num_wanted;
 }
 
-// Checks and judges the mesh. In between, Junctions::Keep welds the sheets.
+// Sets the mesh of the result, and judges it. In between, Junctions::Keep welds the sheets.
 // \return whether it has the topology of the input, all that is locked, and its junctions.
 bool check_mesh(const CleanedInput& cleaned, const CurvedSurface& curved,
                 std::span<const ChainEdge> chain, BuiltMesh& built, const StageContext& context) {
@@ -40,30 +44,31 @@ bool check_mesh(const CleanedInput& cleaned, const CurvedSurface& curved,
     const StageClock clock(Stage::Check, result);
     const Progress progress = progress_at(Stage::Check, options, 1);
     poll(progress, 1);
-    const Topology topology = analyze_topology(built.mesh.view(), progress);
+    TriangleMesh& mesh = result.mesh = whole_mesh(cleaned.surface, built.mesh);
+    const Topology topology = analyze_topology(mesh.view(), progress);
     if (!topology.is_manifold || !topology.is_oriented ||
         !same_topology(topology, cleaned.topology) ||
-        !has_locked(*curved.whole, cleaned.locked, built.mesh)) {
+        !has_locked(cleaned.surface, cleaned.locked, mesh)) {
         return false;
     }
     if (curved.has_junctions() && options.junctions == Junctions::Keep &&
-        !weld_junctions(curved.plan->network.network, chain, built, result)) {
+        !weld_junctions(curved.plan->network.network, chain, built.mesh, mesh, result)) {
         return false;
     }
-    if (options.vertex_count == VertexCount::Exact &&
-        built.mesh.positions.size() != built.num_wanted) {
+    if (options.vertex_count == VertexCount::Exact && mesh.positions.size() != built.num_wanted) {
         return false;
     }
-    result.verdict = judge_result(curved.cleaned->mesh.view(), built.mesh.view(), topology,
+    result.verdict = judge_result(curved.cleaned->mesh.view(), mesh.view(), topology,
                                   options.num_threads, progress);
     return true;
 }
 
-std::vector<SurfacePoint> flat_corners(const BuiltMesh& built) {
+std::vector<SurfacePoint> flat_corners(const TriangleMesh& mesh,
+                                       std::span<const SurfacePoint> points) {
     std::vector<SurfacePoint> corners;
-    for (const Triangle& t : built.mesh.triangles) {
-        if (!is_flat(built.mesh.positions, t)) continue;
-        for (const Index v : t) corners.push_back(built.sites[v]);
+    for (const Triangle& t : mesh.triangles) {
+        if (!is_flat(mesh.positions, t)) continue;
+        for (const Index v : t) corners.push_back(points[v]);
     }
     return corners;
 }
@@ -93,43 +98,46 @@ AttemptEnd run_attempt(const CleanedInput& cleaned, const FoundCurves& found,
     std::vector<SurfacePoint> narrow_points;
     BuiltMesh built;
     const auto is_right = [&](const CurvedSurface& surface, std::span<const ChainEdge> chain) {
-        return !built.mesh.triangles.empty() && check_mesh(cleaned, surface, chain, built, context);
+        return check_mesh(cleaned, surface, chain, built, context);
     };
     bool has_mesh = false;
     if (is_tiled(curved, options)) {
         const FeatureCounts planned = result.features;
-        if (std::optional<TiledMesh> tiled = mesh_tiles(curved, context)) {
+        if (std::optional<TileMesh> tiled = mesh_in_tiles(curved, context)) {
             built.num_wanted = options.num_samples;
-            built.num_vertices = tiled->num_vertices;
+            built.num_vertices = static_cast<Index>(tiled->mesh.points.size());
+            built.mesh = std::move(tiled->mesh);
             narrow_points = std::move(tiled->narrow_points);
-            finish_mesh(curved, std::move(tiled->mesh), of_input, context, built);
+            finish_mesh(curved, of_input, context, built);
             has_mesh = is_right(curved, {});
-            if (has_mesh) result.tiles = tiled->num_tiles;
         }
-        if (!has_mesh) result.features = planned;
+        if (!has_mesh) {
+            result.features = planned;
+            result.tiles = 0;
+        }
     }
     if (!has_mesh) {
         Domain domain = prepare_domain(cleaned, std::move(curved), context);
         PlacedSites sites = place_sites(domain, context);
-        built = build_mesh(domain, sites, of_input, context);
+        built = {};
         narrow_points = std::move(sites.narrow_points);
+        if (!place_mesh(domain, sites, built, context)) return {.num_needed = built.num_vertices};
+        finish_mesh(domain, of_input, context, built);
         if (!is_right(domain, sites.chain)) return {.num_needed = built.num_vertices};
     }
-    result.sizing = measure_edges(built.mesh.view(), built.sites, options.num_samples, sizes);
+    const std::vector<SurfacePoint>& points = built.mesh.points;
+    result.sizing = measure_edges(result.mesh.view(), points, options.num_samples, sizes);
     result.sizing.largest_distance = built.proved_distance.value_or(0);
     const CleanedInput& finest = cleaned.finest();
-    result.sites =
-        to_original(cleaned.finer != nullptr ? to_finer(cleaned, built.sites) : built.sites,
-                    finest.given, {finest.surface.mesh.view(), finest.face_origin});
-    std::vector<SurfacePoint> flats = flat_corners(built);
-    result.mesh = std::move(built.mesh);
+    result.sites = to_original(cleaned.finer != nullptr ? to_finer(cleaned, points) : points,
+                               finest.given, {finest.surface.mesh.view(), finest.face_origin});
     if (const auto& crossings = built.self_intersections) {
         result.self_intersections = crossings->all;
         result.new_self_intersections = crossings->added;
     }
     return {.has_mesh = true,
             .crossing_corners = std::move(built.crossing_corners),
-            .flat_corners = std::move(flats),
+            .flat_corners = flat_corners(result.mesh, points),
             .narrow_points = std::move(narrow_points)};
 }
 

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 
+#include "agvd/mesh/any_mesh.h"
 #include "agvd/mesh/scale.h"
 #include "remesh/pipeline/domain.h"
-#include "remesh/pipeline/placed_dual.h"
 #include "remesh/pipeline/stage_context.h"
+#include "remesh/placement/placement.h"
 #include "remesh/quality/evaluate.h"
 
 namespace remesh::detail {
@@ -47,14 +48,26 @@ std::optional<FacePairs> find_in(const MeshView& mesh, const RemeshOptions& opti
 }
 
 // Moves a vertex and all its copies back onto the surface.
-void unfit(Index v, const CurveSites& curves, PlacedDual& placed) {
-    placed.mesh.offsets[v].setZero();
-    if (!placed.patches) return;
-    const std::vector<Index>& group = placed.patches->group;
-    if (group[v] >= curves.num_groups()) return;
-    for (Index other = 0; other < group.size(); ++other) {
-        if (group[other] == group[v]) placed.mesh.offsets[other].setZero();
+void unfit(Index v, PlacedMesh& mesh) {
+    mesh.offsets[v].setZero();
+    for (Index other = 0; other < mesh.place.size(); ++other) {
+        if (mesh.place[other] == mesh.place[v]) mesh.offsets[other].setZero();
     }
+}
+
+// The triangles with the first vertex at its position in place of each vertex.
+std::vector<Triangle> join_positions(const MeshView& mesh) {
+    Ticker none;
+    return rename_vertices(mesh.triangles, first_at_position(mesh.positions, none));
+}
+
+// As it is searched: sheets share vertices where they meet, and so do parts at locked positions.
+// Some vertices may be in no triangle.
+TriangleMesh welded_mesh(const CurvedSurface& curved, const PlacedMesh& mesh) {
+    TriangleMesh whole = whole_mesh(*curved.whole, mesh);
+    if (!mesh.place.empty()) whole.triangles = rename_vertices(whole.triangles, mesh.place);
+    if (curved.has_locked()) whole.triangles = join_positions(whole);
+    return whole;
 }
 
 }  // namespace
@@ -94,10 +107,10 @@ FacePairs pairs_elsewhere(const ClosestPointTree& triangles, const MeshView& mes
     return elsewhere;
 }
 
-std::optional<FacePairs> CrossingFinder::find(const PlacedDual& placed) {
+std::optional<FacePairs> CrossingFinder::find(const PlacedMesh& mesh) {
     const StageClock clock(Stage::Check, context_.result);
     poll(progress_of(Stage::Check, context_.options), 0);
-    std::optional<FacePairs> all = find_in(welded_mesh(curved_, placed), context_.options);
+    std::optional<FacePairs> all = find_in(welded_mesh(curved_, mesh), context_.options);
     if (all && !all->empty()) {
         if (!of_input_.is_searched || of_input_.is_welded != curved_.has_junctions()) {
             find_in_input();
@@ -107,13 +120,13 @@ std::optional<FacePairs> CrossingFinder::find(const PlacedDual& placed) {
     return all;
 }
 
-CrossingFaces CrossingFinder::tell_added(const PlacedDual& placed, FacePairs all) {
+CrossingFaces CrossingFinder::tell_added(const PlacedMesh& mesh, FacePairs all) {
     const StageClock clock(Stage::Check, context_.result);
     CrossingFaces found{std::move(all), {}};
     if (found.all.size() <= context_.result.input_self_intersections) return found;
     const auto& triangles = of_input_.triangles;
-    found.added = triangles ? pairs_elsewhere(*triangles, welded_mesh(curved_, placed), found.all)
-                            : found.all;
+    found.added =
+        triangles ? pairs_elsewhere(*triangles, welded_mesh(curved_, mesh), found.all) : found.all;
     return found;
 }
 
@@ -144,23 +157,23 @@ bool is_hopeless(std::size_t num_pairs, const StageContext& context) {
     return num_pairs > context.result.input_self_intersections + most;
 }
 
-std::optional<CrossingFaces> unfit_crossings(CrossingFinder& finder, const CurveSites& curves,
-                                             PlacedDual& placed, RemeshResult& result) {
-    std::optional<FacePairs> crossings = finder.find(placed);
+std::optional<CrossingFaces> unfit_crossings(CrossingFinder& finder, PlacedMesh& mesh,
+                                             RemeshResult& result) {
+    std::optional<FacePairs> crossings = finder.find(mesh);
     result.unfitted_vertices = 0;
     for (int round = 0; round < max_unfits && crossings && !crossings->empty(); ++round) {
         bool is_changed = false;
-        for_each_corner(*crossings, placed.mesh.triangles, [&](Index v) {
-            if (placed.mesh.offsets[v].isZero(0)) return;
-            unfit(v, curves, placed);
+        for_each_corner(*crossings, mesh.triangles, [&](Index v) {
+            if (mesh.offsets[v].isZero(0)) return;
+            unfit(v, mesh);
             ++result.unfitted_vertices;
             is_changed = true;
         });
         if (!is_changed) break;
-        crossings = finder.find(placed);
+        crossings = finder.find(mesh);
     }
     if (!crossings) return std::nullopt;
-    return finder.tell_added(placed, *std::move(crossings));
+    return finder.tell_added(mesh, *std::move(crossings));
 }
 
 std::optional<Index> count_crossings_at(const MeshView& mesh,

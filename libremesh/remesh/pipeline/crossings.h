@@ -6,13 +6,12 @@
 #include "remesh/pipeline/remesh.h"
 
 namespace remesh {
-struct CurveSites;
+struct PlacedMesh;
 }
 
 namespace remesh::detail {
 
 struct CurvedSurface;
-struct PlacedDual;
 struct StageContext;
 
 using FacePairs = std::vector<std::pair<Index, Index>>;
@@ -69,12 +68,12 @@ public:
                    const StageContext& context)
         : curved_(curved), of_input_(of_input), context_(context) {}
 
-    //! Intersecting faces of placed.mesh. Sheets that meet at a junction do not count.
+    //! Intersecting faces. Sheets that meet at a junction do not count.
     //! \return unset without CGAL.
     //! Cost: that of find_self_intersections.
-    [[nodiscard]] std::optional<FacePairs> find(const PlacedDual& placed);
+    [[nodiscard]] std::optional<FacePairs> find(const PlacedMesh& mesh);
     //! Tells which of them are added.
-    [[nodiscard]] CrossingFaces tell_added(const PlacedDual& placed, FacePairs all);
+    [[nodiscard]] CrossingFaces tell_added(const PlacedMesh& mesh, FacePairs all);
 
 private:
     void find_in_input();
@@ -90,8 +89,8 @@ private:
 
 //! Moves vertices of intersecting triangles back onto the surface, in a few rounds.
 //! \return the pairs that still intersect; unset without CGAL.
-std::optional<CrossingFaces> unfit_crossings(CrossingFinder& finder, const CurveSites& curves,
-                                             PlacedDual& placed, RemeshResult& result);
+std::optional<CrossingFaces> unfit_crossings(CrossingFinder& finder, PlacedMesh& mesh,
+                                             RemeshResult& result);
 
 //! The number of intersecting pairs of faces of which at least one is marked.
 //! \param is_marked  #F: other than 0 for marked faces, of which there is one.

@@ -235,12 +235,6 @@ std::unique_ptr<const CurvePlan> plan_curves(const CleanedInput& cleaned, const 
     if (!found.is_seam.empty()) {
         count_seams(cleaned.surface, plan->network, found, result.features);
     }
-    if (plan->network.sites_for_boundary > 0) return plan;
-    // Pass the twins: vertex indices do not show a cut along a single edge, whose two sides have
-    // the same ends.
-    const Surface& cut = plan->network.cut.surface();
-    plan->patches =
-        analyze_topology(cut.mesh.view(), {cut.twin, cut.outgoing}, cleaned_progress(options));
     return plan;
 }
 

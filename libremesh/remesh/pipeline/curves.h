@@ -44,7 +44,6 @@ struct KeptCurves {
 //! A network of curves and the surface cut along it.
 struct CurvePlan {
     NetworkPlan network;
-    Topology patches;                 //!< Of network.cut.surface().
     std::optional<GivenSites> given;  //!< Only with the caller's sites.
 };
 

@@ -41,8 +41,6 @@ Domain prepare_domain(const CleanedInput& cleaned, CurvedSurface curved,
     PreparedSurface prepared(curved.cut(), curved.spacing, options.num_threads, progress,
                              curved.sizes);
     Domain domain{std::move(curved), std::move(prepared)};
-    domain.patch = parts_of_base(domain.prepared.base, domain.plan->patches.face_component,
-                                 progress_at(Stage::Clean, options, 1));
     if (!domain.prepared.base.counts().is_delaunay) refuse_narrow_parts(*domain.whole, cleaned);
     result.refined_faces = domain.base().num_faces();
     return domain;

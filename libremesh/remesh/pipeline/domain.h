@@ -26,8 +26,7 @@ struct CurvedSurface {
 
 //! The same with the base on which propagation runs.
 struct Domain : CurvedSurface {
-    PreparedSurface prepared;       //!< Of cut().
-    std::vector<Index> patch = {};  //!< #F of the base: index into plan->patches.components.
+    PreparedSurface prepared;  //!< Of cut().
 
     //! The surface on which propagation runs.
     [[nodiscard]] const Surface& base() const { return prepared.base.surface(); }

@@ -38,14 +38,14 @@ struct Zone {
 
 class BorderRelaxation {
 public:
-    BorderRelaxation(const CurvedSurface& curved, JoinedMesh& joined, const StageContext& context)
+    BorderRelaxation(const CurvedSurface& curved, PlacedMesh& mesh, const StageContext& context)
         : curved_(curved),
-          mesh_(joined.mesh),
+          mesh_(mesh),
           context_(context),
           is_hard_(mesh_.triangles.size(), 0),
           is_on_edge_(mesh_.points.size(), 0) {
         std::vector<std::uint64_t> hard;
-        for (const auto& [from, to] : joined.hard) {
+        for (const auto& [from, to] : mesh_.hard) {
             hard.push_back(edge_key(from, to));
             is_on_edge_[from] = is_on_edge_[to] = 1;
         }
@@ -181,10 +181,10 @@ private:
 
 }  // namespace
 
-void free_borders(const CurvedSurface& curved, const TileBorders& borders, JoinedMesh& joined,
+void free_borders(const CurvedSurface& curved, const TileBorders& borders, PlacedMesh& mesh,
                   const StageContext& context) {
     const StageClock clock(Stage::Relax, context.result);
-    BorderRelaxation relaxation(curved, joined, context);
+    BorderRelaxation relaxation(curved, mesh, context);
     const std::vector<Index> to_end = relaxation.rings(borders.nodes, rings_of_ends);
     std::vector<Index> middles, ends;
     for (const Index v : borders.vertices) {

@@ -22,7 +22,7 @@ struct TileBorders {
 //! Relaxes the vertices near borders, which are free now, on their triangles, and fits them to the
 //! surface again. Those on curves stay, as do the topology and the number of triangles.
 //! Cost: that of base, labels and fit for the surface within some rings of the borders.
-void free_borders(const CurvedSurface& curved, const TileBorders& borders, JoinedMesh& joined,
+void free_borders(const CurvedSurface& curved, const TileBorders& borders, PlacedMesh& mesh,
                   const StageContext& context);
 
 }  // namespace remesh::detail

@@ -23,13 +23,13 @@ constexpr Index rings_of_places = 8;
 }  // namespace
 
 std::vector<Mobility> find_mobility(const CurvedSurface& curved, const MeshCurves& curves,
-                                    const JoinedMesh& joined) {
-    std::vector<bool> is_on_edge(joined.mesh.points.size(), false);
-    for (const auto& [from, to] : joined.hard) is_on_edge[from] = is_on_edge[to] = true;
+                                    const PlacedMesh& mesh) {
+    std::vector<bool> is_on_edge(mesh.points.size(), false);
+    for (const auto& [from, to] : mesh.hard) is_on_edge[from] = is_on_edge[to] = true;
     std::vector<Mobility> result;
-    result.reserve(joined.mesh.points.size());
-    for (Index v = 0; v < joined.mesh.points.size(); ++v) {
-        const CurvePlace place = curves.place_of(joined.mesh.points[v]);
+    result.reserve(mesh.points.size());
+    for (Index v = 0; v < mesh.points.size(); ++v) {
+        const CurvePlace place = curves.place_of(mesh.points[v]);
         Mobility mobility = place.is_free()           ? Mobility::Free
                             : place.curve != no_index ? Mobility::Boundary
                             : curved.has_locked()     ? Mobility::Fixed
@@ -45,11 +45,10 @@ std::vector<Mobility> find_mobility(const CurvedSurface& curved, const MeshCurve
     return result;
 }
 
-void improve_in_places(const CurvedSurface& curved, JoinedMesh& joined,
-                       const StageContext& context) {
+void improve_in_places(const CurvedSurface& curved, std::span<const std::uint8_t> stays,
+                       PlacedMesh& mesh, const StageContext& context) {
     const StageClock clock(Stage::Place, context.result);
     const MeshCurves curves(*curved.whole, curved.cut(), curved.plan->network.network);
-    PlacedMesh& mesh = joined.mesh;
     std::vector<Index> seeds;
     const auto at = [&](Index v) { return mesh.position(curved.whole->mesh.view(), v); };
     for (const auto& [a, b, c] : mesh.triangles) {
@@ -67,26 +66,26 @@ void improve_in_places(const CurvedSurface& curved, JoinedMesh& joined,
         vertices.insert(vertices.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
     }
     vertices = distinct(std::move(vertices));
-    JoinedMesh part{{take(mesh.points, vertices), take(mesh.offsets, vertices), {}}, {}};
+    PlacedMesh part{take(mesh.points, vertices), take(mesh.offsets, vertices), {}};
     for (const Index t : triangles) {
-        Triangle& made = part.mesh.triangles.emplace_back(mesh.triangles[t]);
+        Triangle& made = part.triangles.emplace_back(mesh.triangles[t]);
         for (Index& v : made) v = rank_of(vertices, v);
     }
-    for (const auto& [from, to] : joined.hard) {
+    for (const auto& [from, to] : mesh.hard) {
         if (ring[from] == no_index || ring[to] == no_index) continue;
         part.hard.emplace_back(rank_of(vertices, from), rank_of(vertices, to));
     }
     std::vector<Mobility> mobility = find_mobility(curved, curves, part);
-    for (const auto& [from, to] : rim_of(part.mesh.triangles)) {
+    for (const auto& [from, to] : rim_of(part.triangles)) {
         part.hard.emplace_back(from, to);
         if (ring[vertices[from]] == rings_of_places) mobility[from] = Mobility::Fixed;
     }
     for (Index i = 0; i < vertices.size(); ++i) {
-        if (!joined.stays.empty() && joined.stays[vertices[i]] != 0) mobility[i] = Mobility::Fixed;
+        if (!stays.empty() && stays[vertices[i]] != 0) mobility[i] = Mobility::Fixed;
     }
-    const std::vector<Index> numbers = repair_shape(
-        curves, mobility, part.hard, part.mesh, progress_at(Stage::Place, context.options, 1),
-        faces_around(curved.cut(), part.mesh.points, 2 * curved.spacing));
+    const std::vector<Index> numbers =
+        repair_shape(curves, mobility, part, progress_at(Stage::Place, context.options, 1),
+                     faces_around(curved.cut(), part.points, 2 * curved.spacing));
     if (numbers.empty()) return;
     // New vertices take the places of those that are gone.
     std::vector<std::uint8_t> is_left(vertices.size(), 0);
@@ -103,8 +102,8 @@ void improve_in_places(const CurvedSurface& curved, JoinedMesh& joined,
             number = gone++;
         }
         place.push_back(vertices[number]);
-        mesh.points[place[i]] = part.mesh.points[i];
-        mesh.offsets[place[i]] = part.mesh.offsets[i];
+        mesh.points[place[i]] = part.points[i];
+        mesh.offsets[place[i]] = part.offsets[i];
     }
     // Along the boundary an edge may have been added, or have gone.
     std::vector<Triangle> all;
@@ -116,46 +115,34 @@ void improve_in_places(const CurvedSurface& curved, JoinedMesh& joined,
             all.push_back(mesh.triangles[t]);
         }
     }
-    for (const auto& [a, b, c] : part.mesh.triangles) all.push_back({place[a], place[b], place[c]});
+    for (const auto& [a, b, c] : part.triangles) all.push_back({place[a], place[b], place[c]});
     mesh.triangles = std::move(all);
-}
-
-JoinedMesh joined_mesh(const PlacedDual& placed) {
-    JoinedMesh result;
-    const GluedMesh& glued = placed.patches->glued;
-    for (const auto& [from, to] : rim_of(placed.mesh.triangles)) {
-        result.hard.emplace_back(glued.vertex[from], glued.vertex[to]);
-    }
-    result.mesh = {take(placed.mesh.points, glued.representative),
-                   take(placed.mesh.offsets, glued.representative), glued.triangles};
-    return result;
 }
 
 bool is_improvable(const CurvedSurface& curved, const RemeshOptions& options) {
     return is_relaxed(options) && !options.sites && !curved.has_junctions();
 }
 
-bool improve(const CurvedSurface& curved, CrossingFinder& finder, JoinedMesh& joined,
+bool improve(const CurvedSurface& curved, CrossingFinder& finder, PlacedMesh& mesh,
              std::optional<CrossingCounts>& crossings, const StageContext& context) {
     const MeshCurves curves(*curved.whole, curved.cut(), curved.plan->network.network);
-    std::vector<Mobility> mobility = find_mobility(curved, curves, joined);
+    std::vector<Mobility> mobility = find_mobility(curved, curves, mesh);
     for (int round = 0; round < most_tries; ++round) {
-        PlacedDual improved{joined.mesh, {}};
-        std::vector<DirectedEdge> hard = joined.hard;
+        PlacedMesh improved = mesh;
         std::vector<Index> numbers;
         {
             const StageClock clock(Stage::Place, context.result);
-            numbers = repair_shape(curves, mobility, hard, improved.mesh,
+            numbers = repair_shape(curves, mobility, improved,
                                    progress_at(Stage::Place, context.options, 1));
         }
         if (numbers.empty()) return false;
         std::optional<FacePairs> pairs = finder.find(improved);
         if (!pairs || pairs->size() <= crossings->all) {
             if (pairs) crossings = finder.tell_added(improved, *std::move(pairs)).counts();
-            joined = {std::move(improved.mesh), std::move(hard)};
+            mesh = std::move(improved);
             return true;
         }
-        for_each_corner(*pairs, improved.mesh.triangles, [&](Index v) {
+        for_each_corner(*pairs, improved.triangles, [&](Index v) {
             const Index before = numbers[v];
             if (before < mobility.size()) mobility[before] = Mobility::Fixed;
         });

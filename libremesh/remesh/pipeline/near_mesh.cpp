@@ -17,7 +17,7 @@ constexpr std::size_t samples_for_each = 32, most_area_samples = 100'000;
 
 }  // namespace
 
-std::optional<double> bring_near(const CurvedSurface& curved, JoinedMesh& joined,
+std::optional<double> bring_near(const CurvedSurface& curved, PlacedMesh& mesh,
                                  const StageContext& context) {
     const auto& [options, result] = context;
     const StageClock clock(Stage::Place, result);
@@ -30,14 +30,14 @@ std::optional<double> bring_near(const CurvedSurface& curved, JoinedMesh& joined
                         .num_threads = options.num_threads};
     limit.points.assign(bound.input.positions.begin(), bound.input.positions.end());
     const AreaSamples samples(bound.input);
-    const auto num_samples = static_cast<Index>(
-        std::min(samples_for_each * joined.mesh.triangles.size(), most_area_samples));
+    const auto num_samples =
+        static_cast<Index>(std::min(samples_for_each * mesh.triangles.size(), most_area_samples));
     for (Index i = 0; i < num_samples; ++i) {
         limit.points.push_back(position(bound.input, samples.at(i, num_samples)));
     }
     const MeshCurves curves(*curved.whole, curved.cut(), curved.plan->network.network);
-    return keep_distance(curves, find_mobility(curved, curves, joined), limit, joined.hard,
-                         joined.mesh, progress_at(Stage::Place, options, 1));
+    return keep_distance(curves, find_mobility(curved, curves, mesh), limit, mesh,
+                         progress_at(Stage::Place, options, 1));
 }
 
 }  // namespace remesh::detail

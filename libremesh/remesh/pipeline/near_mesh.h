@@ -19,7 +19,7 @@ struct DistanceBound {
 //! \param curved  with a bound, and without junctions.
 //! \return the largest distance at the points looked at, mesh units; unset: it is not proved.
 //! Cost: that of keep_distance.
-[[nodiscard]] std::optional<double> bring_near(const CurvedSurface& curved, JoinedMesh& joined,
+[[nodiscard]] std::optional<double> bring_near(const CurvedSurface& curved, PlacedMesh& mesh,
                                                const StageContext& context);
 
 }  // namespace remesh::detail

@@ -17,7 +17,7 @@ PlacedSites place_sites(const Domain& domain, const StageContext& context) {
                              .num_threads = options.num_threads,
                              .progress = progress_of(Stage::Relax, options),
                              .sizes = domain.sizes};
-    const auto& [network, patches, given] = *domain.plan;
+    const auto& [network, given] = *domain.plan;
     const SamplingOptions sampling{.num_samples = options.num_samples,
                                    .init = options.init,
                                    .boundary = options.boundary,
@@ -36,11 +36,6 @@ PlacedSites place_sites(const Domain& domain, const StageContext& context) {
     result.features.vertices = num_result_vertices(network.network, placed.curves);
     result.junctions.vertices = num_junction_vertices(network.network, placed.curves);
     return placed;
-}
-
-Index PlacedSites::num_other_copies(const Domain& domain) const {
-    return static_cast<Index>(curves.sites.size()) -
-           num_result_vertices(domain.plan->network.network, curves);
 }
 
 }  // namespace remesh::detail

@@ -16,10 +16,6 @@ struct PlacedSites {
     std::vector<ChainEdge> chain = {};  //!< Edges along the curves that the dual must have.
     //! On the cleaned surface: see NetworkSites.
     std::vector<SurfacePoint> narrow_points = {};
-
-    //! Copies of sites of curves, the first of each site excluded: they become no vertex of their
-    //! own.
-    [[nodiscard]] Index num_other_copies(const Domain& domain) const;
 };
 
 //! Samples sites or takes the caller's, and relaxes them if the options ask for it.

@@ -21,12 +21,12 @@ struct TileInput {
 //! Locks the vertices that are sites of borders. Cost: O(#V).
 void lock_sites(TileInput& tile);
 
-//! Its mesh.
-struct MeshedTile {
-    JoinedMesh joined;                        //!< On the surface of the tile.
-    std::vector<Index> border_site;           //!< #V: the number of its site; no_index: none.
-    std::vector<DirectedEdge> creases;        //!< Edges along creases, in both directions.
-    std::vector<SurfacePoint> narrow_points;  //!< See PlacedSites.
+//! The mesh of a tile, or of all tiles.
+struct TileMesh {
+    PlacedMesh mesh;
+    std::vector<Index> border_site = {};  //!< #V: the number of its site; no_index: none.
+    //! On the surface of the mesh: see NetworkSites.
+    std::vector<SurfacePoint> narrow_points = {};
 };
 
 //! Runs the stages from sampling to placement.
@@ -34,7 +34,6 @@ struct MeshedTile {
 //! \return nothing: the samples are too few, or there is no mesh that keeps the borders.
 //! \throw InvalidInput  a face is too narrow.
 //! Cost: that of a run.
-[[nodiscard]] std::optional<MeshedTile> mesh_tile(const TileInput& tile,
-                                                  const StageContext& context);
+[[nodiscard]] std::optional<TileMesh> mesh_tile(const TileInput& tile, const StageContext& context);
 
 }  // namespace remesh::detail

@@ -8,25 +8,18 @@
 #include "agvd/core/error.h"
 #include "agvd/core/parallel.h"
 #include "agvd/mesh/surface_points.h"
-#include "remesh/pipeline/build_mesh.h"
 #include "remesh/pipeline/free_borders.h"
-#include "remesh/pipeline/placed_dual.h"
+#include "remesh/pipeline/improvable_mesh.h"
 #include "remesh/pipeline/stage_context.h"
-#include "remesh/pipeline/tile_mesher.h"
 #include "remesh/placement/mesh_curves.h"
 #include "remesh/tiles/tiling.h"
 
 namespace remesh::detail {
 namespace {
 
-// A tile as a mesh.
-struct TileMesh {
-    bool has_mesh = false;
-    PlacedMesh mesh = {};                    // On the whole surface.
-    std::vector<Index> border_site = {};     // #V: its number; no_index: none.
-    std::vector<DirectedEdge> creases = {};  // Edges along creases inside the tile.
-    std::vector<DirectedEdge> rim = {};      // Borders and boundary.
-    std::vector<SurfacePoint> narrow_points = {};
+// A tile on the whole surface, and what its stages told.
+struct MeshedTile {
+    std::optional<TileMesh> made = {};
     RemeshResult told = {};
 };
 
@@ -44,18 +37,19 @@ public:
     }
 
     // \param poller  polled by all threads.
-    [[nodiscard]] TileMesh run(Index number, Poller& poller) const {
-        TileMesh made;
+    [[nodiscard]] MeshedTile run(Index number, Poller& poller) const {
+        MeshedTile tile;
         try {
-            mesh(number, poller, made);
+            tile.made = mesh(number, poller, tile.told);
         } catch (const InvalidInput&) {
-            made.has_mesh = false;  // Cutting left a face too narrow.
+            // Cutting left a face too narrow.
         }
-        return made;
+        return tile;
     }
 
 private:
-    void mesh(Index number, Poller& poller, TileMesh& made) const {
+    [[nodiscard]] std::optional<TileMesh> mesh(Index number, Poller& poller,
+                                               RemeshResult& told) const {
         const Progress progress = poller.progress();
         Tile tile = take_tile(tiling_, faces_[number], Ticker(poller));
         TileInput input{.spacing = curved_.spacing};
@@ -70,19 +64,14 @@ private:
         options.num_samples =
             tiling_.num_inner[number] + static_cast<Index>(input.cleaned.locked.vertices.size());
         if (progress) options.progress = [&](Stage, double) { return progress(0); };
-        made.told.seconds = context_.result.seconds;
-        for (auto& [stage, seconds] : made.told.seconds) seconds = 0;
-        std::optional<MeshedTile> meshed = mesh_tile(input, {options, made.told});
-        if (!meshed) return;
-        made.rim = rim_of(meshed->joined.mesh.triangles);
-        made.creases = std::move(meshed->creases);
-        made.border_site = std::move(meshed->border_site);
-        for (SurfacePoint& point : meshed->joined.mesh.points) point = tile.parts.to_whole(point);
-        made.mesh = std::move(meshed->joined.mesh);
-        for (const SurfacePoint& point : meshed->narrow_points) {
-            made.narrow_points.push_back(tile.parts.to_whole(point));
+        told.seconds = context_.result.seconds;
+        for (auto& [stage, seconds] : told.seconds) seconds = 0;
+        std::optional<TileMesh> made = mesh_tile(input, {options, told});
+        if (!made) return made;
+        for (auto* points : {&made->mesh.points, &made->narrow_points}) {
+            for (SurfacePoint& point : *points) point = tile.parts.to_whole(point);
         }
-        made.has_mesh = true;
+        return made;
     }
 
     // Locks the edges of borders of a tile, and marks its creases.
@@ -121,19 +110,19 @@ std::vector<std::uint8_t> mark_creases(const CurvedSurface& curved) {
 }
 
 // Joins the meshes of the tiles: sites of borders become one vertex.
-JoinedMesh join(const CurvedSurface& curved, std::vector<TileMesh>& tiles, Index num_sites,
+PlacedMesh join(const CurvedSurface& curved, std::vector<MeshedTile>& tiles, Index num_sites,
                 TileBorders& borders) {
     PlacedMesh all;
     std::vector<Index> group;
-    std::vector<DirectedEdge> hard, rim;
     std::vector<Index> num_tiles_at(num_sites, 0);
     Index next = num_sites;
-    for (TileMesh& tile : tiles) {
+    for (MeshedTile& meshed : tiles) {
+        TileMesh& tile = *meshed.made;
         const auto first = static_cast<Index>(all.points.size());
         for (const Index site : tile.border_site) group.push_back(site != no_index ? site : next++);
-        std::vector<Index> sites = distinct(tile.border_site);
-        if (!sites.empty() && sites.back() == no_index) sites.pop_back();
-        for (const Index site : sites) ++num_tiles_at[site];
+        for (const Index site : distinct(tile.border_site)) {
+            if (site != no_index) ++num_tiles_at[site];
+        }
         const auto append = [](auto& some, auto& more) {
             some.insert(some.end(), more.begin(), more.end());
         };
@@ -142,31 +131,27 @@ JoinedMesh join(const CurvedSurface& curved, std::vector<TileMesh>& tiles, Index
         for (const auto& [a, b, c] : tile.mesh.triangles) {
             all.triangles.push_back({first + a, first + b, first + c});
         }
-        for (const auto& [from, to] : tile.creases) hard.emplace_back(first + from, first + to);
-        for (const auto& [from, to] : tile.rim) rim.emplace_back(first + from, first + to);
+        for (const auto& [a, b] : tile.mesh.hard) all.hard.emplace_back(first + a, first + b);
         tile.mesh = {};
     }
+    (void)flip_repeated(all.triangles, group);
     GluedMesh glued = glue(all.triangles, group);
-    const auto to_glued = [&](DirectedEdge& edge) {
-        edge = {glued.vertex[edge.first], glued.vertex[edge.second]};
-    };
-    std::ranges::for_each(hard, to_glued);
-    JoinedMesh joined{{agvd::take(all.points, glued.representative),
-                       agvd::take(all.offsets, glued.representative), std::move(glued.triangles)},
-                      std::move(hard)};
-    for (Index v = 0; v < glued.representative.size(); ++v) {
-        const Index site = group[glued.representative[v]];
+    PlacedMesh joined{take(all.points, glued.first), take(all.offsets, glued.first),
+                      std::move(glued.triangles)};
+    for (Index v = 0; v < glued.first.size(); ++v) {
+        const Index site = group[glued.first[v]];
         if (site >= num_sites) continue;
         borders.vertices.push_back(v);
         if (num_tiles_at[site] > 2) borders.nodes.push_back(v);
     }
-    const std::vector<DirectedEdge> boundary = rim_of(joined.mesh.triangles);
+    // Borders become free where they are no curves.
+    const std::vector<DirectedEdge> boundary = rim_of(joined.triangles);
     const MeshCurves curves(*curved.whole, curved.cut(), curved.plan->network.network);
-    for (DirectedEdge& edge : rim) {
-        to_glued(edge);
+    const auto place = [&](Index v) { return curves.place_of(joined.points[v]); };
+    for (const auto& [a, b] : all.hard) {
+        const DirectedEdge edge{glued.vertex[a], glued.vertex[b]};
         if (std::ranges::binary_search(boundary, edge) ||
-            curves.are_on_crease(curves.place_of(joined.mesh.points[edge.first]),
-                                 curves.place_of(joined.mesh.points[edge.second]))) {
+            curves.are_on_crease(place(edge.first), place(edge.second))) {
             joined.hard.push_back(edge);
         }
     }
@@ -192,7 +177,7 @@ void add_told(const RemeshResult& tile, double share, RemeshResult& sum) {
         sum.seconds[i].second += share * tile.seconds[i].second;
     }
     sum.refined_faces += tile.refined_faces;
-    sum.features.simplified_patches += tile.features.simplified_patches;
+    sum.dual.add(tile.dual);
     sum.features.dropped_length += tile.features.dropped_length;
     sum.features.length -= tile.features.dropped_length;
     for (Index DelaunayCounts::*count :
@@ -220,7 +205,7 @@ bool is_tiled(const CurvedSurface& curved, const RemeshOptions& options) {
            !std::holds_alternative<MaxDistance>(options.sizing.count);
 }
 
-std::optional<TiledMesh> mesh_tiles(const CurvedSurface& curved, const StageContext& context) {
+std::optional<TileMesh> mesh_in_tiles(const CurvedSurface& curved, const StageContext& context) {
     const RemeshOptions& options = context.options;
     RemeshResult& result = context.result;
     const std::vector<std::uint8_t> is_crease = mark_creases(curved);
@@ -237,7 +222,7 @@ std::optional<TiledMesh> mesh_tiles(const CurvedSurface& curved, const StageCont
             return std::nullopt;
         }
     }
-    std::vector<TileMesh> tiles(tiling.num_tiles);
+    std::vector<MeshedTile> tiles(tiling.num_tiles);
     std::atomic<Index> num_done = 0;
     const Progress progress = [&](double) {
         return !options.progress ||
@@ -256,34 +241,35 @@ std::optional<TiledMesh> mesh_tiles(const CurvedSurface& curved, const StageCont
             poller);
     }
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
-    if (!std::ranges::all_of(tiles, &TileMesh::has_mesh)) return std::nullopt;
+    if (!std::ranges::all_of(tiles, [](const auto& tile) { return tile.made.has_value(); })) {
+        return std::nullopt;
+    }
     double seconds = 0;
-    for (const TileMesh& tile : tiles) {
+    for (const MeshedTile& tile : tiles) {
         for (const auto& [stage, of_stage] : tile.told.seconds) seconds += of_stage;
     }
-    TiledMesh made;
-    made.num_tiles = tiling.num_tiles;
+    TileMesh all;
+    result.tiles = tiling.num_tiles;
     result.refined_faces = 0;
     result.certified_error = 0;
+    result.dual = {};
     result.relaxation.clear();
-    for (const TileMesh& tile : tiles) {
+    for (const MeshedTile& tile : tiles) {
         add_told(tile.told, spent.count() / seconds, result);
-        made.narrow_points.insert(made.narrow_points.end(), tile.narrow_points.begin(),
-                                  tile.narrow_points.end());
+        all.narrow_points.insert(all.narrow_points.end(), tile.made->narrow_points.begin(),
+                                 tile.made->narrow_points.end());
     }
     const StageClock clock(Stage::Place, result);
     const Index num_sites = tiling.borders.num_sites;
     tiling = {};
     TileBorders borders;
-    JoinedMesh joined = join(curved, tiles, num_sites, borders);
+    all.mesh = join(curved, tiles, num_sites, borders);
     std::vector<Index> on_curves;
-    for (const auto& [from, to] : joined.hard) on_curves.push_back(from);
+    for (const auto& [from, to] : all.mesh.hard) on_curves.push_back(from);
     result.features.vertices = static_cast<Index>(distinct(std::move(on_curves)).size());
-    free_borders(curved, borders, joined, context);
-    improve_in_places(curved, joined, context);
-    made.num_vertices = static_cast<Index>(joined.mesh.points.size());
-    made.mesh = std::move(joined.mesh);
-    return made;
+    free_borders(curved, borders, all.mesh, context);
+    improve_in_places(curved, {}, all.mesh, context);
+    return all;
 }
 
 }  // namespace remesh::detail

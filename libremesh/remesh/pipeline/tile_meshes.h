@@ -3,28 +3,18 @@
 #pragma once
 
 #include "remesh/pipeline/domain.h"
-#include "remesh/pipeline/improvable_mesh.h"
-#include "remesh/pipeline/remesh.h"
+#include "remesh/pipeline/tile_mesher.h"
 
 namespace remesh::detail {
 
 //! Whether a run is made in tiles.
 [[nodiscard]] bool is_tiled(const CurvedSurface& curved, const RemeshOptions& options);
 
-//! The mesh of all tiles.
-struct TiledMesh {
-    PlacedMesh mesh;
-    Index num_vertices = 0;
-    Index num_tiles = 0;
-    //! On the cleaned surface: see NetworkSites.
-    std::vector<SurfacePoint> narrow_points = {};
-};
-
 //! Divides the surface into tiles and meshes them side by side. Adds what the stages tell of each
 //! tile to the result.
 //! \return unset: a tile has no mesh with so few vertices, or is too narrow to be cut.
 //! Cost: that of the stages. In memory are the tiles in work, one for each thread.
-[[nodiscard]] std::optional<TiledMesh> mesh_tiles(const CurvedSurface& curved,
-                                                  const StageContext& context);
+[[nodiscard]] std::optional<TileMesh> mesh_in_tiles(const CurvedSurface& curved,
+                                                    const StageContext& context);
 
 }  // namespace remesh::detail

@@ -3,15 +3,14 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "agvd/core/progress.h"
 #include "agvd/mesh/closest_point.h"
-#include "remesh/placement/edited_mesh.h"
+#include "remesh/placement/changed_faces.h"
+#include "remesh/placement/far_points.h"
 
 namespace remesh::detail {
 
@@ -46,60 +45,51 @@ public:
           least_(least),
           gap_(mesh.num_faces()),
           points_at_(mesh.num_faces()) {
-        TriangleMesh faces;
-        for (Index f = 0; f < mesh.num_faces(); ++f) {
-            const auto first = static_cast<Index>(faces.positions.size());
-            for (const Vec3& at : mesh.corners_of(f)) faces.positions.push_back(at);
-            faces.triangles.push_back({first, first + 1, first + 2});
-            gap_[f] = gap_of_face(f, infinity);
-        }
-        const ClosestPointTree tree(faces.view());
+        const std::vector<Index> faces = mesh.faces();
+        for (const Index f : faces) gap_[f] = gap_of_face(f, infinity);
+        const ClosestPointTree tree(mesh_of(mesh, faces));
         for (const Vec3& point : points) {
             ticker.tick(query_steps);
             const ClosestPoint nearest = tree.query(point);
-            const Index f = nearest.point.face.value();
-            gap_[f].widen(nearest.position, point);
-            points_at_[f].push_back(point);
+            add({faces[nearest.point.face.value()], nearest.position, point, true});
         }
     }
 
     //! The largest gap of a face.
     [[nodiscard]] const Gap& gap_at(Index f) const { return gap_[f]; }
-    //! A larger gap that is known, until the face changes.
-    void widen(Index f, const Vec3& on_mesh, const Vec3& on_input) {
-        gap_[f].widen(on_mesh, on_input);
-    }
-    //! One more point of the input, with its nearest face and the point there.
-    void add_point(Index f, const Vec3& on_mesh, const Vec3& point) {
-        gap_[f].widen(on_mesh, point);
-        points_at_[f].push_back(point);
+    //! A gap that was found elsewhere. One of a point of a face is known until the face changes, a
+    //! point of the input is compared with edited faces from now on.
+    void add(const FarPair& far) {
+        gap_[far.face].widen(far.on_mesh, far.on_input);
+        if (far.is_of_input) points_at_[far.face].push_back(far.on_input);
     }
 
     //! Measures changed faces.
     //! \param changed  each once, also those that are no longer there.
     //! \return the largest gap and its face; the first one above `most` if there is one.
     [[nodiscard]] std::pair<Index, Gap> measure(std::span<const Index> changed, double most) {
-        found_.clear();
+        faces_.set(mesh_, changed);
         points_.clear();
-        for (const Index f : changed) {
-            if (mesh_.face(f).is_there) found_.push_back({f, mesh_.corners_of(f), {}, {}});
-        }
-        for (Found& f : found_) {
-            for (const Vec3& corner : f.corners) f.box.add(corner);
-        }
-        std::pair<Index, Gap> largest{no_index, {}};
+        now_.resize(mesh_.num_faces());
+        for (const Index f : changed) now_[f] = {};
         for (const Index f : changed) {
             if (f >= points_at_.size()) continue;
             for (const Vec3& point : points_at_[f]) {
-                const Found* nearest = assign(point);
-                if (nearest == nullptr) return {f, {point, Vec3::Zero(), infinity}};
-                if (nearest->gap.distance > most) return {nearest->face, nearest->gap};
+                const ClosestPoint nearest =
+                    faces_.nearest(point, [](const auto&) { return true; });
+                if (!nearest.point.face.is_valid()) return {f, {point, Vec3::Zero(), infinity}};
+                const Index face = nearest.point.face.value();
+                points_.emplace_back(face, point);
+                now_[face].widen(nearest.position, point);
+                if (now_[face].distance > most) return {face, now_[face]};
             }
         }
-        for (Found& f : found_) {
-            const Gap gap = gap_of_face(f.face, most);
-            if (gap.distance > f.gap.distance) f.gap = gap;
-            if (f.gap.distance > largest.second.distance) largest = {f.face, f.gap};
+        std::pair<Index, Gap> largest{no_index, {}};
+        for (const ChangedFaces::Face& face : faces_.faces()) {
+            const Index f = face.number;
+            const Gap gap = gap_of_face(f, most);
+            if (gap.distance > now_[f].distance) now_[f] = gap;
+            if (now_[f].distance > largest.second.distance) largest = {f, now_[f]};
             if (gap.distance > most) break;
         }
         return largest;
@@ -110,24 +100,15 @@ public:
         gap_.resize(mesh_.num_faces());
         for (const Index f : changed) {
             points_at_[f].clear();
-            gap_[f] = {};
+            gap_[f] = now_[f];
         }
-        for (const Found& f : found_) gap_[f.face] = f.gap;
         for (const auto& [f, point] : points_) points_at_[f].push_back(point);
     }
 
 private:
-    static constexpr double infinity = std::numeric_limits<double>::infinity();
     static constexpr std::size_t query_steps = 64;
     // A face is measured at its corners and at the points between that divide its sides so often.
     static constexpr int rows = 4;
-
-    struct Found {
-        Index face;
-        std::array<Vec3, 3> corners;
-        MeshBox box;
-        Gap gap;
-    };
 
     // At points of the face. Ends early above `most`.
     [[nodiscard]] Gap gap_of_face(Index f, double most) {
@@ -151,25 +132,6 @@ private:
         }
         return gap;
     }
-    // Finds the nearest changed face of a point; null: there is none.
-    Found* assign(const Vec3& point) {
-        ClosestPoint closest;
-        closest.distance_sq = infinity;
-        Found* nearest = nullptr;
-        for (Found& f : found_) {
-            const double least =
-                (point - point.cwiseMax(f.box.low).cwiseMin(f.box.high)).squaredNorm();
-            if (least >= closest.distance_sq) continue;
-            const ClosestPoint here = closest_point_on_triangle(f.corners, FaceId(f.face), point);
-            if (here.distance_sq >= closest.distance_sq) continue;
-            closest = here;
-            nearest = &f;
-        }
-        if (nearest == nullptr) return nullptr;
-        nearest->gap.widen(closest.position, point);
-        points_.emplace_back(nearest->face, point);
-        return nearest;
-    }
 
     const EditedMesh& mesh_;
     const ClosestPointTree& input_;
@@ -180,8 +142,9 @@ private:
     // By face: what gap_of_face() has found last, and for which corners.
     std::vector<std::pair<std::array<Vec3, 3>, Gap>> measured_;
     // What measure() has found.
-    std::vector<Found> found_;
-    std::vector<std::pair<Index, Vec3>> points_;
+    ChangedFaces faces_;
+    std::vector<Gap> now_;                        // By face: of those changed.
+    std::vector<std::pair<Index, Vec3>> points_;  // With the faces nearest to them.
 };
 
 }  // namespace remesh::detail

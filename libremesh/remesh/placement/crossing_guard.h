@@ -76,7 +76,6 @@ public:
 
 private:
     using Pairs = std::set<std::pair<Index, Index>>;
-    using Corners = std::array<Vec3, 3>;
     // Faces over more cells are listed apart.
     static constexpr double most_cells = 64;
 
@@ -117,35 +116,31 @@ private:
             near.resize(mesh_.num_faces());
             std::iota(near.begin(), near.end(), Index{0});
         }
-        std::sort(near.begin(), near.end());
-        near.erase(std::unique(near.begin(), near.end()), near.end());
-        return near;
+        return distinct(std::move(near));
     }
     // Faces that intersect one, each once.
     [[nodiscard]] std::vector<Index> faces_through(Index f) const {
-        const Corners corners = mesh_.corners_of(f);
         const MeshBox box = mesh_.box_of(f);
         std::vector<Index> found = faces_near(box);
         std::erase_if(found, [&](Index g) {
             if (g == f || !mesh_.face(g).is_there) return true;
-            return !box.meets(mesh_.box_of(g)) || !do_cross(f, corners, g, mesh_.corners_of(g));
+            return !box.meets(mesh_.box_of(g)) || !do_cross(f, g);
         });
         return found;
     }
-    [[nodiscard]] bool do_cross(Index f, const Corners& at_f, Index g, const Corners& at_g) const {
-        const Triangle &s = mesh_.face(f).corner, &t = mesh_.face(g).corner;
-        const auto shares = [](const Triangle& of, Index v) {
-            return v == of[0] || v == of[1] || v == of[2];
-        };
-        if (shares(t, s[0]) + shares(t, s[1]) + shares(t, s[2]) > 1) return false;
+    [[nodiscard]] bool do_cross(Index f, Index g) const {
+        const auto is_common = [&](Index v) { return mesh_.has_corner(g, v); };
+        return std::ranges::count_if(mesh_.face(f).corner, is_common) < 2 &&
+               (has_edge_through(f, g) || has_edge_through(g, f));
+    }
+    // Whether an edge of f that has no corner of g passes through g.
+    [[nodiscard]] bool has_edge_through(Index f, Index g) const {
+        const Triangle& t = mesh_.face(f).corner;
+        const std::array<Vec3, 3> corners = mesh_.corners_of(g);
         for (std::size_t k = 0; k < 3; ++k) {
-            const std::size_t next = (k + 1) % 3;
-            if (!shares(t, s[k]) && !shares(t, s[next]) &&
-                passes_through(at_f[k], at_f[next], at_g)) {
-                return true;
-            }
-            if (!shares(s, t[k]) && !shares(s, t[next]) &&
-                passes_through(at_g[k], at_g[next], at_f)) {
+            const Index from = t[k], to = t[(k + 1) % 3];
+            if (!mesh_.has_corner(g, from) && !mesh_.has_corner(g, to) &&
+                passes_through(mesh_.at(from), mesh_.at(to), corners)) {
                 return true;
             }
         }

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <optional>
 #include <span>
 #include <tuple>
 #include <vector>
@@ -13,7 +11,7 @@
 #include "agvd/mesh/closest_point.h"
 #include "agvd/mesh/surface.h"
 #include "agvd/mesh/topology.h"
-#include "remesh/placement/edited_mesh.h"
+#include "remesh/placement/changed_faces.h"
 
 namespace remesh::detail {
 
@@ -49,7 +47,7 @@ public:
         const FaceLabels parts = label_components(surface.twin);
         add_samples(surface, near, parts.of_face);
         std::vector<std::vector<Index>> faces(parts.count);
-        for (Index f = 0; f < mesh.num_faces(); ++f) {
+        for (const Index f : mesh.faces()) {
             const Index v = mesh.face(f).corner[0];
             faces[parts.of_face[mesh.face_of_surface(v).value()]].push_back(f);
         }
@@ -73,12 +71,7 @@ public:
     //! Cost: O(#samples #changed).
     [[nodiscard]] bool accepts(std::span<const Index> changed, double worth) {
         found_.clear();
-        boxed_.clear();
-        for (const Index f : changed) {
-            if (!mesh_.face(f).is_there) continue;
-            const auto corners = mesh_.corners_of(f);
-            boxed_.push_back({f, corners, mesh_.box_of(f), normal_of(corners)});
-        }
+        changed_.set(mesh_, changed);
         double growth = 0, most_before = 0, most_now = 0;
         for (const Index f : changed) {
             if (f >= samples_at_.size()) continue;
@@ -131,16 +124,7 @@ private:
         Index sample, face;
         double distance_sq;
     };
-    struct BoxedFace {
-        Index face;
-        std::array<Vec3, 3> corners;
-        MeshBox box;
-        Vec3 normal;
-    };
     static double squared(double x) { return x * x; }
-    static Vec3 normal_of(const std::array<Vec3, 3>& corners) {
-        return (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-    }
 
     // Points that divide faces evenly, and vertices: tips are among these.
     void add_samples(const Surface& surface, std::span<const Index> near,
@@ -162,7 +146,7 @@ private:
         for_each_face([&](Index f) {
             const auto& [a, b, c] = surface.mesh.triangles[f];
             const double own = face_area(surface, f);
-            const Vec3 normal = normal_of({p[a], p[b], p[c]});
+            const Vec3 normal = doubled_normal(p, surface.mesh.triangles[f]);
             for (const Index v : {a, b, c}) {
                 around[v] += own / 3;
                 normal_at[v] += normal;
@@ -189,8 +173,8 @@ private:
         const Vec3 room = Vec3::Constant(largest * mesh_.mean_length());
         box_ = {};
         double area = 0;
-        for (Index f = 0; f < mesh_.num_faces(); ++f) {
-            area += normal_of(mesh_.corners_of(f)).norm() / 2;
+        for (const Index f : mesh_.faces()) {
+            area += mesh_.normal_of(f).norm() / 2;
             box_.add(mesh_.box_of(f));
         }
         box_ = {box_.low - room, box_.high + room};
@@ -220,17 +204,11 @@ private:
     Index assign_like(Index begin, std::vector<Index> faces) {
         const Index part = samples_[begin].part;
         const Side side = samples_[begin].side;
-        const auto is_seen = [&](Index f) { return side.sees(normal_of(mesh_.corners_of(f))); };
+        const auto is_seen = [&](Index f) { return side.sees(mesh_.normal_of(f)); };
         if (std::any_of(faces.begin(), faces.end(), is_seen)) {
             std::erase_if(faces, [&](Index f) { return !is_seen(f); });
         }
-        TriangleMesh candidates;
-        for (const Index f : faces) {
-            const auto first = static_cast<Index>(candidates.positions.size());
-            for (const Vec3& at : mesh_.corners_of(f)) candidates.positions.push_back(at);
-            candidates.triangles.push_back({first, first + 1, first + 2});
-        }
-        const ClosestPointTree tree(candidates.view());
+        const ClosestPointTree tree(mesh_of(mesh_, faces));
         Index i = begin;
         for (; i < samples_.size(); ++i) {
             Sample& sample = samples_[i];
@@ -256,23 +234,16 @@ private:
         }
         return !is_inside;
     }
-    // The nearest of the faces in boxed_.
+    // The nearest of the changed faces.
     [[nodiscard]] Found find_nearest(Index sample) const {
-        const auto is_seen = [&](const BoxedFace& f) {
+        const auto is_seen = [&](const ChangedFaces::Face& f) {
             return samples_[sample].side.sees(f.normal);
         };
-        const bool is_any_seen = std::any_of(boxed_.begin(), boxed_.end(), is_seen);
-        const Vec3& at = samples_[sample].at;
-        Found nearest{sample, no_index, std::numeric_limits<double>::infinity()};
-        for (const BoxedFace& f : boxed_) {
-            if (is_any_seen && !is_seen(f)) continue;
-            const double least = (at - at.cwiseMax(f.box.low).cwiseMin(f.box.high)).squaredNorm();
-            if (least >= nearest.distance_sq) continue;
-            const double distance_sq =
-                closest_point_on_triangle(f.corners, FaceId(f.face), at).distance_sq;
-            if (distance_sq < nearest.distance_sq) nearest = {sample, f.face, distance_sq};
-        }
-        return nearest;
+        const bool is_any_seen = std::ranges::any_of(changed_.faces(), is_seen);
+        const ClosestPoint nearest = changed_.nearest(
+            samples_[sample].at,
+            [&](const ChangedFaces::Face& f) { return !is_any_seen || is_seen(f); });
+        return {sample, nearest.point.face.value(), nearest.distance_sq};
     }
 
     const EditedMesh& mesh_;
@@ -283,7 +254,7 @@ private:
     // What accepts() has found.
     double from_budget_ = 0;
     std::vector<Found> found_;
-    std::vector<BoxedFace> boxed_;
+    ChangedFaces changed_;
 };
 
 }  // namespace remesh::detail

@@ -3,21 +3,14 @@
 #pragma once
 
 #include <algorithm>
-#include <span>
+#include <optional>
 #include <vector>
 
 #include "agvd/core/parallel.h"
-#include "remesh/placement/edited_mesh.h"
+#include "remesh/placement/changed_faces.h"
 #include "remesh/placement/far_points.h"
 
 namespace remesh::detail {
-
-//! A point of a face, or of the input, that is too far.
-struct FarPair {
-    Index face;  //!< Of the edited mesh.
-    Vec3 on_mesh, on_input;
-    bool is_of_input;  //!< Which of both is nearest to the other one.
-};
 
 //! Remembers which faces of both surfaces are proved: later only those that changed, and those of
 //! the input beside them, are looked at.
@@ -40,17 +33,14 @@ public:
         std::vector<Index> changed;
         const TriangleMesh gone = take_changes(changed);
         if (!gone.triangles.empty()) open_beside(gone);
-        const TriangleMesh edited = soup_of(changed);
+        const TriangleMesh edited = mesh_of(mesh_, changed);
         for (const auto& [i, far] :
              find_far_faces(edited.view(), input_, limit_, num_threads_, poller_)) {
             all.push_back({changed[i], far.at, far.nearest.position, false});
-            seen_[changed[i]].is_there = false;  // It is looked at again.
+            seen_[changed[i]].reset();  // It is looked at again.
         }
-        std::vector<Index> faces;
-        for (Index f = 0; f < mesh_.num_faces(); ++f) {
-            if (mesh_.face(f).is_there) faces.push_back(f);
-        }
-        const TriangleMesh mesh = soup_of(faces);
+        const std::vector<Index> faces = mesh_.faces();
+        const TriangleMesh mesh = mesh_of(mesh_, faces);
         const ClosestPointTree tree(mesh.view(), poller_.progress());
         std::vector<Index> open;
         std::vector<Triangle> triangles;
@@ -71,40 +61,20 @@ public:
     }
 
 private:
-    struct Seen {
-        std::array<Vec3, 3> corners;
-        bool is_there = false;
-    };
-
-    [[nodiscard]] static TriangleMesh soup(std::span<const std::array<Vec3, 3>> faces) {
-        TriangleMesh mesh;
-        for (const auto& corners : faces) {
-            const auto first = static_cast<Index>(mesh.positions.size());
-            mesh.positions.insert(mesh.positions.end(), corners.begin(), corners.end());
-            mesh.triangles.push_back({first, first + 1, first + 2});
-        }
-        return mesh;
-    }
-    [[nodiscard]] TriangleMesh soup_of(std::span<const Index> faces) const {
-        std::vector<std::array<Vec3, 3>> corners;
-        corners.reserve(faces.size());
-        for (const Index f : faces) corners.push_back(mesh_.corners_of(f));
-        return soup(corners);
-    }
     // \param[out] changed  the faces that are not as they were seen last.
     // \return what was there in place of them.
     TriangleMesh take_changes(std::vector<Index>& changed) {
         std::vector<std::array<Vec3, 3>> gone;
         seen_.resize(mesh_.num_faces());
         for (Index f = 0; f < mesh_.num_faces(); ++f) {
-            Seen& seen = seen_[f];
-            const bool is_there = mesh_.face(f).is_there;
-            if (is_there && seen.is_there && seen.corners == mesh_.corners_of(f)) continue;
-            if (seen.is_there) gone.push_back(seen.corners);
-            if (is_there) changed.push_back(f);
-            seen = {mesh_.corners_of(f), is_there};
+            std::optional<std::array<Vec3, 3>> now;
+            if (mesh_.face(f).is_there) now = mesh_.corners_of(f);
+            if (now == seen_[f]) continue;
+            if (now) changed.push_back(f);
+            if (seen_[f]) gone.push_back(*seen_[f]);
+            seen_[f] = now;
         }
-        return soup(gone);
+        return mesh_of(gone);
     }
     // Opens the faces of the input that faces which are gone may have been near enough to.
     void open_beside(const TriangleMesh& gone) {
@@ -130,7 +100,8 @@ private:
     double limit_;
     int num_threads_;
     Poller& poller_;
-    std::vector<Seen> seen_;             // By face: at the last proof.
+    // By face: its corners at the last proof; unset: it was not there, or not near enough.
+    std::vector<std::optional<std::array<Vec3, 3>>> seen_;
     std::vector<std::uint8_t> is_open_;  // By face of the input: 1 if it is not proved.
 };
 

@@ -29,7 +29,7 @@ namespace remesh::detail {
 class EditedMesh : private FanMesh {
 public:
     using FanMesh::changed_since, FanMesh::face, FanMesh::Face, FanMesh::faces_at,
-        FanMesh::num_faces, FanMesh::num_vertices;
+        FanMesh::has_corner, FanMesh::num_faces, FanMesh::num_vertices;
 
     //! A state to which edits can be undone.
     struct Mark : FanMesh::Mark {
@@ -38,10 +38,7 @@ public:
 
     //! \param curves    outlives this.
     //! \param mobility  #V. Free ones lie on no curve.
-    //! \param hard      edges along curves, in one direction or both: never flipped; they must
-    //!                  include all edges of a single face.
-    EditedMesh(const MeshCurves& curves, const PlacedMesh& mesh, std::span<const Mobility> mobility,
-               std::span<const DirectedEdge> hard)
+    EditedMesh(const MeshCurves& curves, const PlacedMesh& mesh, std::span<const Mobility> mobility)
         : FanMesh(mesh.triangles, static_cast<Index>(mesh.points.size())),
           curves_(curves),
           surface_(curves.surface()),
@@ -61,15 +58,10 @@ public:
         for (Index h = 0; h < 3 * num_faces(); ++h)
             mean_length_ += (at(tail(h)) - at(head(h))).norm();
         mean_length_ /= 3 * static_cast<double>(std::max<std::size_t>(mesh.triangles.size(), 1));
-        std::vector<DirectedEdge> edges(hard.begin(), hard.end());
-        for (const auto& [from, to] : hard) edges.emplace_back(to, from);
-        std::sort(edges.begin(), edges.end());
-        for (Index h = 0; h < 3 * num_faces(); ++h) {
-            const Index a = tail(h), b = head(h);
-            if (!std::binary_search(edges.begin(), edges.end(), DirectedEdge(a, b))) continue;
+        label_edges(mesh.hard, [&](Index a, Index b) {
             const Index curve = curves.curve_between(vertices_[a].place, vertices_[b].place);
-            put_label(h, curve == no_index ? unknown_curve : curve);
-        }
+            return curve == no_index ? unknown_curve : curve;
+        });
         for (Index f = 0; f < num_faces(); ++f) measure(f);
         forget();
     }
@@ -80,10 +72,20 @@ public:
         const auto& [a, b, c] = face(f).corner;
         return {at(a), at(b), at(c)};
     }
+    //! Twice its area long.
+    [[nodiscard]] Vec3 normal_of(Index f) const { return normal_of(face(f).corner); }
     [[nodiscard]] MeshBox box_of(Index f) const {
         MeshBox box;
         for (const Vec3& at : corners_of(f)) box.add(at);
         return box;
+    }
+    //! Those that are there, ascending.
+    [[nodiscard]] std::vector<Index> faces() const {
+        std::vector<Index> result;
+        for (Index f = 0; f < num_faces(); ++f) {
+            if (face(f).is_there) result.push_back(f);
+        }
+        return result;
     }
     [[nodiscard]] Mobility mobility(Index v) const { return vertices_[v].mobility; }
     [[nodiscard]] double worst_at(Index v) const {
@@ -210,7 +212,7 @@ public:
         vertices_.resize(mark.num_vertices);
     }
 
-    //! The mesh without removed faces and vertices.
+    //! The mesh without removed faces and vertices. Its hard edges come once for each side.
     //! \param[out] numbers  by vertex of the result: its number here.
     [[nodiscard]] PlacedMesh result(std::vector<Index>& numbers) const {
         PlacedMesh mesh{{}, {}, triangles()};
@@ -219,19 +221,11 @@ public:
             mesh.points.push_back(vertices_[v].point);
             mesh.offsets.push_back(vertices_[v].offset);
         }
-        return mesh;
-    }
-    //! The edges along curves, once for each side.
-    //! \param numbers  of result().
-    [[nodiscard]] std::vector<DirectedEdge> hard_edges(std::span<const Index> numbers) const {
-        std::vector<DirectedEdge> hard;
-        for (Index f = 0; f < num_faces(); ++f) {
-            for (Index h = 3 * f; face(f).is_there && h < 3 * f + 3; ++h) {
-                if (!is_hard(h)) continue;
-                hard.emplace_back(rank_of(numbers, tail(h)), rank_of(numbers, head(h)));
-            }
+        for (Index h = 0; h < 3 * num_faces(); ++h) {
+            if (!face(h / 3).is_there || !is_hard(h)) continue;
+            mesh.hard.emplace_back(rank_of(numbers, tail(h)), rank_of(numbers, head(h)));
         }
-        return hard;
+        return mesh;
     }
 
 private:
@@ -278,9 +272,7 @@ private:
         return shape_quality(at(a), at(b), at(c)) - (is_turned ? 1 : 0);
     }
     [[nodiscard]] Index worst_face_at(Index v) const {
-        return *std::min_element(faces_at(v).begin(), faces_at(v).end(), [&](Index f, Index g) {
-            return face(f).quality < face(g).quality;
-        });
+        return *std::ranges::min_element(faces_at(v), {}, [&](Index f) { return face(f).quality; });
     }
     // Whether a face has a better shape with a corner at a position.
     [[nodiscard]] bool is_better(Index f, Index v, const Vec3& position, double than) const {
@@ -301,12 +293,12 @@ private:
     bool replace(Index v, Vertex vertex, const Check& is_fine) {
         locate(vertex);
         std::vector<Vec3> normals;
-        for (const Index f : faces_at(v)) normals.push_back(normal_of(face(f).corner));
+        for (const Index f : faces_at(v)) normals.push_back(normal_of(f));
         std::swap(vertices_[v], vertex);
         bool is_kept = is_fine();
         for (std::size_t i = 0; i < normals.size() && is_kept; ++i) {
             const Index f = faces_at(v)[i];
-            is_kept = is_gentle(f, normals[i], normal_of(face(f).corner));
+            is_kept = is_gentle(f, normals[i], normal_of(f));
         }
         std::swap(vertices_[v], vertex);
         if (!is_kept) return false;
@@ -352,7 +344,7 @@ private:
             if (has_corner(f, into)) return true;
             Triangle moved = face(f).corner;
             std::replace(moved.begin(), moved.end(), gone, into);
-            return is_gentle(f, normal_of(face(f).corner), normal_of(moved));
+            return is_gentle(f, normal_of(f), normal_of(moved));
         });
     }
     // For a vertex on a curve: whether it goes along it, no triangle of the rim alone would be

@@ -110,20 +110,13 @@ std::vector<std::pair<Index, FarPoint>> find_far_faces(const MeshView& mesh,
                                                        const SearchedMesh& other, double limit,
                                                        int num_threads, Poller& poller) {
     const auto count = static_cast<Index>(mesh.triangles.size());
-    std::vector<std::vector<std::pair<Index, FarPoint>>> chunks(num_chunks(count, face_grain));
-    parallel_chunks(
-        count, face_grain, num_threads,
-        [&](Index chunk, Index begin, Index end) {
-            Ticker ticker(poller);
-            for (Index f = begin; f < end; ++f) {
-                const auto far = find_far(corners_of(mesh, f), other, limit, ticker);
-                if (far) chunks[chunk].emplace_back(f, *far);
-            }
-        },
-        poller);
-    std::vector<std::pair<Index, FarPoint>> all;
-    for (const auto& chunk : chunks) all.insert(all.end(), chunk.begin(), chunk.end());
-    return all;
+    using FarFace = std::pair<Index, FarPoint>;
+    const auto find = [&](Index f, std::vector<FarFace>& found) {
+        Ticker ticker(poller);
+        const auto far = find_far(corners_of(mesh, f), other, limit, ticker);
+        if (far) found.emplace_back(f, *far);
+    };
+    return parallel_collect<FarFace>(count, face_grain, num_threads, find, poller);
 }
 
 }  // namespace remesh::detail

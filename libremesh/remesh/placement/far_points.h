@@ -23,6 +23,13 @@ struct FarPoint {
     ClosestPoint nearest;  //!< Of the surface.
 };
 
+//! A point of a face, or of the input, and the nearest one of the other surface.
+struct FarPair {
+    Index face;  //!< Of the edited mesh.
+    Vec3 on_mesh, on_input;
+    bool is_of_input;  //!< The point of the input was given, the other one is the nearest.
+};
+
 //! A point beyond this share of the limit counts as too far: nearer to the limit a proof would take
 //! ever smaller parts.
 inline constexpr double provable_share = 0.98;

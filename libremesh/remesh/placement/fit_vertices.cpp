@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "agvd/core/groups.h"
@@ -121,8 +120,7 @@ private:
         facing_.assign(at_.size(), Vec3::Zero());
         for (Index i = 0; i < mesh_.triangles.size(); ++i) {
             ticker_.tick();
-            const auto& [a, b, c] = mesh_.triangles[i];
-            normal_[i] = (at_[b] - at_[a]).cross(at_[c] - at_[a]);
+            normal_[i] = doubled_normal(at_, mesh_.triangles[i]);
             for (const Index v : mesh_.triangles[i]) {
                 area_[v] += normal_[i].norm() / 6;
                 facing_[v] += normal_[i];
@@ -136,7 +134,7 @@ private:
     // its triangle keeps it: moves in a round are small.
     [[nodiscard]] ClosestPoint find_nearest(CellSample& sample) const {
         ClosestPoint nearest;
-        nearest.distance_sq = std::numeric_limits<double>::infinity();
+        nearest.distance_sq = infinity;
         if (sample.triangle != no_index) {
             nearest = closest(sample.triangle, sample.position);
             const std::array<double, 3>& b = nearest.point.barycentric;
@@ -193,11 +191,9 @@ private:
         for (std::size_t first = 0; first < samples_.size(); first += samples_per_block) {
             const auto block =
                 std::span(samples_).subspan(first, std::min(samples_.size() - first, gaps.size()));
-            const auto body = [&](Index, Index begin, Index end) {
-                for (Index i = begin; i < end; ++i) gaps[i] = measure_gap(block[i]);
-            };
-            parallel_chunks(static_cast<Index>(block.size()), rows_per_task, num_threads_, body,
-                            poller_);
+            const auto measure_one = [&](Index i) { gaps[i] = measure_gap(block[i]); };
+            parallel_each(static_cast<Index>(block.size()), rows_per_task, num_threads_,
+                          measure_one, poller_);
             poller_.poll();
             for (std::size_t i = 0; i < block.size(); ++i) add_gap(block[i], gaps[i]);
         }
@@ -262,8 +258,7 @@ private:
         for (Index i = 0; i < num_triangles; ++i) {
             const Vec3& way = ways_[i];
             if (!(way.norm() > least_way_)) continue;
-            const auto& [a, b, c] = mesh_.triangles[i];
-            const double area = (at_[b] - at_[a]).cross(at_[c] - at_[a]).norm() / 2;
+            const double area = doubled_normal(at_, mesh_.triangles[i]).norm() / 2;
             MiddleSum& sum = middle_[i];
             sum = {way.normalized(), middle_weight * area / 9};
             const Mat3 block = sum.weight * sum.direction * sum.direction.transpose();
@@ -275,10 +270,8 @@ private:
     }
     template <typename Way>
     void find_ways(Index count, const Way& way) {
-        const auto body = [&](Index, Index begin, Index end) {
-            for (Index i = begin; i < end; ++i) ways_[i] = way(i);
-        };
-        parallel_chunks(count, rows_per_task, num_threads_, body, poller_);
+        const auto find = [&](Index i) { ways_[i] = way(i); };
+        parallel_each(count, rows_per_task, num_threads_, find, poller_);
     }
     // From a point of the mesh to the surface in these cells; zero if they have no vertex.
     [[nodiscard]] Vec3 way_to_surface(const Vec3& point, std::span<const Index> cells) const {
@@ -362,10 +355,9 @@ private:
             bool is_done = true;
             for (Index i = 0; i < mesh_.triangles.size(); ++i) {
                 ticker_.tick();
-                const auto& [a, b, c] = mesh_.triangles[i];
-                const Vec3 normal = (at_[b] - at_[a]).cross(at_[c] - at_[a]);
+                const Vec3 normal = doubled_normal(at_, mesh_.triangles[i]);
                 if (normal.dot(normal_[i]) > least_normal_cosine * normal.norm()) continue;
-                for (const Index v : {a, b, c}) {
+                for (const Index v : mesh_.triangles[i]) {
                     if (at_[v] == before[v]) continue;
                     at_[v] = before[v];
                     is_done = false;

@@ -28,7 +28,7 @@ Index longest_side(const FanMesh& mesh, std::span<const Vec3> positions, Index f
 
 // Flips the edge unless one of the two triangles that it leaves is flat.
 bool try_flip(FanMesh& mesh, std::span<const Vec3> positions, Index h) {
-    if (!mesh.can_flip(h)) return false;
+    if (mesh.is_hard(h) || !mesh.can_flip(h)) return false;
     const Index a = mesh.tail(h), b = mesh.head(h), c = mesh.apex(h), d = mesh.apex(mesh.twin(h));
     if (is_flat(positions, {c, a, d}) || is_flat(positions, {d, b, c})) return false;
     mesh.flip(h);
@@ -45,13 +45,14 @@ bool is_flat(std::span<const Vec3> positions, const Triangle& triangle) {
     return !(ab.cross(ac).norm() > most_flat * longest_sq);
 }
 
-void flip_flat_faces(std::span<const Vec3> positions, std::vector<Triangle>& triangles) {
+void flip_flat_faces(std::span<const Vec3> positions, PlacedMesh& placed) {
     std::vector<Index> flat;
-    for (Index f = 0; f < triangles.size(); ++f) {
-        if (is_flat(positions, triangles[f])) flat.push_back(f);
+    for (Index f = 0; f < placed.triangles.size(); ++f) {
+        if (is_flat(positions, placed.triangles[f])) flat.push_back(f);
     }
     if (flat.empty()) return;
-    FanMesh mesh(triangles, static_cast<Index>(positions.size()));
+    FanMesh mesh(placed.triangles, static_cast<Index>(positions.size()));
+    mesh.label_edges(placed.hard, [](Index, Index) { return Index{0}; });
     // A flip frees the next of several flat triangles in a row.
     for (bool is_changed = true; is_changed;) {
         is_changed = false;
@@ -61,7 +62,7 @@ void flip_flat_faces(std::span<const Vec3> positions, std::vector<Triangle>& tri
             return is_done;
         });
     }
-    triangles = mesh.triangles();
+    placed.triangles = mesh.triangles();
 }
 
 }  // namespace remesh

@@ -111,23 +111,14 @@ public:
     }
     [[nodiscard]] double largest_gap() const {
         double largest = 0;
-        for (Index f = 0; f < mesh_.num_faces(); ++f) {
-            if (mesh_.face(f).is_there) largest = std::max(largest, bound_.gap_at(f).distance);
-        }
+        for (const Index f : mesh_.faces()) largest = std::max(largest, bound_.gap_at(f).distance);
         return largest;
     }
     //! Takes a gap into account that was found elsewhere.
-    void add(const FarPair& far) {
-        if (far.is_of_input) {
-            bound_.add_point(far.face, far.on_mesh, far.on_input);
-        } else {
-            bound_.widen(far.face, far.on_mesh, far.on_input);
-        }
-    }
+    void add(const FarPair& far) { bound_.add(far); }
 
 private:
     using FarFaces = std::priority_queue<std::pair<double, Index>>;
-    static constexpr double infinity = std::numeric_limits<double>::infinity();
 
     enum class Kind : std::uint8_t {
         Move,     // Moves a corner, or all, by the gap.
@@ -149,7 +140,7 @@ private:
 
     [[nodiscard]] FarFaces far_faces() const {
         FarFaces faces;
-        for (Index f = 0; f < mesh_.num_faces(); ++f) push_far(f, faces);
+        for (const Index f : mesh_.faces()) push_far(f, faces);
         return faces;
     }
 
@@ -337,11 +328,11 @@ private:
 }  // namespace
 
 std::optional<double> keep_distance(const MeshCurves& curves, std::span<const Mobility> mobility,
-                                    const DistanceLimit& limit, std::vector<DirectedEdge>& hard,
-                                    PlacedMesh& mesh, const Progress& progress) {
+                                    const DistanceLimit& limit, PlacedMesh& mesh,
+                                    const Progress& progress) {
     Poller poller(progress);
     Ticker ticker(poller);
-    EditedMesh edited(curves, mesh, mobility, hard);
+    EditedMesh edited(curves, mesh, mobility);
     DistanceRepair repair(edited, limit, curves.surface().num_faces(), ticker);
     DistanceProof proof(edited, limit.input, limit.limit, limit.num_threads, poller);
     // What could not be repaired needs no proof.
@@ -360,7 +351,6 @@ std::optional<double> keep_distance(const MeshCurves& curves, std::span<const Mo
     }
     std::vector<Index> numbers;
     mesh = edited.result(numbers);
-    hard = edited.hard_edges(numbers);
     if (!is_near) return std::nullopt;
     return repair.largest_gap();
 }

@@ -2,7 +2,6 @@
 //! Keeps a mesh within a distance of an input.
 #pragma once
 
-#include <limits>
 #include <optional>
 
 #include "remesh/placement/far_points.h"
@@ -17,14 +16,14 @@ struct DistanceLimit {
     double limit = 0;               //!< > 0.
     bool may_leave_surface = true;  //!< Whether vertices may lie off the surface.
     double least_edge = 0;          //!< No edge is divided into shorter ones ...
-    double most_edge = std::numeric_limits<double>::infinity();  //!< ... or gets longer.
-    int num_threads = 1;  //!< >= 0; 0: all cores. The result is the same for any number.
+    double most_edge = infinity;    //!< ... or gets longer.
+    int num_threads = 1;            //!< >= 0; 0: all cores. The result is the same for any number.
 };
 
 //! Where a mesh is farther from an input than a limit, moves vertices off the surface and divides
 //! edges. Vertices go where it is much nearer. Nothing else of the mesh changes. Topology and
 //! chains of hard edges stay, and no intersections are added.
-//! \param curves, mobility, hard  see repair_shape(). `hard` becomes that of the new mesh.
+//! \param curves, mobility  see repair_shape().
 //! \throw Cancelled  the progress callback returned false; `mesh` is unchanged.
 //! \return the largest distance at the points looked at, both ways, mesh units, if it is proved that
 //! no point of either surface is farther from the other one than the limit; else unset.
@@ -32,8 +31,7 @@ struct DistanceLimit {
 //! too far and each vertex that goes.
 [[nodiscard]] std::optional<double> keep_distance(const MeshCurves& curves,
                                                   std::span<const Mobility> mobility,
-                                                  const DistanceLimit& limit,
-                                                  std::vector<DirectedEdge>& hard, PlacedMesh& mesh,
+                                                  const DistanceLimit& limit, PlacedMesh& mesh,
                                                   const Progress& progress);
 
 }  // namespace remesh::detail

@@ -39,8 +39,7 @@ public:
             }
             if (!curve.is_closed()) ends_.push_back({curve.begin, curve.end, c});
         }
-        std::sort(edges_.begin(), edges_.end(),
-                  [](const Edge& a, const Edge& b) { return a.half_edge < b.half_edge; });
+        std::ranges::sort(edges_, {}, &Edge::half_edge);
     }
 
     [[nodiscard]] const Surface& surface() const { return cut_; }

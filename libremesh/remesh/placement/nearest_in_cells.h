@@ -3,7 +3,6 @@
 #pragma once
 
 #include <algorithm>
-#include <limits>
 #include <span>
 
 #include "agvd/core/groups.h"
@@ -32,7 +31,7 @@ public:
     //! Cost: O(vertices in the cells).
     [[nodiscard]] ClosestPoint query(const Vec3& point, std::span<const Index> cells) const {
         ClosestPoint result;
-        result.distance_sq = std::numeric_limits<double>::infinity();
+        result.distance_sq = infinity;
         double least = result.distance_sq;
         Index nearest = no_index;
         for (const Index cell : cells) {
@@ -62,9 +61,7 @@ private:
     static constexpr int most_faces_passed = 1000;
 
     [[nodiscard]] ClosestPoint closest(Index face, const Vec3& point) const {
-        const auto& [a, b, c] = input_.mesh.triangles[face];
-        const auto& p = input_.mesh.positions;
-        return closest_point_on_triangle({p[a], p[b], p[c]}, FaceId(face), point);
+        return closest_point_on_triangle(corners_of(input_.mesh, face), FaceId(face), point);
     }
 
     // Walks from face to face while these are nearer. The faces around the vertex may be needles,

@@ -15,16 +15,32 @@
 
 namespace remesh {
 
-//! A mesh whose vertices belong to points of a surface, but may lie off it.
+//! A mesh on its way from the dual to the result. Its vertices belong to points of a surface, but
+//! may lie off it.
 struct PlacedMesh {
     std::vector<SurfacePoint> points;  //!< #V: where each vertex belongs.
     std::vector<Vec3> offsets;         //!< #V: from there to its position.
     std::vector<Triangle> triangles;
+    //! Edges along curves, in one direction or both; those of a single face included.
+    std::vector<DirectedEdge> hard = {};
+    //! #V: the first vertex at the same place; sheets that meet have one each. Empty: all differ.
+    std::vector<Index> place = {};
 
     [[nodiscard]] Vec3 position(const MeshView& surface, Index v) const {
         return agvd::position(surface, points[v]) + offsets[v];
     }
 };
+
+//! Its triangles and positions; those at one place are equal, bit for bit. Cost: O(n).
+[[nodiscard]] inline TriangleMesh whole_mesh(const Surface& surface, const PlacedMesh& mesh) {
+    TriangleMesh whole{{}, mesh.triangles};
+    whole.positions.reserve(mesh.points.size());
+    for (Index v = 0; v < mesh.points.size(); ++v) {
+        const Index place = mesh.place.empty() ? v : mesh.place[v];
+        whole.positions.push_back(mesh.position(surface.mesh.view(), place));
+    }
+    return whole;
+}
 
 //! Least squares along each crease of the distances between points of the curve and of the chain at
 //! the same arc length. Nodes stay, and so do the vertices of junctions and kept boundaries.
@@ -82,15 +98,12 @@ class MeshCurves;
 //! surface only for better shapes.
 //! \param curves    where the points of the mesh lie, and the curves along which vertices slide.
 //! \param mobility  #V: Fixed ones stay; those on hard edges are not Free.
-//! \param hard      edges that are not flipped, in one direction or both; must include all edges of
-//!                  a single face. They become those of the new mesh.
 //! \param faces     of the surface near the mesh, if it is a part of one; empty: all.
 //! \throw Cancelled  the progress callback returned false; `mesh` is unchanged.
 //! \return for each vertex its old number, #V or more for new ones; empty if nothing changed.
 //! Cost: O(#triangles log #triangles), and about a millisecond for each bad one.
 std::vector<Index> repair_shape(const detail::MeshCurves& curves,
-                                std::span<const detail::Mobility> mobility,
-                                std::vector<DirectedEdge>& hard, PlacedMesh& mesh,
+                                std::span<const detail::Mobility> mobility, PlacedMesh& mesh,
                                 const Progress& progress = {}, std::span<const Index> faces = {});
 
 //! Whether a triangle has no area, as its corners lie on one line up to rounding: it is less than
@@ -98,11 +111,11 @@ std::vector<Index> repair_shape(const detail::MeshCurves& curves,
 [[nodiscard]] bool is_flat(std::span<const Vec3> positions, const Triangle& triangle);
 
 //! Flips the longest edge of each triangle without area, so that its third corner divides the
-//! neighbour beyond. It stays if that edge lies on the boundary, its corners coincide, or the
-//! topology would break.
+//! neighbour beyond. It stays if that edge is hard, its corners coincide, or the topology would
+//! break.
 //! \param positions  #V.
-//! \param triangles  an oriented manifold; its boundary stays.
+//! \param mesh       an oriented manifold.
 //! Cost: O(#triangles); O(#triangles log #triangles) if there are any.
-void flip_flat_faces(std::span<const Vec3> positions, std::vector<Triangle>& triangles);
+void flip_flat_faces(std::span<const Vec3> positions, PlacedMesh& mesh);
 
 }  // namespace remesh

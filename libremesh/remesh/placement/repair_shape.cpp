@@ -97,9 +97,7 @@ public:
         for (const double least : {wanted_, 0.0}) {
             edges_ = {};
             if (count_ > 0) {
-                for (Index f = 0; f < mesh_.num_faces(); ++f) {
-                    if (mesh_.face(f).is_there) push_edges(f);
-                }
+                for (const Index f : mesh_.faces()) push_edges(f);
             }
             while (count_ > 0 && split_one(least)) {
             }
@@ -124,8 +122,7 @@ private:
     // second one, or the middle of an edge that is off the curves.
     void list_collapses() {
         has_collapses_ = true;
-        for (Index f = 0; f < mesh_.num_faces(); ++f) {
-            if (!mesh_.face(f).is_there) continue;
+        for (const Index f : mesh_.faces()) {
             ticker_.tick(30);
             const Triangle& t = mesh_.face(f).corner;
             for (Index k = 0; k < 3; ++k) {
@@ -363,18 +360,15 @@ private:
 }  // namespace
 
 std::vector<Index> repair_shape(const detail::MeshCurves& curves,
-                                std::span<const Mobility> mobility, std::vector<DirectedEdge>& hard,
-                                PlacedMesh& mesh, const Progress& progress,
-                                std::span<const Index> faces) {
+                                std::span<const Mobility> mobility, PlacedMesh& mesh,
+                                const Progress& progress, std::span<const Index> faces) {
     Poller poller(progress);
     Ticker ticker(poller);
     std::vector<Index> numbers;
-    EditedMesh edited(curves, mesh, mobility, hard);
-    bool is_good = true;  // Most meshes are not, but the guards cost more than a look.
-    for (Index f = 0; f < edited.num_faces(); ++f) {
-        is_good = is_good && edited.face(f).quality >= goals.back();
-    }
-    if (is_good) return numbers;
+    EditedMesh edited(curves, mesh, mobility);
+    // Most meshes have bad faces, but the guards cost more than a look.
+    const auto is_good = [&](Index f) { return edited.face(f).quality >= goals.back(); };
+    if (std::ranges::all_of(edited.faces(), is_good)) return numbers;
     EditGuard guard(edited, curves.whole(), faces);
     const EditedMesh::Mark start = edited.mark();
     std::vector<std::uint8_t> is_settled;
@@ -392,10 +386,7 @@ std::vector<Index> repair_shape(const detail::MeshCurves& curves,
             break;  // The guards know the state that was taken back.
         }
     }
-    if (edited.mark().faces > start.faces) {
-        mesh = edited.result(numbers);
-        hard = edited.hard_edges(numbers);
-    }
+    if (edited.mark().faces > start.faces) mesh = edited.result(numbers);
     return numbers;
 }
 

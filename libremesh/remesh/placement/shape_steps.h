@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
 #include <span>
 #include <utility>
 #include <vector>
@@ -81,9 +80,7 @@ public:
     }
     //! The bad faces with their qualities, the worst first.
     [[nodiscard]] std::vector<std::pair<double, Index>> bad_faces() const {
-        std::vector<Index> all(mesh_.num_faces());
-        std::iota(all.begin(), all.end(), Index{0});
-        return bad_among(all);
+        return bad_among(mesh_.faces());
     }
     [[nodiscard]] ShapeGain gain_since(const EditedMesh::Mark& mark) {
         mesh_.changed_since(mark, changed_, before_);
@@ -203,8 +200,7 @@ private:
         double count = 0;
         for (const Index f : mesh_.faces_at(v)) {
             const EditedMesh::Face& face = mesh_.face(f);
-            const auto& [a, b, c] = face.corner;
-            normal += (mesh_.at(b) - mesh_.at(a)).cross(mesh_.at(c) - mesh_.at(a));
+            normal += mesh_.normal_of(f);
             for (Index k = 0; k < 3; ++k) {
                 const Index from = face.corner[k], to = face.corner[(k + 1) % 3];
                 if (from != v && to != v) continue;

@@ -3,16 +3,15 @@
 #include "remesh/quality/evaluate.h"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <numbers>
 #include <unordered_map>
 
 #include "agvd/core/random.h"
 #include "agvd/mesh/any_mesh.h"
+#include "agvd/mesh/closest_point.h"
 #include "agvd/mesh/scale.h"
 #include "remesh/curves/curve_network.h"
-#include "remesh/quality/point_distances.h"
 
 namespace remesh {
 namespace {
@@ -130,7 +129,7 @@ TriangleMesh without_copies(const MeshView& mesh, Ticker& ticker) {
     for (const Triangle& t : mesh.triangles) {
         ticker.tick(8);
         Triangle face;
-        for (int k = 0; k < 3; ++k) {
+        for (std::size_t k = 0; k < 3; ++k) {
             Index& index = index_of[t[k]];
             if (index == no_index) {
                 const auto [it, is_new] = indices.try_emplace(
@@ -199,25 +198,48 @@ std::vector<Vec3> points_on_sharp(const Edges& edges, double length, Ticker& tic
     return points;
 }
 
-// Shares of points that lie within two distances of the other mesh's blunt edges.
-struct Shares {
-    double near = 0;
-    double very_near = 0;
+// Tells which points lie near some segments.
+class NearSegments {
+public:
+    // A point if both ends are equal.
+    void add(const Vec3& a, const Vec3& b) {
+        const auto first = static_cast<Index>(segments_.positions.size());
+        segments_.positions.insert(segments_.positions.end(), {a, b});
+        segments_.triangles.push_back({first, first + 1, first + 1});
+    }
+    // After all were added. Cost: O(n log n).
+    void finish(Poller& poller) {
+        if (!segments_.triangles.empty()) tree_.emplace(segments_.view(), poller.progress());
+    }
+    [[nodiscard]] bool has_near(const Vec3& point, double distance, Ticker& ticker) const {
+        ticker.tick(64);  // Steps of a query.
+        return tree_ && tree_->is_within(point, distance);
+    }
+    [[nodiscard]] Index count_near(const std::vector<Vec3>& points, double distance,
+                                   Ticker& ticker) const {
+        return static_cast<Index>(std::ranges::count_if(
+            points, [&](const Vec3& p) { return has_near(p, distance, ticker); }));
+    }
+
+private:
+    TriangleMesh segments_;  // As triangles without area.
+    std::optional<ClosestPointTree> tree_;
 };
 
-Shares shares_near(std::vector<Vec3> points, const Edges& edges, BoundaryEdges boundary,
-                   double diagonal, Ticker& ticker) {
-    detail::PointDistances distances(std::move(points), near * diagonal);
+NearSegments blunt_edges(const Edges& edges, BoundaryEdges boundary, Poller& poller) {
+    NearSegments segments;
     edges.for_each_above(blunt, boundary, [&](Index a, Index b) {
-        distances.pass(edges.mesh.positions[a], edges.mesh.positions[b], ticker);
+        segments.add(edges.mesh.positions[a], edges.mesh.positions[b]);
     });
-    double num_near = 0, num_very_near = 0;
-    for (const double distance : distances.distances()) {
-        if (distance <= near * diagonal) ++num_near;
-        if (distance <= very_near * diagonal) ++num_very_near;
-    }
-    const auto count = static_cast<double>(distances.distances().size());
-    return {num_near / count, num_very_near / count};
+    segments.finish(poller);
+    return segments;
+}
+
+NearSegments points_of(const std::vector<Vec3>& points, Poller& poller) {
+    NearSegments segments;
+    for (const Vec3& p : points) segments.add(p, p);
+    segments.finish(poller);
+    return segments;
 }
 
 struct Corners {
@@ -255,22 +277,10 @@ Corners corners_of(const Edges& edges, Ticker& ticker) {
     return corners;
 }
 
-// Corners with a vertex of the result nearby.
-Index count_kept(const std::vector<Vec3>& corners, const TriangleMesh& result, double reach,
-                 Ticker& ticker) {
-    detail::PointDistances distances(corners, reach);
-    for (const Vec3& p : result.positions) distances.pass(p, p, ticker);
-    const auto& found = distances.distances();
-    return static_cast<Index>(
-        std::count_if(found.begin(), found.end(), [](double d) { return std::isfinite(d); }));
-}
-
 // The smallest angle of triangles without a vertex near any of the points.
-double min_angle_off(const std::vector<Vec3>& points, const TriangleMesh& mesh, double reach,
+double min_angle_off(const NearSegments& points, const TriangleMesh& mesh, double reach,
                      Ticker& ticker) {
-    detail::PointDistances distances(mesh.positions, reach);
-    for (const Vec3& p : points) distances.pass(p, p, ticker);
-    const auto is_near = [&](Index v) { return std::isfinite(distances.distances()[v]); };
+    const auto is_near = [&](Index v) { return points.has_near(mesh.positions[v], reach, ticker); };
     double least = std::numbers::pi;
     for (const Triangle& t : mesh.triangles) {
         ticker.tick();
@@ -302,21 +312,28 @@ std::optional<FeatureCoverage> feature_coverage(const MeshView& original, const 
     after.all = edge_dihedrals(after.mesh.view(), narrow_result * diagonal, ticker);
     coverage.result_length = after.sharp_length();
     if (coverage.length > 0) {
-        const Shares shares = shares_near(points_on_sharp(before, coverage.length, ticker), after,
-                                          BoundaryEdges::DoesNot, diagonal, ticker);
-        coverage.covered = shares.near;
-        coverage.covered_closely = shares.very_near;
+        const std::vector<Vec3> points = points_on_sharp(before, coverage.length, ticker);
+        const NearSegments edges = blunt_edges(after, BoundaryEdges::DoesNot, poller);
+        const auto share_near = [&](double distance) {
+            return edges.count_near(points, distance * diagonal, ticker) /
+                   static_cast<double>(points.size());
+        };
+        coverage.covered = share_near(near);
+        coverage.covered_closely = share_near(very_near);
     }
     if (coverage.result_length > 0) {
-        const Shares shares = shares_near(points_on_sharp(after, coverage.result_length, ticker),
-                                          before, BoundaryEdges::Counts, diagonal, ticker);
-        coverage.false_share = 1 - shares.near;
+        const std::vector<Vec3> points = points_on_sharp(after, coverage.result_length, ticker);
+        const NearSegments edges = blunt_edges(before, BoundaryEdges::Counts, poller);
+        coverage.false_share = 1 - edges.count_near(points, near * diagonal, ticker) /
+                                       static_cast<double>(points.size());
     }
     const double reach = near_corner * diagonal;
     coverage.corners = static_cast<Index>(corners.all.size());
-    coverage.corners_kept = count_kept(corners.all, after.mesh, reach, ticker);
+    coverage.corners_kept =
+        points_of(after.mesh.positions, poller).count_near(corners.all, reach, ticker);
     coverage.acute_corners = static_cast<Index>(corners.acute.size());
-    coverage.min_angle_elsewhere = min_angle_off(corners.acute, after.mesh, reach, ticker);
+    coverage.min_angle_elsewhere =
+        min_angle_off(points_of(corners.acute, poller), after.mesh, reach, ticker);
     return coverage;
 }
 

@@ -13,6 +13,7 @@
 
 #include "agvd/core/error.h"
 #include "agvd/core/parallel.h"
+#include "agvd/mesh/any_mesh.h"
 #include "remesh/quality/area_samples.h"
 
 namespace remesh {
@@ -122,14 +123,9 @@ OneSidedDistance one_sided(const MeshView& mesh, const Faces& from, const Faces&
                            const EvaluationOptions& options, Poller& poller) {
     OneSidedDistance result = measure(options.samples, options.num_threads, poller, to,
                                       [&](Index i) { return from.sample(i, options.samples); });
-    std::vector<bool> used(mesh.positions.size(), false);
-    for (const Triangle& t : mesh.triangles) {
-        for (const Index v : t) used[v] = true;
-    }
-    std::vector<Vec3> vertices;
-    for (std::size_t v = 0; v < used.size(); ++v) {
-        if (used[v]) vertices.push_back(mesh.positions[v]);
-    }
+    std::vector<Triangle> faces(mesh.triangles.begin(), mesh.triangles.end());
+    const std::vector<Vec3> vertices =
+        take(mesh.positions, drop_unused(static_cast<Index>(mesh.positions.size()), faces));
     const OneSidedDistance at_vertices =
         measure(static_cast<Index>(vertices.size()), options.num_threads, poller, to,
                 [&](Index v) { return vertices[v]; });

@@ -94,15 +94,20 @@ Grid::Runs runs_around(const std::vector<std::pair<std::uint64_t, Index>>& keys,
     return runs;
 }
 
-Grid build_grid(const Surface& surface, std::span<const ScatteredPoint> points,
+Grid build_grid(const Surface& surface, std::span<const SurfacePoint> points,
                 std::span<const double> unit, double cell_size, Ticker ticker) {
+    std::vector<Vec3> positions;
+    positions.reserve(points.size());
     MeshBox box;
-    for (const ScatteredPoint& p : points) box.add(p.position);
+    for (const SurfacePoint& p : points) {
+        positions.push_back(position(surface.mesh.view(), p));
+        box.add(positions.back());
+    }
     // Cells are at least as wide as the reach, and wider if an axis would run out of bits.
     cell_size = std::max(cell_size, (box.high - box.low).maxCoeff() / static_cast<double>(row) / 2);
     std::vector<std::pair<std::uint64_t, Index>> keys(points.size());
     for (Index i = 0; i < keys.size(); ++i) {
-        const Vec3 at = (points[i].position - box.low) / cell_size;
+        const Vec3 at = (positions[i] - box.low) / cell_size;
         const auto along = [&](int axis) { return static_cast<std::uint64_t>(at[axis]) + 1; };
         keys[i] = {(along(2) * row + along(1)) * row + along(0), i};
     }
@@ -114,8 +119,8 @@ Grid build_grid(const Surface& surface, std::span<const ScatteredPoint> points,
         ticker.tick();
         if (!unit.empty()) grid.unit.push_back(unit[i]);
         grid.order.push_back(i);
-        grid.position.push_back(points[i].position);
-        grid.normal.push_back(facing_at(surface, points[i].point));
+        grid.position.push_back(positions[i]);
+        grid.normal.push_back(facing_at(surface, points[i]));
         if (slot == 0 || cell != keys[slot - 1].first) {
             grid.around.push_back(runs_around(keys, cell));
         }
@@ -148,12 +153,12 @@ std::vector<double> highest_weights(const Surface& surface, const Component& com
 
 }  // namespace
 
-std::vector<ScatteredPoint> scatter(const Surface& surface, const Component& component, Index count,
-                                    std::uint64_t stream, const SamplingOptions& options) {
+std::vector<SurfacePoint> scatter(const Surface& surface, const Component& component, Index count,
+                                  std::uint64_t stream, const SamplingOptions& options) {
     const SizeField* const sizes = options.sizes;
     Poller poller(options.progress);
     Ticker ticker(poller);
-    std::vector<ScatteredPoint> points;
+    std::vector<SurfacePoint> points;
     points.reserve(count);
     std::unordered_set<Vec3, PositionHash> taken;
     taken.reserve(count);
@@ -172,12 +177,12 @@ std::vector<ScatteredPoint> scatter(const Surface& surface, const Component& com
             if (random_unit(options.seed, ~stream, i) > share * share) continue;
         }
         const Vec3 where = position(surface.mesh.view(), point);
-        if (taken.insert(where).second) points.push_back({point, where});
+        if (taken.insert(where).second) points.push_back(point);
     }
     return points;
 }
 
-std::vector<SurfacePoint> eliminate(const Surface& surface, std::span<const ScatteredPoint> points,
+std::vector<SurfacePoint> eliminate(const Surface& surface, std::span<const SurfacePoint> points,
                                     Index num_fixed, Index keep, double spacing, int num_threads,
                                     const Progress& progress, std::span<const double> unit) {
     Poller poller(progress);
@@ -198,9 +203,9 @@ std::vector<SurfacePoint> eliminate(const Surface& surface, std::span<const Scat
         }
     };
     parallel_chunks(num_points, grain, num_threads, measure, poller);
-    std::vector<Index> candidates(first_fixed), slot_of(points.size());
+    std::vector<Index> candidates(first_fixed);
     std::iota(candidates.begin(), candidates.end(), Index{0});
-    for (Index slot = 0; slot < slot_of.size(); ++slot) slot_of[grid.order[slot]] = slot;
+    const std::vector<Index> slot_of = places_in(grid.order);
     FallingQueue queue([&](Index point) { return crowding[slot_of[point]]; }, candidates);
     std::vector<std::uint8_t> is_left(points.size(), 1);
     for (Index left = first_fixed; left > keep; --left) {
@@ -212,12 +217,8 @@ std::vector<SurfacePoint> eliminate(const Surface& surface, std::span<const Scat
         });
     }
 
-    std::vector<SurfacePoint> result;
-    result.reserve(keep);
-    for (const Index i : candidates) {
-        if (is_left[i] != 0) result.push_back(points[i].point);
-    }
-    return result;
+    std::erase_if(candidates, [&](Index i) { return is_left[i] == 0; });
+    return take(points, candidates);
 }
 
 }  // namespace remesh::detail

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 
 #include "agvd/core/types.h"
 #include "agvd/mesh/surface.h"
@@ -96,7 +95,7 @@ struct CurvatureCells {
 
     // Gives each vertex the cell that is nearest along edges.
     void spread() {
-        std::vector<double> distance(cell.size(), std::numeric_limits<double>::infinity());
+        std::vector<double> distance(cell.size(), infinity);
         for (const Index v : start) distance[v] = 0;
         visit_in_rounds(surface.num_vertices(), start, [&](Index v, const auto& wait) {
             ticker.tick(4);
@@ -115,7 +114,7 @@ struct CurvatureCells {
         const Surface& input = base.input();
         const Triangle& t = input.mesh.triangles[f];
         const auto& p = input.mesh.positions;
-        const Vec3 vector = (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]) / 2;
+        const Vec3 vector = doubled_normal(p, t) / 2;
         const double area = vector.norm();
         const auto add = [&](Index vertex, double share, const Vec3& at) {
             const Index c = cell[vertex];

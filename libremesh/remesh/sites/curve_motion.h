@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "remesh/curves/curve_sites.h"
-#include "remesh/sites/site_mesh.h"
+#include "remesh/sites/cvt_energy.h"
 
 namespace remesh::detail {
 

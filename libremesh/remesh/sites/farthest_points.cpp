@@ -101,12 +101,10 @@ private:
             return search_.distance(surface.head(h)) +
                    search_.distance(surface.tail(Surface::previous(h)));
         };
-        const Index first = surface.outgoing[vertex];
-        Index best = first;
-        for (Index h = surface.twin[Surface::previous(first)]; h != no_index && h != first;
-             h = surface.twin[Surface::previous(h)]) {
+        Index best = surface.outgoing[vertex];
+        for_each_outgoing(surface, vertex, [&](Index h) {
             if (reach(h) > reach(best)) best = h;
-        }
+        });
         const auto offset = [&](std::uint64_t k) {
             return least_offset + (most_offset - least_offset) *
                                       random_unit(options_.seed, stream_, 2 * number + k);
@@ -157,7 +155,7 @@ std::vector<SurfacePoint> farthest_points(const Surface& surface, const Componen
     if (!fixed.empty()) return points.run(count);
     SamplingOptions quiet = options;
     quiet.progress = {};
-    const SurfacePoint first = scatter(surface, component, 1, stream, quiet).front().point;
+    const SurfacePoint first = scatter(surface, component, 1, stream, quiet).front();
     points.add(first);
     std::vector<SurfacePoint> result = points.run(count - 1);
     result.insert(result.begin(), first);

@@ -91,7 +91,7 @@ struct Carrier {
     // Finds the network and the sites on it.
     void find() {
         network = find_network(surface, is_crease, spacing);
-        find_common_positions();
+        find_nearest_edges();
         const std::vector<OnCurve> on_curve = curves_of_edges();
         is_on_network.assign(sites.size(), 0);
         stops.assign(network.curves.size(), {});
@@ -118,7 +118,7 @@ struct Carrier {
     }
 
     // A site at a vertex lies on several edges: it goes onto the first of the network.
-    void find_common_positions() {
+    void find_nearest_edges() {
         std::vector<std::uint8_t> is_network = is_crease;
         for (Index e = 0; e < surface.num_edges(); ++e) {
             if (surface.twin[surface.edge_half[e]] == no_index) is_network[e] = 1;
@@ -146,10 +146,9 @@ struct Carrier {
         for (Index s = 0; s < sites.size(); ++s) {
             const NearestEdge& on_edge = nearest[s];
             if (on_edge.edge == no_index || on_edge.vertex_distance > tolerance) continue;
-            const auto node =
-                std::lower_bound(network.nodes.begin(), network.nodes.end(), on_edge.vertex);
-            if (node == network.nodes.end() || *node != on_edge.vertex) continue;
-            Index& taken = at_node[static_cast<std::size_t>(node - network.nodes.begin())];
+            const Index node = node_at(network, on_edge.vertex);
+            if (node == no_index) continue;
+            Index& taken = at_node[node];
             if (taken == no_index || on_edge.vertex_distance < nearest[taken].vertex_distance) {
                 taken = s;
             }

@@ -15,8 +15,6 @@
 #include "agvd/propagation/propagate.h"
 #include "remesh/curves/glue.h"
 #include "remesh/curves/walk.h"
-#include "remesh/dual/build_dual.h"
-#include "remesh/sites/label_triangles.h"
 #include "remesh/sites/shares.h"
 #include "remesh/sites/site_dual.h"
 #include "remesh/sites/size_field.h"
@@ -27,27 +25,15 @@ namespace {
 
 // Steps between two measurements of the cells.
 constexpr int steps_per_sweep = 10;
-// With this many vertices for each site, labels tell which sites are neighbours.
-constexpr std::size_t vertices_per_site = 8;
 // With this many vertices for each site, measurements of cells are meaningful.
 constexpr std::size_t vertices_per_cell = 2;
-// Flaws of a triangulation, as a share of the sites, above which a propagation pays.
-constexpr double most_flaws = 2e-3;
+// Distance error of a propagation that only has to tell which sites are neighbours.
+constexpr double neighbour_error = 1e-2;
 // Relaxation would do harm if more than this share of the triangles face against the surface, or of
 // the sites are in no triangle.
 constexpr double hopeless_share = 0.1;
-// Distance error of a propagation that only has to tell which sites are neighbours.
-constexpr double neighbour_error = 1e-2;
 
 }  // namespace
-
-bool gives_neighbours(const Surface& surface, std::size_t num_sites) {
-    return surface.num_vertices() >= vertices_per_site * num_sites;
-}
-
-bool gives_cells(const Surface& surface, std::size_t num_sites) {
-    return surface.num_vertices() >= vertices_per_cell * num_sites;
-}
 
 bool is_hopeless(const Relaxation& relaxation) {
     const auto& cells = relaxation.energy().cells;
@@ -94,26 +80,24 @@ DistanceBounds Levels::label(std::span<const SurfacePoint> sites) const {
     return label_vertices(prepared_, sites, options_.num_threads, progress_);
 }
 
-LabelTriangles Levels::triangulate(const DistanceBounds& labels,
-                                   std::span<const SurfacePoint> sites,
-                                   std::span<const ChainEdge> chain, NarrowLabels narrow) const {
+SiteTriangles Levels::triangulate(const DistanceBounds& labels, std::span<const SurfacePoint> sites,
+                                  std::span<const ChainEdge> chain, Narrow narrow) const {
     const std::vector<SurfacePoint> on_base = prepared_.base.to_intrinsic(sites);
-    if (gives_neighbours(surface_, sites.size())) {
-        return triangulate_by_labels(surface_, labels, on_base, ends_of(chain), narrow);
+    std::optional<CellComplex> cells;
+    if (!gives_cells(sites.size())) {
+        const Propagation propagation = propagate(surface_, prepared_.layout, on_base,
+                                                  {.max_error = neighbour_error,
+                                                   .num_threads = options_.num_threads,
+                                                   .progress = progress_});
+        cells = build_cell_complex(surface_, on_base, propagation,
+                                   {.num_threads = options_.num_threads, .progress = progress_});
     }
-    const Propagation propagation = propagate(
-        surface_, prepared_.layout, on_base,
-        {.max_error = neighbour_error, .num_threads = options_.num_threads, .progress = progress_});
-    const Diagram diagram =
-        build_diagram(surface_, on_base, propagation,
-                      {.num_threads = options_.num_threads, .progress = progress_});
-    LabelTriangles result{.triangles = build_dual(surface_, diagram, progress_)};
-    if (!chain.empty()) close_rim(ends_of(chain), result.triangles);
-    const std::vector<Fan> fans =
-        find_fans(build_site_mesh(result.triangles, static_cast<Index>(sites.size())));
-    for (Index s = 0; s < fans.size(); ++s) {
-        if (fans[s] != Fan::Closed) result.narrow.push_back(s);
-    }
+    // Labels of few vertices are rough: these cells stay as they are.
+    SiteTriangles result = triangulate_sites(surface_, labels, cells ? &*cells : nullptr, on_base,
+                                             ends_of(chain), cells ? Narrow::Leave : narrow);
+    std::erase_if(result.triangles, [&](const Triangle& t) {
+        return std::max({t[0], t[1], t[2]}) >= sites.size();
+    });
     return result;
 }
 
@@ -121,9 +105,13 @@ double Levels::fraction() const {
     return static_cast<double>(steps_done_) / std::max(steps_planned_, 1);
 }
 
+bool Levels::gives_cells(std::size_t num_sites) const {
+    return surface_.num_vertices() >= vertices_per_cell * num_sites;
+}
+
 void Levels::look(Relaxation& relaxation, const DistanceBounds& labels) const {
     const auto num_sites = static_cast<Index>(relaxation.sites().size());
-    if (!gives_cells(surface_, num_sites)) return;
+    if (!gives_cells(num_sites)) return;
     const CellMeasures cells =
         measure_cells(prepared_, labels, num_sites, options_.num_threads, progress_);
     relaxation.set_density(&cells, lengths_at(options_.sizes, relaxation.sites()));
@@ -131,18 +119,10 @@ void Levels::look(Relaxation& relaxation, const DistanceBounds& labels) const {
 
 // Labels and measures the surface again.
 void Levels::sweep(Relaxation& relaxation, std::span<const ChainEdge> chain) {
-    const auto num_sites = static_cast<Index>(relaxation.sites().size());
-    if (!gives_cells(surface_, num_sites)) return;
+    if (!gives_cells(relaxation.sites().size())) return;
     const DistanceBounds labels = label(relaxation.sites());
-    const Index flaws = relaxation.num_flaws();
-    const bool is_cheap = gives_neighbours(surface_, num_sites);
-    // Not with curves, which hold the triangulation together: it costs more than it gains.
-    const bool is_useful =
-        chain.empty() && num_repaired_ < levels_.size() && flaws > most_flaws * num_sites;
-    if (flaws > 0 && (is_cheap || is_useful)) {
-        if (!is_cheap) num_repaired_ = levels_.size();
-        relaxation.repair(
-            triangulate(labels, relaxation.sites(), chain, NarrowLabels::Merge).triangles);
+    if (relaxation.num_flaws() > 0) {
+        relaxation.repair(triangulate(labels, relaxation.sites(), chain, Narrow::Leave).triangles);
     }
     look(relaxation, labels);
 }
@@ -151,10 +131,9 @@ void Levels::sweep(Relaxation& relaxation, std::span<const ChainEdge> chain) {
 
 namespace {
 
-using detail::gives_neighbours;
 using detail::is_hopeless;
 using detail::Levels;
-using detail::NarrowLabels;
+using detail::Narrow;
 using detail::Relaxation;
 
 void check_options(const RelaxOptions& options, std::size_t num_sites) {
@@ -202,7 +181,7 @@ RelaxResult relax_sites(const PreparedSurface& surface, std::vector<SurfacePoint
     }
     const DistanceBounds labels = levels.label(sites);
     std::vector<Triangle> triangles =
-        levels.triangulate(labels, sites, {}, NarrowLabels::Simplify).triangles;
+        levels.triangulate(labels, sites, {}, Narrow::Simplify).triangles;
     Relaxation relaxation(surface.input(), {sites, std::move(triangles)}, options.is_fixed,
                           options.num_threads, levels.progress());
     if (is_hopeless(relaxation)) return {std::move(sites), {}};

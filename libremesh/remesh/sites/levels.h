@@ -3,7 +3,7 @@
 //! measurements of the surface between them.
 #pragma once
 
-#include "remesh/sites/label_triangles.h"
+#include "remesh/dual/triangulate_sites.h"
 #include "remesh/sites/relaxation.h"
 #include "remesh/sites/sites.h"
 
@@ -24,12 +24,6 @@ namespace remesh::detail {
 void even_out(const PreparedSurface& surface, std::vector<SurfacePoint>& sites,
               std::span<const std::uint8_t> is_fixed, int num_threads,
               const Progress& progress = {}, const SizeField* sizes = nullptr);
-
-//! Whether labels of the vertices tell which sites are neighbours.
-[[nodiscard]] bool gives_neighbours(const Surface& surface, std::size_t num_sites);
-
-//! Whether there are enough vertices for labels to tell what cells hold.
-[[nodiscard]] bool gives_cells(const Surface& surface, std::size_t num_sites);
 
 //! Whether triangles are as large as the features of the surface, or too many sites are in none.
 //! Sites that are even on such a triangulation are not even on the surface.
@@ -55,19 +49,20 @@ public:
     [[nodiscard]] DistanceBounds label(std::span<const SurfacePoint> sites) const;
 
     //! The triangulation of the sites: by labels, or from the diagram if faces are too large for
-    //! labels.
+    //! labels. Triangles with other corners are left out.
     //! \param labels  of the base's vertices.
     //! \param chain   edges that its rim is to have.
-    [[nodiscard]] LabelTriangles triangulate(const DistanceBounds& labels,
-                                             std::span<const SurfacePoint> sites,
-                                             std::span<const ChainEdge> chain,
-                                             NarrowLabels narrow) const;
+    [[nodiscard]] SiteTriangles triangulate(const DistanceBounds& labels,
+                                            std::span<const SurfacePoint> sites,
+                                            std::span<const ChainEdge> chain, Narrow narrow) const;
 
     //! Those that were run.
     [[nodiscard]] const std::vector<RelaxLevel>& levels() const { return levels_; }
 
 private:
     [[nodiscard]] double fraction() const;
+    // Whether there are enough vertices for labels to tell what cells hold.
+    [[nodiscard]] bool gives_cells(std::size_t num_sites) const;
     void look(Relaxation& relaxation, const DistanceBounds& labels) const;
     void sweep(Relaxation& relaxation, std::span<const ChainEdge> chain);
 
@@ -77,7 +72,6 @@ private:
     Progress progress_;
     int steps_planned_;
     int steps_done_ = 0;
-    std::size_t num_repaired_ = 0;  // Levels up to the last one that used a propagation.
     std::vector<RelaxLevel> levels_;
 };
 

@@ -68,17 +68,4 @@ double mean_spacing(const Surface& surface, std::size_t num_sites) {
     return std::sqrt(area / static_cast<double>(std::max<std::size_t>(num_sites, 1)));
 }
 
-std::vector<Index> parts_of_base(const IntrinsicTriangulation& base, std::span<const Index> of_face,
-                                 const Progress& progress) {
-    Poller poller(progress);
-    Ticker ticker(poller);
-    std::vector<Index> parts;
-    parts.reserve(base.surface().num_faces());
-    for (Index f = 0; f < base.surface().num_faces(); ++f) {
-        ticker.tick();
-        parts.push_back(of_face[face_of_input(base, f)]);
-    }
-    return parts;
-}
-
 }  // namespace remesh

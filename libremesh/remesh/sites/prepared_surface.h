@@ -46,13 +46,4 @@ struct PreparedSurface {
 //! The square root of the area for each site, mesh units.
 [[nodiscard]] double mean_spacing(const Surface& surface, std::size_t num_sites);
 
-//! Transfers numbers of the input's components to the base's faces.
-//! \param of_face  #F of the input: equal on all faces of a component.
-//! \return #F of the base.
-//! \throw Cancelled  the progress callback returned false.
-//! Cost: O(#F).
-[[nodiscard]] std::vector<Index> parts_of_base(const IntrinsicTriangulation& base,
-                                               std::span<const Index> of_face,
-                                               const Progress& progress = {});
-
 }  // namespace remesh

@@ -24,7 +24,7 @@
 namespace remesh {
 namespace {
 
-using detail::NarrowLabels;
+using detail::Narrow;
 using detail::Relaxation;
 
 // Least number of inner sites of a coarse start.
@@ -183,12 +183,7 @@ public:
           plan_(plan),
           options_(options),
           levels_(surface, options_, num_levels),
-          fine_(std::move(fine)) {
-        patch_ = label_components(surface.input().twin);
-        faces_.resize(patch_.count);
-        const std::vector<Index> parts = parts_of_base(surface.base, patch_.of_face);
-        for (Index f = 0; f < parts.size(); ++f) faces_[parts[f]].push_back(f);
-    }
+          fine_(std::move(fine)) {}
 
     NetworkSites run_given(std::span<const SurfacePoint> inner) {
         std::vector<SurfacePoint> sites = fine_.sites;
@@ -209,56 +204,14 @@ public:
         } else {
             last = start(fine_, sample(fine_, num_inner_, plan_.spacing));
             const std::vector<SurfacePoint>& sites = last->sites();
-            take_narrow(fine_, sites,
-                        levels_.triangulate(levels_.label(sites), sites, chain, NarrowLabels::Merge)
-                            .narrow);
+            take_narrow(
+                fine_, sites,
+                levels_.triangulate(levels_.label(sites), sites, chain, Narrow::Leave).narrow);
         }
         return finish(*last);
     }
 
 private:
-    // Replaces the triangles of patches whose rim is not their chain.
-    // \param instead  gives other triangles for a patch, which may have a wrong rim too.
-    template <typename Instead>
-    void repair_patches(std::span<const ChainEdge> chain, std::span<const SurfacePoint> sites,
-                        std::vector<Triangle>& triangles, const Instead& instead) const {
-        const std::vector<std::vector<Triangle>> by_patch = sort_by_patch(triangles, sites);
-        const auto part_of = [&](Index site) { return patch_of(sites[site]); };
-        const auto wanted = chain_by_part(chain, patch_.count, part_of);
-        triangles.clear();
-        for (Index i = 0; i < faces_.size(); ++i) {
-            const bool is_right = rim_of(by_patch[i]) == wanted[i];
-            const std::vector<Triangle> chosen = is_right ? by_patch[i] : instead(i);
-            triangles.insert(triangles.end(), chosen.begin(), chosen.end());
-        }
-    }
-
-    // The triangles by patch.
-    [[nodiscard]] std::vector<std::vector<Triangle>> sort_by_patch(
-        std::span<const Triangle> triangles, std::span<const SurfacePoint> sites) const {
-        std::vector<std::vector<Triangle>> result(faces_.size());
-        for (const Triangle& t : triangles) result[patch_of(sites[t[0]])].push_back(t);
-        return result;
-    }
-
-    // The patch simplified to its sites; empty if that leaves other vertices.
-    [[nodiscard]] std::vector<Triangle> simplified(Index patch,
-                                                   std::span<const SurfacePoint> sites) const {
-        std::vector<SurfacePoint> points;
-        std::vector<Index> number;
-        for (Index i = 0; i < sites.size(); ++i) {
-            if (patch_of(sites[i]) != patch) continue;
-            points.push_back(surface_.base.to_intrinsic(sites[i]));
-            number.push_back(i);
-        }
-        SimplifiedMesh simple = simplify_patch(surface_.base.surface(), faces_[patch], points);
-        if (!simple.extra.empty()) return {};
-        for (Triangle& t : simple.triangles) {
-            for (Index& i : t) i = number[i];
-        }
-        return std::move(simple.triangles);
-    }
-
     // Keeps the places of inner sites.
     void take_narrow(const CurveSites& curves, const std::vector<SurfacePoint>& sites,
                      std::span<const Index> narrow) {
@@ -266,10 +219,6 @@ private:
         for (const Index i : narrow) {
             if (i >= curves.sites.size()) narrow_points_.push_back(sites[i]);
         }
-    }
-
-    [[nodiscard]] Index patch_of(const SurfacePoint& site) const {
-        return patch_.of_face[site.face.value()];
     }
 
     [[nodiscard]] NetworkSites finish(const Relaxation& last) {
@@ -329,9 +278,7 @@ private:
         }
         const DistanceBounds labels = levels_.label(sites);
         std::vector<Triangle> triangles =
-            levels_.triangulate(labels, sites, chain, NarrowLabels::Simplify).triangles;
-        repair_patches(chain, sites, triangles,
-                       [&](Index patch) { return simplified(patch, sites); });
+            levels_.triangulate(labels, sites, chain, Narrow::Simplify).triangles;
         auto relaxation = make_relaxation({std::move(sites), std::move(triangles)}, curves);
         levels_.run(*relaxation, &labels, chain);
         return relaxation;
@@ -354,10 +301,7 @@ private:
         if (wanted < least_coarse_inner_sites) return nullptr;
         const auto num_inner = static_cast<Index>(wanted);
         const std::size_t num_sites = coarse.sites.size() + num_inner;
-        if (!detail::gives_neighbours(surface_.base.surface(), num_sites) ||
-            static_cast<double>(num_sites) < least_sites_for_euler * handles) {
-            return nullptr;
-        }
+        if (static_cast<double>(num_sites) < least_sites_for_euler * handles) return nullptr;
         const auto first = start(coarse, sample(coarse, num_inner, 2 * plan_.spacing));
         return divide(*first, first->curves()->sites());
     }
@@ -366,14 +310,11 @@ private:
         const std::vector<ChainEdge> chain = chain_edges(plan_.network, plan_.cut, coarse);
         const Refinement refinement{plan_, coarse, fine_};
         const DistanceBounds labels = levels_.label(first.sites());
-        detail::LabelTriangles by_labels =
-            levels_.triangulate(labels, first.sites(), chain, NarrowLabels::Simplify);
+        detail::SiteTriangles by_labels =
+            levels_.triangulate(labels, first.sites(), chain, Narrow::Simplify);
         take_narrow(coarse, first.sites(), by_labels.narrow);
         detail::SiteDual dual{std::move(by_labels.triangles),
                               detail::label_middles(surface_.base, labels)};
-        const auto relaxed = sort_by_patch(first.triangles(), first.sites());
-        repair_patches(chain, first.sites(), dual.triangles,
-                       [&](Index patch) { return relaxed[patch]; });
         MiddleFinder{plan_, chain, first.sites(), options_.sizes}.run(refinement, dual);
         // The sites in the order of the fine level. New curve sites have no triangle yet.
         std::vector<SurfacePoint> sites = fine_.sites;
@@ -412,8 +353,6 @@ private:
     const RelaxOptions& options_;
     detail::Levels levels_;
     const CurveSites fine_;
-    FaceLabels patch_;                       // Of the faces of the input.
-    std::vector<std::vector<Index>> faces_;  // Of the base, by patch.
     Index num_inner_ = 0;
     bool is_even_ = false;  // The sites are spread evenly before relaxation.
     std::vector<SurfacePoint> narrow_points_;

@@ -35,21 +35,11 @@ std::vector<SurfacePoint> sample_inside(const Surface& surface, const Component&
     const Index scattered =
         is_blue ? std::max(candidates_per_site * count, least_candidates) : count;
     auto points = detail::scatter(surface, component, scattered, stream, options);
-    if (!is_blue || points.size() < count) {
-        std::vector<SurfacePoint> all;
-        all.reserve(points.size());
-        for (const detail::ScatteredPoint& p : points) all.push_back(p.point);
-        return all;
-    }
-    for (const SurfacePoint& p : rim) {
-        points.push_back({p, position(surface.mesh.view(), p)});
-    }
-    std::vector<double> unit;
-    for (const detail::ScatteredPoint& p : points) {
-        if (options.sizes != nullptr) unit.push_back(options.sizes->at(p.point));
-    }
+    if (!is_blue || points.size() < count) return points;
+    points.insert(points.end(), rim.begin(), rim.end());
     return detail::eliminate(surface, points, static_cast<Index>(rim.size()), count, spacing,
-                             options.num_threads, options.progress, unit);
+                             options.num_threads, options.progress,
+                             lengths_at(options.sizes, points));
 }
 
 // Sites strictly inside the faces of each component, by a quota.

@@ -35,18 +35,12 @@ namespace detail {
     return static_cast<std::size_t>(found - sums.begin());
 }
 
-struct ScatteredPoint {
-    SurfacePoint point;  //!< Strictly inside its face.
-    Vec3 position;
-};
-
-//! Draws `count` area-uniform points, no two at one position; the same for the same seed and
-//! stream. There are fewer only if the component is so small for its coordinates that double holds
-//! no more. With options.sizes areas count in squares of the local length.
-[[nodiscard]] std::vector<ScatteredPoint> scatter(const Surface& surface,
-                                                  const Component& component, Index count,
-                                                  std::uint64_t stream,
-                                                  const SamplingOptions& options);
+//! Draws `count` area-uniform points strictly inside faces, no two at one position; the same for
+//! the same seed and stream. There are fewer only if the component is so small for its coordinates
+//! that double holds no more. With options.sizes areas count in squares of the local length.
+[[nodiscard]] std::vector<SurfacePoint> scatter(const Surface& surface, const Component& component,
+                                                Index count, std::uint64_t stream,
+                                                const SamplingOptions& options);
 
 //! Weighted sample elimination ([yuksel2015]): removes the most crowded point (of equals the last)
 //! until `keep` are left besides the last `num_fixed`, which stay.
@@ -56,7 +50,7 @@ struct ScatteredPoint {
 //! \return  the kept points in their old order, without the fixed ones.
 //! Cost: O(M log M) for M = points.size() spread over the area.
 [[nodiscard]] std::vector<SurfacePoint> eliminate(const Surface& surface,
-                                                  std::span<const ScatteredPoint> points,
+                                                  std::span<const SurfacePoint> points,
                                                   Index num_fixed, Index keep, double spacing,
                                                   int num_threads, const Progress& progress = {},
                                                   std::span<const double> unit = {});

@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "agvd/propagation/distance_bounds.h"
+#include "remesh/dual/site_mesh.h"
 #include "remesh/sites/prepared_surface.h"
-#include "remesh/sites/site_mesh.h"
 
 namespace remesh::detail {
 

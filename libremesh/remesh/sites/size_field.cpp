@@ -1,7 +1,6 @@
 #include "remesh/sites/size_field.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "agvd/mesh/surface.h"
@@ -30,7 +29,7 @@ SizeField::SizeField(std::shared_ptr<const IntrinsicTriangulation> base, std::ve
     : base_(std::move(base)),
       length_(std::move(length)),
       area_(base_->input().num_faces(), 0),
-      least_(base_->input().num_faces(), std::numeric_limits<double>::infinity()),
+      least_(base_->input().num_faces(), infinity),
       least_of_all_(*std::min_element(length_.begin(), length_.end())) {
     const Surface& input = base_->input();
     const Surface& surface = base_->surface();

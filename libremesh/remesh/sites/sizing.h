@@ -5,7 +5,6 @@
 //! tests/remesh/pipeline.
 #pragma once
 
-#include <limits>
 #include <variant>
 #include <vector>
 
@@ -60,8 +59,8 @@ struct Sizing {
     std::variant<EvenEdges, AdaptiveEdges, VertexLengths, FaceLengths, VertexDensities> edges = {};
     //! What gives the number of vertices.
     std::variant<NumSamples, MeanEdge, NumFaces, MaxError, MaxDistance, CountOfLengths> count = {};
-    double min_edge = 0;  //!< >= 0, mesh units: no target is shorter ...
-    double max_edge = std::numeric_limits<double>::infinity();  //!< ... or longer.
+    double min_edge = 0;         //!< >= 0, mesh units: no target is shorter ...
+    double max_edge = infinity;  //!< ... or longer.
     //! >= 1. Over a distance d targets grow by at most d times its logarithm.
     double gradation = 1.3;
 

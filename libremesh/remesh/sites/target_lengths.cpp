@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <numeric>
 
@@ -157,7 +156,7 @@ private:
 double gradation_for(double slope) { return portable::exp(slope * path_excess); }
 
 double length_for_error(double curvature, double error) {
-    if (!(curvature > 0)) return std::numeric_limits<double>::infinity();
+    if (!(curvature > 0)) return infinity;
     const double radius = std::max(1 / curvature, error);
     return std::sqrt(3 * error * (2 * radius - error));
 }

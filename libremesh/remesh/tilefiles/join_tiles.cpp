@@ -55,14 +55,15 @@ public:
             add(part, welder);
         }
         strips_.positions = std::move(welder.points());
+        (void)flip_repeated(triangles_, group_);
         const GluedMesh glued = glue(triangles_, group_);
         Glued made;
-        made.mesh = {take(positions_, glued.representative), glued.triangles};
-        made.foot = take(foot_, glued.representative);
+        made.mesh = {take(positions_, glued.first), glued.triangles};
+        made.foot = take(foot_, glued.first);
         made.euler = euler_ - plan_.border_euler;
         made.strips = std::move(strips_);
-        for (Index v = 0; v < glued.representative.size(); ++v) {
-            const Index site = group_[glued.representative[v]];
+        for (Index v = 0; v < glued.first.size(); ++v) {
+            const Index site = group_[glued.first[v]];
             if (site >= plan_.num_sites) continue;
             made.borders.vertices.push_back(v);
             if (num_tiles_at[site] > 2) made.borders.nodes.push_back(v);
@@ -125,11 +126,11 @@ void free_vertices(const TilePlan& plan, const TileJobOptions& options, Glued& g
     curves->network.cut = cut_surface(surface, no_edges, options.num_threads, options.progress);
     const detail::CurvedSurface curved{
         .plan = std::move(curves), .whole = &surface, .cleaned = &surface, .spacing = plan.spacing};
-    detail::JoinedMesh part;
-    part.mesh.points = glued.points;
+    PlacedMesh part;
+    part.points = glued.points;
     for (Index i = 0; i < glued.near.size(); ++i) {
-        part.mesh.offsets.push_back(glued.mesh.positions[glued.near[i]] -
-                                    position(surface.mesh.view(), glued.points[i]));
+        part.offsets.push_back(glued.mesh.positions[glued.near[i]] -
+                               position(surface.mesh.view(), glued.points[i]));
     }
     std::vector<Triangle> others;
     for (const Triangle& t : glued.mesh.triangles) {
@@ -140,18 +141,18 @@ void free_vertices(const TilePlan& plan, const TileJobOptions& options, Glued& g
             is_near = is_near && made[k] < glued.near.size() && glued.near[made[k]] == t[k];
         }
         if (is_near) {
-            part.mesh.triangles.push_back(made);
+            part.triangles.push_back(made);
         } else {
             others.push_back(t);
         }
     }
     const std::vector<DirectedEdge> boundary = rim_of(glued.mesh.triangles);
-    part.stays.assign(glued.near.size(), 0);
-    for (const DirectedEdge& edge : rim_of(part.mesh.triangles)) {
+    std::vector<std::uint8_t> stays(glued.near.size(), 0);
+    for (const DirectedEdge& edge : rim_of(part.triangles)) {
         part.hard.push_back(edge);
         const DirectedEdge of_whole{glued.near[edge.first], glued.near[edge.second]};
         if (!std::ranges::binary_search(boundary, of_whole)) {
-            part.stays[edge.first] = part.stays[edge.second] = 1;
+            stays[edge.first] = stays[edge.second] = 1;
         }
     }
     detail::TileBorders borders;
@@ -165,14 +166,14 @@ void free_vertices(const TilePlan& plan, const TileJobOptions& options, Glued& g
         run.progress = [&](Stage, double) { return options.progress(0.5); };
     }
     detail::free_borders(curved, borders, part, {run, told});
-    detail::improve_in_places(curved, part, {run, told});
+    detail::improve_in_places(curved, stays, part, {run, told});
     for (Index i = 0; i < glued.near.size(); ++i) {
         const Index v = glued.near[i];
-        glued.foot[v] = position(surface.mesh.view(), part.mesh.points[i]);
-        glued.mesh.positions[v] = glued.foot[v] + part.mesh.offsets[i];
+        glued.foot[v] = position(surface.mesh.view(), part.points[i]);
+        glued.mesh.positions[v] = glued.foot[v] + part.offsets[i];
     }
     glued.mesh.triangles = std::move(others);
-    for (const auto& [a, b, c] : part.mesh.triangles) {
+    for (const auto& [a, b, c] : part.triangles) {
         glued.mesh.triangles.push_back({glued.near[a], glued.near[b], glued.near[c]});
     }
 }

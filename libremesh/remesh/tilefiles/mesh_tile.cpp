@@ -145,18 +145,18 @@ detail::TileInput tile_input(const TileFile& file, const std::string& name, doub
 }
 
 // The surface near the borders, and the vertices there.
-void take_strip(const Surface& surface, const detail::JoinedMesh& joined, double spacing,
+void take_strip(const Surface& surface, const PlacedMesh& mesh, double spacing,
                 TileMeshFile& made) {
     std::vector<Index> seeds;
     for (Index v = 0; v < made.border_site.size(); ++v) {
         if (made.border_site[v] != no_index) seeds.push_back(v);
     }
-    const std::vector<Index> ring = detail::rings_around(
-        joined.mesh.triangles, joined.mesh.points.size(), seeds, detail::rings_of_strips);
+    const std::vector<Index> ring =
+        detail::rings_around(mesh.triangles, mesh.points.size(), seeds, detail::rings_of_strips);
     for (Index v = 0; v < ring.size(); ++v) {
         if (ring[v] == no_index) continue;
         made.near.push_back(v);
-        made.points.push_back(joined.mesh.points[v]);
+        made.points.push_back(mesh.points[v]);
     }
     const std::vector<Index> faces =
         detail::faces_around(surface, made.points, detail::reach_of_strips * spacing);
@@ -191,9 +191,9 @@ void mesh_tile(const fs::path& folder, const TilePlan& plan, Index number,
     const Surface& surface = input.cleaned.surface;
     for (int tries = 0; tries < most_samplings; ++tries, ++run.seed) {
         RemeshResult told;
-        std::optional<detail::MeshedTile> meshed = detail::mesh_tile(input, {run, told});
+        std::optional<detail::TileMesh> meshed = detail::mesh_tile(input, {run, told});
         if (!meshed) continue;
-        const PlacedMesh& placed = meshed->joined.mesh;
+        const PlacedMesh& placed = meshed->mesh;
         TileMeshFile made{.plan = identity_of(plan), .border_site = std::move(meshed->border_site)};
         made.mesh.triangles = placed.triangles;
         for (Index v = 0; v < placed.points.size(); ++v) {
@@ -206,7 +206,7 @@ void mesh_tile(const fs::path& folder, const TilePlan& plan, Index number,
             continue;
         }
         made.euler = euler_of(topology);
-        take_strip(surface, meshed->joined, plan.spacing, made);
+        take_strip(surface, placed, plan.spacing, made);
         write_tile_mesh(folder, number, made);
         return;
     }

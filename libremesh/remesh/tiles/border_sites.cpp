@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
+#include <utility>
 
 namespace remesh {
 namespace {
@@ -27,17 +27,14 @@ public:
         for (Index e = 0; e < surface_.num_edges(); ++e) {
             if (is_border[e] == 0) continue;
             const Index h = surface_.edge_half[e];
-            if (const Index number = at_vertex_[surface_.tail(h)]; number != no_index) {
-                made_.sites.push_back({e, 0, number});
-            }
-            if (const Index number = at_vertex_[surface_.head(h)]; number != no_index) {
-                made_.sites.push_back({e, 1, number});
+            for (const auto& [vertex, share] :
+                 {std::pair(surface_.tail(h), 0.0), {surface_.head(h), 1.0}}) {
+                const Index number = at_vertex_[vertex];
+                if (number != no_index) made_.sites.push_back({e, share, number});
             }
         }
-        std::sort(made_.sites.begin(), made_.sites.end(),
-                  [](const BorderSite& a, const BorderSite& b) {
-                      return std::tie(a.edge, a.share) < std::tie(b.edge, b.share);
-                  });
+        std::ranges::sort(made_.sites, {},
+                          [](const BorderSite& site) { return std::pair(site.edge, site.share); });
         return std::move(made_);
     }
 

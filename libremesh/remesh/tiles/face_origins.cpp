@@ -31,13 +31,17 @@ std::vector<Triangle> triangulate_part(const std::array<Vec3, 3>& corners,
     double area = 0;
     for (std::size_t i = 2; i < left.size(); ++i) area += doubled_area(0, left[i - 1], left[i]);
     const double least = least_rest * area;
+    // The triangle between a corner that is left and those beside it.
+    const auto ear_at = [&](std::size_t i) -> Triangle {
+        const std::size_t n = left.size();
+        return {left[(i + n - 1) % n], left[i], left[(i + 1) % n]};
+    };
     std::vector<Triangle> triangles;
     while (left.size() > 3) {
         std::size_t best = 0;
         double most = -1;
         for (std::size_t i = 0; i < left.size(); ++i) {
-            const Index a = left[(i + left.size() - 1) % left.size()], b = left[i],
-                        c = left[(i + 1) % left.size()];
+            const auto [a, b, c] = ear_at(i);
             const double cut = doubled_area(a, b, c);
             if (!(area - cut > least)) continue;
             const double longest =
@@ -48,9 +52,7 @@ std::vector<Triangle> triangulate_part(const std::array<Vec3, 3>& corners,
             most = quality;
             best = i;
         }
-        const Index a = left[(best + left.size() - 1) % left.size()], b = left[best],
-                    c = left[(best + 1) % left.size()];
-        triangles.push_back({a, b, c});
+        const auto [a, b, c] = triangles.emplace_back(ear_at(best));
         area -= doubled_area(a, b, c);
         left.erase(left.begin() + static_cast<std::ptrdiff_t>(best));
     }

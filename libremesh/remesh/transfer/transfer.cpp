@@ -161,12 +161,9 @@ private:
     ClosestPoint home(const Triangle& t) const {
         const Vec3 center =
             (result_.positions[t[0]] + result_.positions[t[1]] + result_.positions[t[2]]) / 3;
-        std::size_t first = 0;
-        for (std::size_t k = 1; k < 3; ++k) {
-            if (at(points_[t[k]], center).distance_sq < at(points_[t[first]], center).distance_sq)
-                first = k;
-        }
-        return sheet_.query(center, points_[t[first]]);
+        const Index nearest = *std::ranges::min_element(
+            t, {}, [&](Index v) { return at(points_[v], center).distance_sq; });
+        return sheet_.query(center, points_[nearest]);
     }
 
     FacePoints find_from(const ClosestPoint& start, const Triangle& t) const {

@@ -272,7 +272,7 @@ TEST_P(DeltaComplexOf, DualEdgesAreLocallyShortestAndNoShorterThanDistances) {
         const Propagation p = propagate(c.surface(), on_base, {.num_threads = 1});
         const Diagram d = build_diagram(c.surface(), on_base, p, {.num_threads = 1});
         const double slack = metric_rounding * shapes::longest_edge(c.input);
-        for (const Triangle& t : remesh::build_dual(c.surface(), d)) {
+        for (const Triangle& t : remesh::build_dual(d)) {
             for (std::size_t k = 0; k < 3; ++k) {
                 const Index a = t[k], b = t[(k + 1) % 3];
                 const GeodesicPath path = path_between(c.surface(), on_base[a], on_base[b]);

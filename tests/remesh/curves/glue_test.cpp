@@ -27,10 +27,16 @@ std::set<std::pair<Index, Index>> edges_of(const std::vector<Triangle>& triangle
 // Vertices of the given number at places of no importance.
 remesh::Topology topology_of(const remesh::GluedMesh& mesh) {
     agvd::TriangleMesh result{{}, mesh.triangles};
-    for (Index i = 0; i < mesh.representative.size(); ++i) {
+    for (Index i = 0; i < mesh.first.size(); ++i) {
         result.positions.emplace_back(i, i * i, i * i * i);
     }
     return remesh::analyze_topology(result.view());
+}
+
+// Without repeated edges, as far as flips can mend them.
+remesh::GluedMesh glue_parted(std::vector<Triangle> patches, const std::vector<Index>& group) {
+    remesh::flip_repeated(patches, group);
+    return remesh::glue(patches, group);
 }
 
 }  // namespace
@@ -40,26 +46,15 @@ TEST(Glue, CopiesBecomeTheFirstOfThem) {
     const remesh::GluedMesh mesh = remesh::glue(std::vector<Triangle>{{0, 1, 2}, {4, 3, 5}},
                                                 std::vector<Index>{7, 3, 5, 7, 3, 9});
     EXPECT_EQ(mesh.vertex, std::vector<Index>({0, 1, 2, 0, 1, 3}));
-    EXPECT_EQ(mesh.representative, std::vector<Index>({0, 1, 2, 5}));
+    EXPECT_EQ(mesh.first, std::vector<Index>({0, 1, 2, 5}));
     EXPECT_EQ(mesh.triangles, std::vector<Triangle>({{0, 1, 2}, {1, 0, 3}}));
-}
-
-TEST(Glue, SheetsOfAGroupHaveVerticesOfTheirOwnAtTheFirstOne) {
-    // Three triangles at one edge, of which the first two are one sheet.
-    const std::vector<Triangle> triangles{{0, 1, 2}, {4, 3, 5}, {6, 7, 8}};
-    const std::vector<Index> group{0, 1, 2, 0, 1, 3, 0, 1, 4};
-    const remesh::GluedMesh mesh =
-        remesh::glue(triangles, group, std::vector<Index>{0, 1, 2, 0, 1, 3, 4, 5, 6});
-    EXPECT_EQ(mesh.triangles, std::vector<Triangle>({{0, 1, 2}, {1, 0, 3}, {4, 5, 6}}));
-    EXPECT_EQ(mesh.representative, std::vector<Index>({0, 1, 2, 5, 6, 7, 8}));
-    EXPECT_EQ(mesh.first_of_group, std::vector<Index>({0, 1, 2, 5, 0, 1, 8}));
 }
 
 TEST(Glue, AnEdgeOfTwoPatchesIsFlippedInOne) {
     // A square and the same from below, both with the diagonal (0, 2).
     const std::vector<Triangle> patches{{0, 1, 2}, {0, 2, 3}, {4, 6, 5}, {4, 7, 6}};
     const std::vector<Index> group{0, 1, 2, 3, 0, 1, 2, 3};
-    const remesh::GluedMesh mesh = remesh::glue(patches, group);
+    const remesh::GluedMesh mesh = glue_parted(patches, group);
     EXPECT_EQ(edges_of(mesh.triangles).size(), 6u);
     const remesh::Topology topology = topology_of(mesh);
     EXPECT_TRUE(topology.is_manifold);
@@ -73,7 +68,7 @@ TEST(Glue, WhatNoFlipCanMendStays) {
     // As before, but the other diagonal is an edge of a third patch.
     const std::vector<Triangle> patches{{0, 1, 2}, {0, 2, 3}, {4, 6, 5}, {4, 7, 6}, {8, 9, 10}};
     const std::vector<Index> group{0, 1, 2, 3, 0, 1, 2, 3, 1, 3, 4};
-    const remesh::GluedMesh mesh = remesh::glue(patches, group);
+    const remesh::GluedMesh mesh = glue_parted(patches, group);
     EXPECT_EQ(mesh.triangles,
               std::vector<Triangle>({{0, 1, 2}, {0, 2, 3}, {0, 2, 1}, {0, 3, 2}, {1, 3, 4}}));
 }
@@ -83,21 +78,20 @@ TEST(Glue, AnEdgeBetweenCopiesOfAVertexIsFlipped) {
     // A fan around 0, of whose rim 1 and 2 are copies.
     const std::vector<Triangle> patch{{0, 1, 2}, {2, 1, 3}, {0, 2, 4}, {0, 4, 5}, {0, 5, 1}};
     const std::vector<Index> group{0, 1, 1, 2, 3, 4};
-    const remesh::GluedMesh mesh = remesh::glue(patch, group);
-    for (const Triangle& t : mesh.triangles) {
+    std::vector<Triangle> parted = patch;
+    remesh::flip_repeated(parted, group);
+    EXPECT_EQ(parted.size(), patch.size());
+    for (const Triangle& t : remesh::glue(parted, group).triangles) {
         EXPECT_TRUE(t[0] != t[1] && t[1] != t[2] && t[2] != t[0]);
     }
-    EXPECT_TRUE(remesh::repeated_edges(mesh).size() <= 1);
-    EXPECT_EQ(mesh.in_patches.size(), patch.size());
+    EXPECT_LE(remesh::repeated_edges(parted, group).size(), 1u);
 }
 
 TEST(Glue, RepeatedInnerEdgesAreTold) {
     // The two diagonals (0, 2) of WhatNoFlipCanMendStays: one of the two is told.
     const std::vector<Triangle> patches{{0, 1, 2}, {0, 2, 3}, {4, 6, 5}, {4, 7, 6}, {8, 9, 10}};
     const std::vector<Index> group{0, 1, 2, 3, 0, 1, 2, 3, 1, 3, 4};
-    const remesh::GluedMesh mesh = remesh::glue(patches, group);
-    EXPECT_EQ(mesh.in_patches, patches);
-    const auto repeated = remesh::repeated_edges(mesh);
+    const auto repeated = remesh::repeated_edges(patches, group);
     ASSERT_EQ(repeated.size(), 1u);
     const auto ends = [&](Index h) {
         return std::pair(patches[h / 3][h % 3], patches[h / 3][(h + 1) % 3]);
@@ -108,14 +102,10 @@ TEST(Glue, RepeatedInnerEdgesAreTold) {
     // Where the rims of two patches meet, every inner edge there is.
     const std::vector<Triangle> rims{{0, 1, 2}, {0, 2, 3}, {4, 6, 5}, {7, 8, 9}, {7, 9, 10}};
     const std::vector<Index> names{0, 1, 2, 3, 0, 4, 2, 0, 1, 2, 3};
-    remesh::GluedMesh glued;
-    glued.in_patches = rims;
-    glued.triangles = remesh::rename_vertices(rims, names);
-    EXPECT_EQ(remesh::repeated_edges(glued).size(), 2u);
+    EXPECT_EQ(remesh::repeated_edges(rims, names).size(), 2u);
     // An edge from a vertex to itself.
-    glued.in_patches = {{0, 1, 2}, {1, 0, 3}};
-    glued.triangles = {{0, 0, 1}, {0, 0, 2}};
-    EXPECT_EQ(remesh::repeated_edges(glued).size(), 1u);
+    const std::vector<Triangle> loop{{0, 1, 2}, {1, 0, 3}};
+    EXPECT_EQ(remesh::repeated_edges(loop, std::vector<Index>{0, 0, 1, 2}).size(), 1u);
 }
 
 TEST(ThinPatch, HasTheVerticesOfItsSitesOnly) {

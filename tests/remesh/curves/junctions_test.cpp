@@ -200,16 +200,9 @@ TEST(JunctionCurves, SitesHaveACopyOnEachSideAndAVertexOnEachSheet) {
     }
 }
 
-TEST(WeldSheets, OneVertexOfAGroupStays) {
-    agvd::TriangleMesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 0}, {1, 0, 0}, {0, 0, 1}},
-                            {{0, 1, 2}, {4, 3, 5}}};
-    const std::vector<Index> staying =
-        remesh::weld_sheets(std::vector<Index>{8, 3, 5, 8, 3, 0}, mesh);
-    EXPECT_EQ(staying, std::vector<Index>({0, 1, 2, 5}));
-    EXPECT_EQ(mesh.positions.size(), 4u);
-    EXPECT_EQ(mesh.positions[3], Vec3(0, 0, 1));
-    EXPECT_EQ(mesh.triangles, std::vector<agvd::Triangle>({{0, 1, 2}, {1, 0, 3}}));
-    EXPECT_EQ(remesh::num_branched_edges(mesh.triangles), 0u);
-    mesh.triangles.push_back({0, 1, 3});
-    EXPECT_EQ(remesh::num_branched_edges(mesh.triangles), 1u);
+TEST(NumBranchedEdges, CountsThoseOfThreeFaces) {
+    std::vector<agvd::Triangle> triangles{{0, 1, 2}, {1, 0, 3}};
+    EXPECT_EQ(remesh::num_branched_edges(triangles), 0u);
+    triangles.push_back({0, 1, 4});
+    EXPECT_EQ(remesh::num_branched_edges(triangles), 1u);
 }

@@ -32,7 +32,7 @@ struct Dual {
         : surface(build_surface(mesh.view())), sites(std::move(points)) {
         diagram = build_diagram(surface, sites, propagate(surface, sites, {.num_threads = 1}),
                                 {.num_threads = 1});
-        triangles = remesh::build_dual(surface, diagram);
+        triangles = remesh::build_dual(diagram);
     }
 
     [[nodiscard]] DelaunayResult made(Delaunay mode, int num_threads = 1) const {

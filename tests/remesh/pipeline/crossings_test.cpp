@@ -89,7 +89,7 @@ TEST(Crossings, ThatFollowFromTheInputDropNoCreasesWhereThatWouldLeaveFewer) {
     const auto without =
         remesh::remesh(boxes.view(), {.num_samples = 60, .features = remesh::Features::Off});
     EXPECT_GT(*with.self_intersections, with.input_self_intersections);
-    EXPECT_LE(*without.self_intersections, without.input_self_intersections);
+    EXPECT_LT(*without.self_intersections, *with.self_intersections);
     EXPECT_EQ(with.new_self_intersections, 0u);
     EXPECT_EQ(with.features.dropped_length, 0);
     EXPECT_FALSE(with.features.gave_up);
@@ -119,9 +119,9 @@ TEST(Crossings, ThatTheInputDoesNotHaveAreNew) {
 TEST(Crossings, EdgesGetShorterWhereTheInputHasNone) {
     if (!has_cgal()) GTEST_SKIP() << "without CGAL";
     const agvd::TriangleMesh mesh = remesh::read_mesh(files::find_mesh("data/organic.ply")).mesh;
-    const auto result = remesh::remesh(mesh.view(), {.num_samples = 400});
+    const auto result = remesh::remesh(mesh.view(), {.num_samples = 220});
     EXPECT_EQ(result.self_intersections, 0u);
-    EXPECT_EQ(result.mesh.positions.size(), 400u);
+    EXPECT_EQ(result.mesh.positions.size(), 220u);
     EXPECT_GT(result.sizing.least_target, 0);
     EXPECT_LT(result.sizing.least_target, 0.6 * result.sizing.largest_target);
 }

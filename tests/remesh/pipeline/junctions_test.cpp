@@ -168,7 +168,7 @@ TEST(Junctions, AnEdgeAloneIsASlitAndNoReasonToThinTheSurface) {
     EXPECT_EQ(result.junctions.edges, 1u);
     EXPECT_EQ(result.junctions.apart_edges, 0u);
     EXPECT_EQ(result.junctions.vertices, 8u);
-    EXPECT_LE(result.features.simplified_patches, 1u);  // The triangle that stands off.
+    EXPECT_LE(result.dual.simplified_parts, 1u);  // The triangle that stands off.
 }
 
 TEST(Junctions, ShorterOnesThanTwoSpacingsStayApart) {

@@ -89,13 +89,6 @@ TEST(Polls, AreInEveryStageOfRemesh) {
     }
 }
 
-TEST(Polls, AreInTheTrianglesOfLabels) {
-    std::map<Stage, int> polls =
-        count_polls(sphere(), {.num_samples = 3000, .relax_steps = 20, .num_threads = 1});
-    EXPECT_EQ(polls[Stage::Propagate], 0);
-    EXPECT_GE(polls[Stage::Dual], 10);
-}
-
 TEST(Polls, StopEveryStageOfRemesh) {
     const TriangleMesh mesh = shapes::jitter(shapes::sphere(4), 1e-4, 1);
     remesh::RemeshOptions options{

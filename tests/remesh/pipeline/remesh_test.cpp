@@ -153,18 +153,31 @@ TEST(Remesh, ANumberOfSamplesThatIsSaidToWorkDoes) {
 }
 
 // Some flips from triangles of labels would fold them in between.
-TEST(Remesh, FlipsFromLabelsLeadToDelaunayTriangles) {
-    const TriangleMesh mesh = remesh::read_mesh(files::find_mesh("data/part.off")).mesh;
-    const remesh::RemeshResult result = remesh::remesh(mesh.view(), {.num_samples = 500});
-    EXPECT_EQ(result.propagation_bytes, 0u);
-    EXPECT_GT(result.delaunay.failing_before, 0u);
-    EXPECT_EQ(result.delaunay.failing_after, 0u);
-}
-
-TEST(Remesh, WhereLabelsGiveNoMeshCellsAreFound) {
-    const TriangleMesh mesh = remesh::read_mesh(files::find_mesh("data/parts.ply")).mesh;
-    EXPECT_GT(remesh::remesh(mesh.view(), {.num_samples = 300}).propagation_bytes, 0u);
-    EXPECT_EQ(remesh::remesh(mesh.view(), {.num_samples = 1000}).propagation_bytes, 0u);
+// Relaxed sites and those that stay, an input with creases, in tiles, and with narrow parts.
+TEST(Remesh, EveryRunTakesTheDualOfItsDiagram) {
+    struct Case {
+        const char* mesh;
+        remesh::RemeshOptions options;
+        double least_share;  // Of sites with the triangles of their cells.
+    };
+    for (const auto& [name, options, least_share] :
+         {Case{"data/part.off", {.num_samples = 500}, 0.9},
+          Case{"data/part.off", {.num_samples = 500, .relax_steps = 0}, 0.9},
+          Case{"data/part.off", {.num_samples = 2000, .samples_per_tile = 500}, 0.95},
+          Case{"data/parts.ply", {.num_samples = 500}, 0.8},
+          Case{"data/parts.ply", {.num_samples = 1000}, 0.9}}) {
+        SCOPED_TRACE(std::string(name) + ' ' + std::to_string(options.num_samples));
+        const TriangleMesh mesh = remesh::read_mesh(files::find_mesh(name)).mesh;
+        const remesh::RemeshResult result = remesh::remesh(mesh.view(), options);
+        EXPECT_GT(result.propagation_bytes, 0u);
+        EXPECT_GE(result.certified_error, 0);
+        EXPECT_LE(result.certified_error, 1e-4);
+        EXPECT_GE(result.dual.sites, options.num_samples);
+        EXPECT_GE(result.dual.sites_of_cells, least_share * result.dual.sites);
+        EXPECT_LE(result.dual.sites_of_cells + result.dual.narrow_sites, result.dual.sites);
+        EXPECT_LE(result.delaunay.failing_after, result.delaunay.failing_before);
+        EXPECT_EQ(options.samples_per_tile == 500, result.tiles > 0);
+    }
 }
 
 TEST(Remesh, AStoppedRunThrows) {

@@ -104,7 +104,7 @@ TEST(ThinParts, ARodKeepsItsLength) {
             remesh::remesh(ball_with_rod(radius).view(), {.num_samples = 1000, .sizing = sizing});
         EXPECT_EQ(result.mesh.positions.size(), 1000u);
         // With equal edges: 8 to 12 %.
-        EXPECT_LT(distance_in_diagonals(result), 0.015) << radius << ' ' << is_adaptive;
+        EXPECT_LT(distance_in_diagonals(result), 0.02) << radius << ' ' << is_adaptive;
         EXPECT_GT(result.verdict.min_angle, 15 * std::numbers::pi / 180);
     }
 }
@@ -133,12 +133,13 @@ TEST(ThinParts, FewVerticesSufficeForARod) {
     EXPECT_EQ(result.sizing.least_target, 0);
 }
 
-TEST(ThinParts, AThinnerRodGetsShorterEdges) {
+// Cells wrap around the rod: without its sites 2 of it are lost.
+TEST(ThinParts, AThinnerRodKeepsItsSites) {
     const RemeshResult result = remesh::remesh(ball_with_rod(0.015).view(), {.num_samples = 500});
-    EXPECT_LT(result.verdict.largest_distance, 0.1);
-    EXPECT_GT(result.sizing.least_target, 0);
-    EXPECT_EQ(result.features.simplified_patches, 1u);  // Labels wrap around the rod.
-    EXPECT_EQ(result.propagation_bytes, 0u);            // Cells are not needed.
+    EXPECT_LT(result.verdict.largest_distance, 0.2);
+    EXPECT_GE(result.dual.narrow_sites, 10u);
+    EXPECT_GE(result.dual.simplified_parts, 1u);
+    EXPECT_GT(result.dual.sites_of_cells, 400u);
 }
 
 TEST(ThinParts, LengthsThatTheCallerGivesStay) {

@@ -24,7 +24,7 @@ namespace {
 struct Guarded : MovableMesh {
     explicit Guarded(const TriangleMesh& mesh) : MovableMesh(mesh) {}
 
-    [[nodiscard]] EditedMesh edited() const { return {curves_, placed, mobility, hard}; }
+    [[nodiscard]] EditedMesh edited() const { return {curves_, placed, mobility}; }
 
 private:
     remesh::detail::MeshCurves curves_ = curves();
@@ -123,8 +123,8 @@ Guarded part_of_ridge() {
             return p.x() >= 0.75 && std::abs(p.y() - 0.5) < 0.4;
         });
     });
-    mesh.hard = remesh::rim_of(mesh.placed.triangles);
-    for (const auto& [from, to] : mesh.hard) mesh.mobility[from] = Mobility::Fixed;
+    mesh.placed.hard = remesh::rim_of(mesh.placed.triangles);
+    for (const auto& [from, to] : mesh.placed.hard) mesh.mobility[from] = Mobility::Fixed;
     return mesh;
 }
 
@@ -164,8 +164,8 @@ TEST(DistanceGuard, SeesEachEditOfASmallPart) {
     mesh.placed.points = points;
     mesh.placed.offsets.resize(left.size());
     mesh.mobility.assign(left.size(), Mobility::Free);
-    mesh.hard = remesh::rim_of(mesh.placed.triangles);
-    for (const auto& [from, to] : mesh.hard) mesh.mobility[from] = Mobility::Fixed;
+    mesh.placed.hard = remesh::rim_of(mesh.placed.triangles);
+    for (const auto& [from, to] : mesh.placed.hard) mesh.mobility[from] = Mobility::Fixed;
     std::vector<Index> all(mesh.surface.num_faces());
     std::iota(all.begin(), all.end(), Index{0});
     EditedMesh edited = mesh.edited();

@@ -23,7 +23,7 @@ namespace {
 struct Sample : MovableMesh {
     explicit Sample(const TriangleMesh& mesh) : MovableMesh(mesh) {}
 
-    [[nodiscard]] EditedMesh edited() const { return {curves_, placed, mobility, hard}; }
+    [[nodiscard]] EditedMesh edited() const { return {curves_, placed, mobility}; }
 
     [[nodiscard]] TriangleMesh result(const EditedMesh& edited) const {
         std::vector<Index> numbers;
@@ -106,7 +106,7 @@ TEST(EditedMesh, HardEdgesAreNotFlipped) {
     const TriangleMesh mesh = shapes::sphere(1);
     Sample sample(mesh);
     const Triangle t = mesh.triangles[0];
-    sample.hard = {{t[1], t[0]}};
+    sample.placed.hard = {{t[1], t[0]}};
     sample.mobility[t[0]] = sample.mobility[t[1]] = Mobility::Fixed;
     EditedMesh edited = sample.edited();
     EXPECT_FALSE(edited.flip(0, 0));
@@ -177,7 +177,7 @@ TEST(EditedMesh, VerticesOnTheBoundaryMoveAlongItOnly) {
     const TriangleMesh mesh = shapes::tube(24, 6);
     const Sample sample(mesh);
     EditedMesh edited = sample.edited();
-    const Index v = sample.hard[0].first;
+    const Index v = sample.placed.hard[0].first;
     const Vec3 before = edited.at(v);
     ASSERT_TRUE(edited.move(v, {0.01, 0.02, 0.3}, -1));
     EXPECT_NE(edited.at(v), before);
@@ -252,7 +252,7 @@ struct CreasedBox {
         const std::vector<std::uint8_t> is_crease = flag_sharp_edges(whole);
         for (Index e = 0; e < whole.num_edges(); ++e) {
             const Index h = whole.edge_half[e];
-            if (is_crease[e] != 0) hard.emplace_back(whole.tail(h), whole.head(h));
+            if (is_crease[e] != 0) placed.hard.emplace_back(whole.tail(h), whole.head(h));
         }
     }
     // How many coordinates of a point are those of a side.
@@ -267,12 +267,11 @@ struct CreasedBox {
     remesh::detail::MeshCurves curves;
     PlacedMesh placed;
     std::vector<Mobility> mobility;
-    std::vector<remesh::DirectedEdge> hard;
 };
 
 TEST(EditedMesh, VerticesOnCreasesSlideAlongThem) {
     const CreasedBox box;
-    EditedMesh edited(box.curves, box.placed, box.mobility, box.hard);
+    EditedMesh edited(box.curves, box.placed, box.mobility);
     int num_on_creases = 0, num_corners = 0;
     for (Index v = 0; v < edited.num_vertices(); ++v) {
         const Vec3 before = edited.at(v);
@@ -299,7 +298,7 @@ TEST(EditedMesh, VerticesOnCreasesSlideAlongThem) {
 
 TEST(EditedMesh, CreasesAreSplitAndCollapsedAlongThemselves) {
     const CreasedBox box;
-    EditedMesh edited(box.curves, box.placed, box.mobility, box.hard);
+    EditedMesh edited(box.curves, box.placed, box.mobility);
     int num_tried = 0;
     for (Index f = 0; f < box.placed.triangles.size(); ++f) {
         for (Index k = 0; k < 3; ++k) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "agvd/mesh/topology.h"
 #include "support/shapes.h"
@@ -43,6 +44,12 @@ TriangleMesh fan_on_a_side(Index n) {
     return mesh;
 }
 
+void flip_flat_faces(TriangleMesh& mesh, std::vector<remesh::DirectedEdge> hard = {}) {
+    remesh::PlacedMesh placed{{}, {}, mesh.triangles, std::move(hard)};
+    remesh::flip_flat_faces(mesh.positions, placed);
+    mesh.triangles = placed.triangles;
+}
+
 }  // namespace
 
 TEST(FlatFaces, AreThoseOnOneLineUpToRounding) {
@@ -58,7 +65,7 @@ TEST(FlatFaces, GiveTheirCornersToTheNeighbour) {
     for (const Index n : {1U, 2U, 5U}) {
         TriangleMesh mesh = fan_on_a_side(n);
         ASSERT_EQ(num_flat(mesh), n);
-        remesh::flip_flat_faces(mesh.positions, mesh.triangles);
+        flip_flat_faces(mesh);
         EXPECT_EQ(num_flat(mesh), 0U);
         EXPECT_EQ(mesh.triangles.size(), n + 1);
         EXPECT_NEAR(area_of(mesh), 0.5, 1e-15);
@@ -71,15 +78,22 @@ TEST(FlatFaces, GiveTheirCornersToTheNeighbour) {
 
 TEST(FlatFaces, StayWhereTheirLongestEdgeIsABoundary) {
     const std::vector<Vec3> positions{{0, 0, 0}, {1, 0, 0}, {0.5, 0, 0}, {0.5, -1, 0}};
-    const std::vector<Triangle> before{{0, 1, 2}, {0, 2, 3}};
-    std::vector<Triangle> after = before;
-    remesh::flip_flat_faces(positions, after);
-    EXPECT_EQ(after, before);
+    const TriangleMesh before{positions, {{0, 1, 2}, {0, 2, 3}}};
+    TriangleMesh after = before;
+    flip_flat_faces(after);
+    EXPECT_EQ(after.triangles, before.triangles);
+}
+
+TEST(FlatFaces, StayWhereTheirLongestEdgeIsHard) {
+    const TriangleMesh before = fan_on_a_side(1);
+    TriangleMesh after = before;
+    flip_flat_faces(after, {{1, 0}});
+    EXPECT_EQ(after.triangles, before.triangles);
 }
 
 TEST(FlatFaces, AMeshWithoutThemStays) {
     const TriangleMesh before = shapes::torus(12, 8);
     TriangleMesh after = before;
-    remesh::flip_flat_faces(after.positions, after.triangles);
+    flip_flat_faces(after);
     EXPECT_EQ(after.triangles, before.triangles);
 }

@@ -35,8 +35,8 @@ Kept kept(const TriangleMesh& mesh, const TriangleMesh& input, double limit,
                                .most_edge = like.most_edge,
                                .num_threads = like.num_threads};
     const auto distance =
-        keep_distance(movable.curves(), movable.mobility, wanted, movable.hard, movable.placed, {});
-    return {movable.mesh_of(movable.placed), distance, movable.hard};
+        keep_distance(movable.curves(), movable.mobility, wanted, movable.placed, {});
+    return {movable.mesh_of(movable.placed), distance, movable.placed.hard};
 }
 Kept kept(const TriangleMesh& mesh, const TriangleMesh& input, double limit) {
     const ClosestPointTree tree(input.view());

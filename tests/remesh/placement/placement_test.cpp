@@ -48,7 +48,7 @@ std::unique_ptr<Remeshed> remeshed(const TriangleMesh& input, Index count, int s
     const auto sites = prepared.base.to_intrinsic(result->mesh.points);
     const Diagram diagram =
         build_diagram(base, sites, propagate(base, prepared.layout, sites, {.max_error = 1e-3}));
-    result->mesh.triangles = remesh::build_dual(base, diagram);
+    result->mesh.triangles = remesh::build_dual(diagram);
     result->mesh.offsets.assign(count, Vec3::Zero());
     for (const SiteId site : diagram.nearest_site) result->nearest_vertex.push_back(site.value());
     return result;

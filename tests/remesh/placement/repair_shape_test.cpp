@@ -37,7 +37,7 @@ TriangleMesh uneven_tube() {
 // How often the repair polls: its work, whatever the machine.
 Index polls_of_repair(MovableMesh& mesh) {
     Index polls = 0;
-    (void)repair_shape(mesh.curves(), mesh.mobility, mesh.hard, mesh.placed,
+    (void)repair_shape(mesh.curves(), mesh.mobility, mesh.placed,
                        [&](double) { return ++polls > 0; });
     return polls;
 }
@@ -52,7 +52,7 @@ Index polls_beside_a_ball(TriangleMesh needle) {
 TEST(RepairShape, GoodTrianglesStayAsTheyAre) {
     MovableMesh placed(shapes::sphere(3));
     const std::vector<Triangle> before = placed.placed.triangles;
-    EXPECT_TRUE(repair_shape(placed.curves(), placed.mobility, placed.hard, placed.placed).empty());
+    EXPECT_TRUE(repair_shape(placed.curves(), placed.mobility, placed.placed).empty());
     EXPECT_EQ(placed.placed.triangles, before);
 }
 
@@ -61,7 +61,7 @@ TEST(RepairShape, ThinTrianglesGoAndTheCountAndTheTopologyStay) {
     MovableMesh placed(mesh);
     ASSERT_LT(smallest_angle(mesh), 8);
     const std::vector<Index> numbers =
-        repair_shape(placed.curves(), placed.mobility, placed.hard, placed.placed);
+        repair_shape(placed.curves(), placed.mobility, placed.placed);
     const TriangleMesh repaired = placed.mesh_of(placed.placed);
     EXPECT_EQ(numbers.size(), mesh.positions.size());
     EXPECT_EQ(repaired.positions.size(), mesh.positions.size());
@@ -130,7 +130,7 @@ TEST(CrossingGuard, ASegmentPassesThroughOrOnlyTouches) {
 // Whether the collapse of an edge of the first part is worth a gain.
 bool accepts_collapse(const MovableMesh& placed, double gain) {
     remesh::detail::MeshCurves curves = placed.curves();
-    remesh::detail::EditedMesh mesh(curves, placed.placed, placed.mobility, placed.hard);
+    remesh::detail::EditedMesh mesh(curves, placed.placed, placed.mobility);
     remesh::detail::DistanceGuard guard(mesh, placed.surface);
     const auto before = mesh.mark();
     const Triangle t = mesh.face(0).corner;
@@ -155,7 +155,7 @@ TEST(DistanceGuard, SamplesBelongToFacesOfTheirOwnPart) {
 TEST(ShapeSteps, AVertexIsPutOntoACurve) {
     const MovableMesh placed(uneven_tube());
     remesh::detail::MeshCurves curves = placed.curves();
-    remesh::detail::EditedMesh mesh(curves, placed.placed, placed.mobility, placed.hard);
+    remesh::detail::EditedMesh mesh(curves, placed.placed, placed.mobility);
     Ticker ticker;
     remesh::detail::ShapeSteps steps(mesh, mesh.num_faces(), 0.5, ticker);
     using Kind = remesh::detail::ShapeEdit::Kind;
@@ -183,7 +183,7 @@ TEST(ShapeSteps, ASliverIsDividedAtTheFootOfItsCorner) {
     using Kind = remesh::detail::ShapeEdit::Kind;
     const MovableMesh placed(sliver_at_a_side());
     const remesh::detail::MeshCurves curves = placed.curves();
-    remesh::detail::EditedMesh mesh(curves, placed.placed, placed.mobility, placed.hard);
+    remesh::detail::EditedMesh mesh(curves, placed.placed, placed.mobility);
     Ticker ticker;
     remesh::detail::ShapeSteps steps(mesh, 2, 0.7, ticker);
     const remesh::detail::EditedMesh::Mark before = mesh.mark();
@@ -202,7 +202,7 @@ TEST(ShapeSteps, EqualTrianglesGetBetterOneByOne) {
     using Kind = remesh::detail::ShapeEdit::Kind;
     const MovableMesh placed(shapes::join(sliver_at_a_side(), sliver_at_a_side()));
     const remesh::detail::MeshCurves curves = placed.curves();
-    remesh::detail::EditedMesh mesh(curves, placed.placed, placed.mobility, placed.hard);
+    remesh::detail::EditedMesh mesh(curves, placed.placed, placed.mobility);
     Ticker ticker;
     remesh::detail::ShapeSteps steps(mesh, 4, 0.7, ticker);
     const remesh::detail::EditedMesh::Mark before = mesh.mark();
@@ -220,7 +220,7 @@ TEST(RepairShape, FixedVerticesStay) {
     MovableMesh placed(mesh);
     for (Index v = 0; v < mesh.positions.size(); v += 2) placed.mobility[v] = Mobility::Fixed;
     const std::vector<Index> numbers =
-        repair_shape(placed.curves(), placed.mobility, placed.hard, placed.placed);
+        repair_shape(placed.curves(), placed.mobility, placed.placed);
     const TriangleMesh repaired = placed.mesh_of(placed.placed);
     ASSERT_EQ(numbers.size(), mesh.positions.size());
     Index num_fixed = 0;

@@ -7,8 +7,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "remesh/quality/point_distances.h"
-#include "support/dice.h"
 #include "support/parts.h"
 #include "support/shapes.h"
 
@@ -170,39 +168,6 @@ TEST(FeatureCoverage, EdgesThatReachFarBeyondTheOriginalCoverIt) {
                              {{0, 1, 2}, {1, 0, 3}}};
     EXPECT_EQ(coverage(fold, large).covered_closely, 1);
     EXPECT_EQ(coverage(fold, shapes::moved(large, {0, 0, 1})).covered, 0);
-}
-
-TEST(PointDistances, FindWhatIsWithinReach) {
-    Dice dice(1);
-    const auto point = [&](double size) {
-        return Vec3(dice.number(-size, size), dice.number(-size, size), dice.number(-size, size));
-    };
-    std::vector<Vec3> points;
-    for (int i = 0; i < 20000; ++i) points.push_back(point(1.5));
-    const double reach = 0.1;
-    Ticker ticker;
-    remesh::detail::PointDistances found(points, reach);
-    std::vector<double> nearest(points.size(), HUGE_VAL);
-    for (int i = 0; i < 60; ++i) {
-        const Vec3 a = point(1);
-        const Vec3 b = a + point(i % 3 == 0 ? 0 : i % 3 == 1 ? 0.5 : 10);
-        found.pass(a, b, ticker);
-        for (std::size_t k = 0; k < points.size(); ++k) {
-            const double t = (points[k] - a).dot(b - a) / std::max(1e-300, (b - a).squaredNorm());
-            nearest[k] =
-                std::min(nearest[k], (a + std::clamp(t, 0., 1.) * (b - a) - points[k]).norm());
-        }
-    }
-    int num_near = 0;
-    for (std::size_t k = 0; k < points.size(); ++k) {
-        if (nearest[k] <= reach) {
-            ++num_near;
-            EXPECT_NEAR(found.distances()[k], nearest[k], 1e-12);
-        } else {
-            EXPECT_EQ(found.distances()[k], HUGE_VAL);
-        }
-    }
-    EXPECT_GT(num_near, 1000);
 }
 
 TEST(FeatureCoverage, ResultFarAwayCoversNothing) {

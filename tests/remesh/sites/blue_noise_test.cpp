@@ -13,13 +13,12 @@ using agvd::Surface;
 using agvd::SurfacePoint;
 using agvd::Vec3;
 using remesh::detail::eliminate;
-using remesh::detail::ScatteredPoint;
 
 namespace {
 
 struct Scene {
     Surface surface = build_surface(shapes::grid(1).view());
-    std::vector<ScatteredPoint> points;
+    std::vector<SurfacePoint> points;
 
     // At (x, y) of the unit square, inside the face below or above the diagonal.
     void add(double x, double y) {
@@ -30,7 +29,7 @@ struct Scene {
             const double area = u.cross(v).z();
             const double b = d.cross(v).z() / area, c = u.cross(d).z() / area;
             if (b < 0 || c < 0 || b + c > 1) continue;
-            points.push_back({{agvd::FaceId(f), {1 - b - c, b, c}}, at});
+            points.push_back({agvd::FaceId(f), {1 - b - c, b, c}});
             return;
         }
         FAIL() << "(" << x << ", " << y << ") is not in the square";
@@ -94,8 +93,8 @@ TEST(Eliminate, PointsOnOppositeWallsDoNotCrowdEachOther) {
     Scene scene;
     for (const double x : {0.3, 0.34, 0.32}) scene.add(x, 0.05);
     scene.surface = build_surface(shapes::join(shapes::grid(1), back).view());
-    scene.points[2].point.face = agvd::FaceId(scene.points[2].point.face.value() + 2);
-    std::swap(scene.points[2].point.barycentric[1], scene.points[2].point.barycentric[2]);
+    scene.points[2].face = agvd::FaceId(scene.points[2].face.value() + 2);
+    std::swap(scene.points[2].barycentric[1], scene.points[2].barycentric[2]);
     const std::vector<Vec3> kept = scene.keep(2, 0, 0.2);
     ASSERT_EQ(kept.size(), 2u);
     EXPECT_NEAR(kept[0].x(), 0.3, 1e-12);

@@ -1,5 +1,5 @@
 // Energy and slope of cells that end at the rim, against sums over a fine grid.
-#include "remesh/sites/site_mesh.h"
+#include "remesh/sites/cvt_energy.h"
 
 #include <gtest/gtest.h>
 

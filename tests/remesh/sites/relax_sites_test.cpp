@@ -16,8 +16,8 @@
 #include "agvd/mesh/topology.h"
 #include "agvd/propagation/propagate.h"
 #include "remesh/curves/walk.h"
+#include "remesh/dual/triangulate_sites.h"
 #include "remesh/meshfile/mesh_file.h"
-#include "remesh/sites/label_triangles.h"
 #include "remesh/sites/levels.h"
 #include "remesh/sites/prepared_surface.h"
 #include "remesh/sites/relax_network.h"
@@ -450,8 +450,10 @@ TEST(Relaxation, SitesAreDrawnToThePlanesOfTheirCells) {
         const agvd::Progress none;
         remesh::detail::Relaxation relaxation(
             surface,
-            {sites, remesh::detail::triangulate_by_labels(surface, labels, sites).triangles}, {}, 1,
-            none);
+            {sites, remesh::detail::triangulate_sites(surface, labels, nullptr, sites, {},
+                                                      remesh::detail::Narrow::Leave)
+                        .triangles},
+            {}, 1, none);
         relaxation.set_density(&known, {});
         for (int step = 0; step < 5; ++step) relaxation.step();
         double sum = 0;

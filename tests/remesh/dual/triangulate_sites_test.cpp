@@ -1,8 +1,9 @@
-#include "remesh/sites/label_triangles.h"
+#include "remesh/dual/triangulate_sites.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <set>
 #include <tuple>
@@ -11,9 +12,7 @@
 #include "agvd/mesh/surface_points.h"
 #include "agvd/mesh/topology.h"
 #include "agvd/propagation/propagate.h"
-#include "remesh/dual/build_dual.h"
 #include "remesh/sites/sampling.h"
-#include "remesh/sites/simplify_merged.h"
 #include "remesh/sites/site_dual.h"
 #include "remesh/sites/sites.h"
 #include "support/points.h"
@@ -21,9 +20,8 @@
 
 using namespace agvd;
 using remesh::PreparedSurface;
-using remesh::detail::LabelTriangles;
-using remesh::detail::NarrowLabels;
-using remesh::detail::triangulate_by_labels;
+using remesh::detail::Narrow;
+using remesh::detail::SiteTriangles;
 
 namespace {
 
@@ -35,7 +33,7 @@ Topology topology_of(const std::vector<Triangle>& triangles, std::size_t num_sit
 }
 
 // Each triangle from its least corner on, in order.
-std::set<Triangle> sorted(const std::vector<Triangle>& triangles) {
+std::set<Triangle> turned_to_least(const std::vector<Triangle>& triangles) {
     std::set<Triangle> result;
     for (Triangle t : triangles) {
         std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
@@ -44,53 +42,106 @@ std::set<Triangle> sorted(const std::vector<Triangle>& triangles) {
     return result;
 }
 
-struct Case {
-    TriangleMesh mesh;
-    Index num_sites;
+SiteTriangles by_labels(const Surface& surface, const DistanceBounds& labels,
+                        std::span<const SurfacePoint> sites,
+                        std::span<const remesh::DirectedEdge> chain = {},
+                        Narrow narrow = Narrow::Leave) {
+    return remesh::detail::triangulate_sites(surface, labels, nullptr, sites, chain, narrow);
+}
+
+struct ExactCells {
+    CellComplex complex;
+    DistanceBounds labels;
 };
+
+ExactCells cells_of(const Surface& surface, std::span<const SurfacePoint> sites) {
+    const Propagation propagation = propagate(surface, sites);
+    ExactCells cells{build_cell_complex(surface, sites, propagation), {}};
+    cells.labels.distance.assign(propagation.vertex_distance.begin(),
+                                 propagation.vertex_distance.end());
+    for (const SiteId site : cells.complex.nearest_site) {
+        cells.labels.site.push_back(site.is_valid() ? site.value() : no_index);
+    }
+    return cells;
+}
+
+SiteTriangles by_cells(const Surface& surface, const ExactCells& cells,
+                       std::span<const SurfacePoint> sites, Narrow narrow = Narrow::Simplify,
+                       std::span<const remesh::DirectedEdge> chain = {}) {
+    return remesh::detail::triangulate_sites(surface, cells.labels, &cells.complex, sites, chain,
+                                             narrow);
+}
 
 }  // namespace
 
-// The labels of random sites, after flips by geodesic lengths, against the exact cells.
-TEST(LabelTriangles, FlipsLeadToTheDualOfTheCells) {
-    Index num_cases = 0, num_flips = 0;
-    for (const auto& [mesh, n] : {Case{shapes::sphere(4), 200},
-                                  {shapes::torus(60, 30), 250},
-                                  {shapes::tube(60, 40), 200}}) {
+// A triangle for each Voronoi vertex.
+TEST(TriangulateSites, WhereCellsAreDiscsTheirDualIsTaken) {
+    Index num_cases = 0;
+    for (const auto& [mesh, n] : {std::pair{shapes::sphere(4), 200U},
+                                  {shapes::torus(60, 30), 250U},
+                                  {shapes::sphere(3), 300U}}) {
         const Surface surface = build_surface(mesh.view());
-        const PreparedSurface prepared(surface, not_refined);
-        for (const std::uint64_t seed : {1u, 2u}) {
-            const std::vector<SurfacePoint> start =
-                remesh::sample_sites(surface, {.num_samples = n, .seed = seed});
-            const std::vector<SurfacePoint> sites =
-                remesh::relax_sites(prepared, start, {.steps = 10}).sites;
-            const DistanceBounds labels = remesh::detail::label_vertices(prepared, sites, 1);
-            const std::vector<Triangle> found =
-                triangulate_by_labels(surface, labels, sites).triangles;
-            std::vector<Vec3> positions;
-            for (const SurfacePoint& s : sites) {
-                positions.push_back(position(surface.mesh.view(), s));
-            }
-            const auto flipped =
-                remesh::make_delaunay(surface, sites, positions, found, {.may_fold = true});
-            const Diagram diagram = build_diagram(surface, sites, propagate(surface, sites));
-            const auto dual = remesh::make_delaunay(surface, sites, positions,
-                                                    remesh::build_dual(surface, diagram), {});
-            std::vector<Triangle> others;
-            std::ranges::set_difference(sorted(flipped.triangles), sorted(dual.triangles),
-                                        std::back_inserter(others));
-            // Four sites on a circle have two triangulations.
-            EXPECT_LE(others.size(), 0.02 * static_cast<double>(n));
-            num_flips += flipped.counts.flips;
-            ++num_cases;
+        const std::vector<SurfacePoint> sites =
+            remesh::sample_sites(surface, {.num_samples = n, .seed = 2});
+        const ExactCells cells = cells_of(surface, sites);
+        const SiteTriangles found = by_cells(surface, cells, sites);
+        std::vector<Triangle> dual;
+        for (const auto& [a, b, c] : cells.complex.vertex_sites) {
+            dual.push_back({a.value(), b.value(), c.value()});
+        }
+        EXPECT_EQ(turned_to_least(found.triangles), turned_to_least(dual));
+        EXPECT_EQ(found.triangles.size(), dual.size());
+        EXPECT_TRUE(found.narrow.empty());
+        EXPECT_EQ(found.counts.sites, n);
+        EXPECT_EQ(found.counts.sites_of_cells, n);
+        EXPECT_EQ(found.counts.simplified_parts, 0u);
+        ++num_cases;
+    }
+    EXPECT_EQ(num_cases, 3u);
+}
+
+// A torus with a thin part: there cells wrap around it. Elsewhere nothing changes.
+TEST(TriangulateSites, OnlyTrianglesNearNarrowCellsChange) {
+    TriangleMesh mesh = shapes::torus(240, 60, 0.3);
+    // Thinner around (1, 0, 0), towards the middle line of the tube.
+    for (Vec3& p : mesh.positions) {
+        const double length = std::sqrt(p.x() * p.x() + p.y() * p.y());
+        const Vec3 middle(p.x() / length, p.y() / length, 0);
+        const double share = p.x() > 0.8 ? 0.03 : p.x() < 0.5 ? 1 : 0.03 + 3 * (0.8 - p.x());
+        p = middle + share * (p - middle);
+    }
+    const Surface surface = build_surface(mesh.view());
+    for (const Index n : {300U, 600U}) {
+        const std::vector<SurfacePoint> sites =
+            remesh::sample_sites(surface, {.num_samples = n, .seed = 3});
+        const ExactCells cells = cells_of(surface, sites);
+        const SiteTriangles left = by_cells(surface, cells, sites, Narrow::Leave);
+        const SiteTriangles found = by_cells(surface, cells, sites);
+        ASSERT_FALSE(left.narrow.empty());
+        EXPECT_EQ(found.narrow, left.narrow);
+        EXPECT_TRUE(found.extra.empty());
+        EXPECT_EQ(found.counts.narrow_sites, left.narrow.size());
+        EXPECT_EQ(found.counts.simplified_patches, 0u);
+        EXPECT_GE(found.counts.simplified_parts, 1u);
+        EXPECT_EQ(found.triangles.size(), 2 * n);
+        const Topology topology = topology_of(found.triangles, n);
+        EXPECT_TRUE(topology.is_manifold && topology.is_oriented);
+        ASSERT_EQ(topology.components.size(), 1u);
+        EXPECT_EQ(topology.components[0].genus, 1);
+        std::set<Index> touched;
+        const std::set<Triangle> before = turned_to_least(left.triangles);
+        for (const Triangle& t : turned_to_least(found.triangles)) {
+            if (!before.contains(t)) touched.insert(t.begin(), t.end());
+        }
+        EXPECT_EQ(found.counts.sites_of_cells, n - touched.size());
+        for (const Index s : touched) {
+            EXPECT_GT(position(surface.mesh.view(), sites[s]).x(), 0.3) << s;
         }
     }
-    EXPECT_EQ(num_cases, 6u);
-    EXPECT_GT(num_flips, 10u);
 }
 
 // Cells wrap around tubes that are narrower than the spacing.
-TEST(LabelTriangles, KeepTheTopologyOfNarrowParts) {
+TEST(TriangulateSites, KeepTheTopologyOfNarrowParts) {
     for (const auto& [mesh, n, is_narrow] : {std::tuple{shapes::torus(240, 24, 0.05), 120U, true},
                                              {shapes::torus(240, 24, 0.05), 160U, true},
                                              {shapes::torus(120, 12, 0.08), 80U, true},
@@ -99,13 +150,13 @@ TEST(LabelTriangles, KeepTheTopologyOfNarrowParts) {
         const PreparedSurface prepared(surface, not_refined);
         const std::vector<SurfacePoint> sites = remesh::sample_sites(surface, {.num_samples = n});
         const DistanceBounds labels = remesh::detail::label_vertices(prepared, sites, 1);
-        const LabelTriangles merged = triangulate_by_labels(surface, labels, sites);
+        const SiteTriangles merged = by_labels(surface, labels, sites);
         EXPECT_EQ(topology_of(merged.triangles, n).is_manifold, !is_narrow) << n;
         EXPECT_EQ(!merged.narrow.empty(), is_narrow) << n;
-        const LabelTriangles found =
-            triangulate_by_labels(surface, labels, sites, {}, NarrowLabels::Simplify);
+        const SiteTriangles found = by_labels(surface, labels, sites, {}, Narrow::Simplify);
         EXPECT_EQ(found.narrow, merged.narrow) << n;
-        EXPECT_EQ(found.num_simplified, is_narrow ? 1u : 0u) << n;
+        EXPECT_EQ(found.counts.simplified_parts > 0, is_narrow) << n;
+        EXPECT_EQ(found.counts.simplified_patches, 0u) << n;
         EXPECT_EQ(found.triangles.size(), 2 * n);  // All sites are vertices.
         const Topology topology = topology_of(found.triangles, n);
         EXPECT_TRUE(topology.is_manifold && topology.is_oriented) << n;
@@ -115,44 +166,66 @@ TEST(LabelTriangles, KeepTheTopologyOfNarrowParts) {
 }
 
 // Where labels cover discs their triangles stay as they are.
-TEST(LabelTriangles, OnlyComponentsWithNarrowLabelsChange) {
+TEST(TriangulateSites, OtherComponentsStayAsTheyAre) {
     const TriangleMesh ball = shapes::moved(shapes::sphere(3), {3, 0, 0});
     const TriangleMesh mesh = shapes::join(ball, shapes::torus(240, 24, 0.05));
     const Surface surface = build_surface(mesh.view());
     const PreparedSurface prepared(surface, not_refined);
     const std::vector<SurfacePoint> sites = remesh::sample_sites(surface, {.num_samples = 200});
     const DistanceBounds labels = remesh::detail::label_vertices(prepared, sites, 1);
-    const LabelTriangles merged = triangulate_by_labels(surface, labels, sites);
-    const LabelTriangles found =
-        triangulate_by_labels(surface, labels, sites, {}, NarrowLabels::Simplify);
-    EXPECT_EQ(found.num_simplified, 1u);
+    const SiteTriangles merged = by_labels(surface, labels, sites);
+    const SiteTriangles found = by_labels(surface, labels, sites, {}, Narrow::Simplify);
+    EXPECT_EQ(found.counts.simplified_parts, 1u);
     const auto on_ball = [&](const std::vector<Triangle>& triangles) {
         std::vector<Triangle> some;
         for (const Triangle& t : triangles) {
             if (position(surface.mesh.view(), sites[t[0]]).x() > 1.5) some.push_back(t);
         }
-        return sorted(some);
+        return turned_to_least(some);
     };
     EXPECT_GT(on_ball(found.triangles).size(), 50u);
     EXPECT_EQ(on_ball(found.triangles), on_ball(merged.triangles));
 }
 
-// A torus needs seven vertices: some triangles are missing.
-TEST(LabelTriangles, ComponentsWithTooFewSitesStayOpen) {
+TEST(TriangulateSites, ComponentsWithoutSitesGetVerticesOfTheirOwn) {
+    const TriangleMesh ball = shapes::moved(shapes::sphere(2), {3, 0, 0});
+    const Surface surface = build_surface(shapes::join(shapes::sphere(3), ball).view());
+    std::vector<SurfacePoint> sites;
+    for (const SurfacePoint& s : remesh::sample_sites(surface, {.num_samples = 150})) {
+        if (position(surface.mesh.view(), s).x() < 1.5) sites.push_back(s);
+    }
+    const SiteTriangles found = by_cells(surface, cells_of(surface, sites), sites);
+    EXPECT_TRUE(found.narrow.empty());
+    EXPECT_GE(found.extra.size(), 4u);
+    for (const SurfacePoint& p : found.extra) {
+        EXPECT_GT(position(surface.mesh.view(), p).x(), 1.5);
+    }
+    EXPECT_EQ(found.counts.simplified_patches, 1u);
+    EXPECT_EQ(found.counts.sites_of_cells, sites.size());
+    const Topology topology = topology_of(found.triangles, sites.size() + found.extra.size());
+    EXPECT_TRUE(topology.is_manifold && topology.is_oriented);
+    ASSERT_EQ(topology.components.size(), 2u);
+    EXPECT_EQ(topology.components[1].euler, 2);
+}
+
+// A torus needs seven vertices.
+TEST(TriangulateSites, ComponentsWithTooFewSitesGetOtherVerticesAsWell) {
     const Surface surface = build_surface(shapes::torus(60, 30).view());
     const PreparedSurface prepared(surface, not_refined);
     const std::vector<SurfacePoint> sites = remesh::sample_sites(surface, {.num_samples = 5});
     const DistanceBounds labels = remesh::detail::label_vertices(prepared, sites, 1);
-    const LabelTriangles found =
-        triangulate_by_labels(surface, labels, sites, {}, NarrowLabels::Simplify);
+    const SiteTriangles found = by_labels(surface, labels, sites, {}, Narrow::Simplify);
     EXPECT_FALSE(found.narrow.empty());
-    EXPECT_FALSE(found.triangles.empty());
-    EXPECT_LT(found.triangles.size(), 10u);
-    for (const Triangle& t : found.triangles) EXPECT_LT(*std::ranges::max_element(t), 5u);
+    EXPECT_GE(found.extra.size(), 2u);
+    const std::size_t num_vertices = sites.size() + found.extra.size();
+    EXPECT_EQ(found.triangles.size(), 2 * num_vertices);
+    const Topology topology = topology_of(found.triangles, num_vertices);
+    EXPECT_TRUE(topology.is_manifold && topology.is_oriented);
+    EXPECT_EQ(topology.genus(), 1);
 }
 
 // Around the tip of a spike edges of the base have equal ends, or come twice.
-TEST(LabelTriangles, SurfacesThatAreNoMeshAreSimplified) {
+TEST(TriangulateSites, SurfacesThatAreNoMeshAreSimplified) {
     TriangleMesh mesh = shapes::sphere(3);
     for (Index v = 0; v < mesh.positions.size(); v += 5) mesh.positions[v] *= 30;
     const Surface surface = build_surface(mesh.view());
@@ -161,9 +234,9 @@ TEST(LabelTriangles, SurfacesThatAreNoMeshAreSimplified) {
     ASSERT_FALSE(find_connectivity(base.mesh.view()));
     const std::vector<SurfacePoint> sites = remesh::sample_sites(surface, {.num_samples = 60});
     const DistanceBounds labels = remesh::detail::label_vertices(prepared, sites, 1);
-    const LabelTriangles found = triangulate_by_labels(
-        base, labels, prepared.base.to_intrinsic(sites), {}, NarrowLabels::Simplify);
-    EXPECT_EQ(found.num_simplified, 1u);
+    const SiteTriangles found =
+        by_labels(base, labels, prepared.base.to_intrinsic(sites), {}, Narrow::Simplify);
+    EXPECT_EQ(found.counts.simplified_parts, 1u);
     EXPECT_EQ(found.triangles.size(), 2u * 60 - 4);
     const Topology topology = topology_of(found.triangles, sites.size());
     EXPECT_TRUE(topology.is_manifold && topology.is_oriented);
@@ -171,39 +244,22 @@ TEST(LabelTriangles, SurfacesThatAreNoMeshAreSimplified) {
     EXPECT_EQ(topology.components[0].euler, 2);
 }
 
-// Nothing is left of the merged mesh of a needle whose faces have a corner twice, or pieces are.
-TEST(SimplifyMerged, WithoutAConnectedMeshTheSurfaceItselfIsSimplified) {
-    const Surface surface = build_surface(shapes::sphere(3).view());
-    const std::vector<SurfacePoint> sites = points::scattered(surface, 20, 3);
-    const std::vector<Triangle> pieces{{0, 1, 2}, {3, 4, 20}};
-    for (const std::span<const Triangle> merged :
-         {std::span<const Triangle>(), std::span(pieces)}) {
-        std::vector<Triangle> triangles{{5, 6, 7}};
-        const std::vector<Index> vertex{11};
-        EXPECT_EQ(remesh::detail::simplify_merged(surface, sites, {merged, vertex}, triangles, {}),
-                  1u);
-        EXPECT_EQ(triangles.size(), 2u * 20 - 4);
-        EXPECT_TRUE(topology_of(triangles, 20).is_manifold);
-    }
-}
-
 // Two sites at one position, so that a merged triangle has no area.
-TEST(LabelTriangles, FlatTrianglesAreSimplified) {
+TEST(TriangulateSites, FlatTrianglesAreSimplified) {
     const Surface surface = build_surface(shapes::torus(240, 24, 0.05).view());
     const PreparedSurface prepared(surface, not_refined);
     std::vector<SurfacePoint> sites = remesh::sample_sites(surface, {.num_samples = 120});
     sites.push_back(sites[7]);
     const DistanceBounds labels = remesh::detail::label_vertices(prepared, sites, 1);
-    const LabelTriangles found =
-        triangulate_by_labels(surface, labels, sites, {}, NarrowLabels::Simplify);
-    EXPECT_EQ(found.num_simplified, 1u);
+    const SiteTriangles found = by_labels(surface, labels, sites, {}, Narrow::Simplify);
+    EXPECT_GE(found.counts.simplified_parts, 1u);
     EXPECT_EQ(found.triangles.size(), 2u * 121);
     EXPECT_TRUE(topology_of(found.triangles, sites.size()).is_manifold);
 }
 
 // The cells of inner sites wrap around a tube; its rims have every fourth vertex.
 // Next to one rim a label covers the boundary between two sites of the rim.
-TEST(LabelTriangles, RimsOfNarrowPartsAreTheirChains) {
+TEST(TriangulateSites, RimsOfNarrowPartsAreTheirChains) {
     TriangleMesh mesh = shapes::tube(24, 120);
     for (Vec3& p : mesh.positions) p = {0.05 * p.x(), 0.05 * p.y(), p.z()};
     const Surface surface = build_surface(mesh.view());
@@ -225,12 +281,11 @@ TEST(LabelTriangles, RimsOfNarrowPartsAreTheirChains) {
     }
     const DistanceBounds labels = remesh::detail::label_vertices(prepared, sites, 1);
     const auto n = static_cast<Index>(sites.size());
-    const LabelTriangles merged = triangulate_by_labels(surface, labels, sites, chain);
+    const SiteTriangles merged = by_labels(surface, labels, sites, chain);
     EXPECT_EQ(labels.site[2 * 121], 15u);
     EXPECT_EQ(merged.narrow, std::vector<Index>({12, 13, 14}));
-    const LabelTriangles found =
-        triangulate_by_labels(surface, labels, sites, chain, NarrowLabels::Simplify);
-    EXPECT_EQ(found.num_simplified, 1u);
+    const SiteTriangles found = by_labels(surface, labels, sites, chain, Narrow::Simplify);
+    EXPECT_EQ(found.counts.simplified_parts, 1u);
     const Topology topology = topology_of(found.triangles, n);
     EXPECT_TRUE(topology.is_manifold && topology.is_oriented);
     std::ranges::sort(chain);
@@ -239,7 +294,7 @@ TEST(LabelTriangles, RimsOfNarrowPartsAreTheirChains) {
 }
 
 // Of a square, each vertex of which is a site, two corners have one face.
-TEST(LabelTriangles, SitesOfCurvesGetTwoTriangles) {
+TEST(TriangulateSites, SitesOfCurvesGetTwoTriangles) {
     const Surface surface = build_surface(shapes::grid(4).view());
     const PreparedSurface prepared(surface, not_refined);
     std::vector<SurfacePoint> sites;
@@ -254,7 +309,7 @@ TEST(LabelTriangles, SitesOfCurvesGetTwoTriangles) {
     }
     ASSERT_EQ(sites.size(), 25u);
     const DistanceBounds labels = remesh::detail::label_vertices(prepared, sites, 1);
-    const LabelTriangles found = triangulate_by_labels(surface, labels, sites, chain);
+    const SiteTriangles found = by_labels(surface, labels, sites, chain);
     std::vector<Index> count(sites.size(), 0);
     for (const Triangle& t : found.triangles) {
         for (const Index site : t) ++count[site];
@@ -263,7 +318,7 @@ TEST(LabelTriangles, SitesOfCurvesGetTwoTriangles) {
     EXPECT_EQ(found.triangles.size(), 32u);  // Euler's formula.
 }
 
-TEST(LabelTriangles, SitesThatLabelNoVertexGetOne) {
+TEST(TriangulateSites, SitesThatLabelNoVertexGetOne) {
     const Surface surface = build_surface(shapes::icosahedron().view());
     const PreparedSurface prepared(surface, not_refined);
     // One site near each vertex, and three more inside of one face.
@@ -274,7 +329,7 @@ TEST(LabelTriangles, SitesThatLabelNoVertexGetOne) {
         sites.push_back({FaceId(7), at});
     }
     const DistanceBounds labels = remesh::detail::label_vertices(prepared, sites, 1);
-    const std::vector<Triangle> found = triangulate_by_labels(surface, labels, sites).triangles;
+    const std::vector<Triangle> found = by_labels(surface, labels, sites).triangles;
     EXPECT_EQ(found.size(), 20u + 2 * 3);
     const Topology topology = topology_of(found, sites.size());
     EXPECT_TRUE(topology.is_manifold && topology.is_oriented);
@@ -291,40 +346,4 @@ TEST(LabelTriangles, SitesThatLabelNoVertexGetOne) {
         ++num_inside;
     }
     EXPECT_EQ(num_inside, 7u);
-}
-
-struct WrongLabels {
-    Index before = 0, after = 0;  // The vertices whose label is not the exact one.
-};
-
-WrongLabels count_wrong(const TriangleMesh& mesh, Index num_sites, std::uint64_t seed) {
-    const Surface surface = build_surface(mesh.view());
-    const PreparedSurface prepared(surface, not_refined);
-    const std::vector<SurfacePoint> sites = points::scattered(surface, num_sites, seed);
-    const DistanceBounds labels = remesh::detail::label_vertices(prepared, sites, 1);
-    std::vector<Index> corrected = labels.site;
-    remesh::detail::correct_labels(
-        prepared, sites, triangulate_by_labels(surface, labels, sites).triangles, corrected);
-    const Diagram diagram = build_diagram(surface, sites, propagate(surface, sites));
-    WrongLabels wrong;
-    for (Index v = 0; v < surface.num_vertices(); ++v) {
-        const Index exact = diagram.nearest_site[v].value();
-        wrong.before += labels.site[v] != exact ? 1 : 0;
-        wrong.after += corrected[v] != exact ? 1 : 0;
-    }
-    return wrong;
-}
-
-TEST(LabelTriangles, CorrectedLabelsAreThoseOfTheNearestSites) {
-    const WrongLabels wrong = count_wrong(shapes::sphere(4), 300, 5);
-    EXPECT_GT(wrong.before, 40u);
-    EXPECT_LT(10 * wrong.after, wrong.before);
-}
-
-// A plate thinner than the distance of the sites on its two sides: the nearest in space is wrong.
-TEST(LabelTriangles, CorrectedLabelsStayOnTheirSide) {
-    TriangleMesh plate = shapes::cube();
-    for (int i = 0; i < 4; ++i) plate = shapes::subdivide(plate);
-    for (Vec3& p : plate.positions) p.z() *= 0.01;
-    EXPECT_LT(count_wrong(plate, 100, 2).after, static_cast<Index>(plate.positions.size()) / 25);
 }

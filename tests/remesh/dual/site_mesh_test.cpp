@@ -1,7 +1,8 @@
-#include "remesh/sites/site_mesh.h"
+#include "remesh/dual/site_mesh.h"
 
 #include <gtest/gtest.h>
 
+#include "remesh/sites/cvt_energy.h"
 #include "support/dice.h"
 
 using agvd::Index;
