@@ -51,6 +51,21 @@ SiteShape random_region(const Surface& surface, Index num_faces, std::uint64_t s
     return region;
 }
 
+std::vector<PropagationOptions> kinds_of_sites(const Surface& surface) {
+    constexpr Index num_points = 60;
+    SitePoints groups, starts;
+    for (Index i = 0; i < num_points; ++i) {
+        groups.site.push_back((7 * i + 3) % 20);
+        starts.start.push_back(0.01 * static_cast<double>(i % 17));
+    }
+    SitePoints both = groups;
+    both.start = starts.start;
+    const auto shapes = numbered(
+        {random_line(surface, 9, 2), random_region(surface, 6, 5), random_line(surface, 5, 9)},
+        num_points);
+    return {{.points = groups}, {.points = starts}, {.points = both}, {.shapes = shapes}};
+}
+
 double in_plane(const Surface& surface, const SiteShape& shape, const Vec3& p) {
     const auto& at = surface.mesh.positions;
     double least = infinity;

@@ -21,6 +21,10 @@ namespace line_sites {
 [[nodiscard]] std::vector<agvd::SiteShape> numbered(std::vector<agvd::SiteShape> shapes,
                                                     agvd::Index first = 0);
 
+//! For 60 points: sites of several points, points that start at distances, both, and lines and a
+//! region besides.
+[[nodiscard]] std::vector<agvd::PropagationOptions> kinds_of_sites(const agvd::Surface& surface);
+
 //! The distance of a point from a shape, both in the plane z = 0.
 [[nodiscard]] double in_plane(const agvd::Surface& surface, const agvd::SiteShape& shape,
                               const agvd::Vec3& p);

@@ -132,6 +132,12 @@ GluedMesh glue(std::span<const Triangle> triangles, std::span<const Index> group
             std::move(glued.first)};
 }
 
+std::vector<Index> first_of_groups(std::span<const Index> group) {
+    Numbering groups = number_sets(group);
+    for (Index& number : groups.number) number = groups.first[number];
+    return std::move(groups.number);
+}
+
 std::vector<InnerEdge> repeated_edges(std::span<const Triangle> patches,
                                       std::span<const Index> group) {
     std::vector<InnerEdge> repeated;

@@ -24,6 +24,10 @@ struct GluedMesh {
 //! \param group  #V: equal for those that become one vertex.
 [[nodiscard]] GluedMesh glue(std::span<const Triangle> triangles, std::span<const Index> group);
 
+//! By element: the first one of its group. Cost: O(n).
+//! \param group  equal for the elements of a group.
+[[nodiscard]] std::vector<Index> first_of_groups(std::span<const Index> group);
+
 //! The two sides of an inner edge of a patch.
 struct InnerEdge {
     Index half_edge, other;  //!< 3 t + k: from corner k of triangle t to the next one.

@@ -125,7 +125,6 @@ private:
         std::vector<Triangle> made;
         if (surface) {
             std::vector<SurfacePoint> points;
-            std::vector<Index> of_point;
             for (Index i = 0; i < number.size() && !is_extra(number[i]); ++i) {
                 points.push_back(point_at(*surface, i));
             }
@@ -141,7 +140,6 @@ private:
             }
         }
         const bool is_right = !made.empty() && !repeats_edges(part, made);
-
         if (part.is_component) {
             for (const Index t : part.triangles) {
                 for (const Index v : triangles_[t]) {

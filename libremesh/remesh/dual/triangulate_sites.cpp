@@ -165,6 +165,16 @@ private:
         return triangles;
     }
 
+    // Edges of the rim or of the chain that the other one lacks; none if any rim will do.
+    [[nodiscard]] std::vector<DirectedEdge> wrong_edges(std::span<const Triangle> triangles) const {
+        std::vector<DirectedEdge> wrong;
+        if (chain_.empty()) return wrong;
+        const std::vector<DirectedEdge> rim = rim_of(triangles);
+        std::set_symmetric_difference(rim.begin(), rim.end(), chain_.begin(), chain_.end(),
+                                      std::back_inserter(wrong));
+        return wrong;
+    }
+
     // Twice the Euler characteristic of each label. Of a disc it is 2, of a label that wraps around
     // a tube 0, which the triangles do not tell if all others wrap around it, too.
     [[nodiscard]] std::vector<Index> twice_euler() const {
@@ -197,12 +207,8 @@ private:
     // which rim and chain differ.
     [[nodiscard]] std::vector<Index> find_narrow(std::vector<Triangle> triangles) const {
         std::vector<Index> narrow;
-        if (!chain_.empty()) {
-            std::vector<DirectedEdge> wrong;
-            const std::vector<DirectedEdge> rim = rim_of(triangles);
-            std::set_symmetric_difference(rim.begin(), rim.end(), chain_.begin(), chain_.end(),
-                                          std::back_inserter(wrong));
-            for (const auto& [from, to] : wrong) narrow.insert(narrow.end(), {from, to});
+        for (const auto& [from, to] : wrong_edges(triangles)) {
+            narrow.insert(narrow.end(), {from, to});
         }
         const std::vector<Fan> fans =
             find_fans(build_site_mesh(std::move(triangles), num_numbers(), ticker_));
@@ -350,12 +356,9 @@ private:
         for (Index c = 0; c < twice.size(); ++c) {
             if (twice[c] != 0) is_right[c] = 0;
         }
-        if (chain_.empty()) return is_right;
-        std::vector<DirectedEdge> wrong;
-        const std::vector<DirectedEdge> rim = rim_of(result.triangles);
-        std::set_symmetric_difference(rim.begin(), rim.end(), chain_.begin(), chain_.end(),
-                                      std::back_inserter(wrong));
-        for (const auto& [from, to] : wrong) is_right[component_of(from)] = 0;
+        for (const auto& [from, to] : wrong_edges(result.triangles)) {
+            is_right[component_of(from)] = 0;
+        }
         return is_right;
     }
 

@@ -114,8 +114,8 @@ private:
         return placed_.chain.empty() || num_divided > 0 || num_found == rim.size();
     }
 
-    // Numbers the places of the vertices, and the vertices of the result, of which a place has
-    // one for each sheet.
+    // Finds which vertices are at one place, and which of these become one vertex of the result:
+    // those of one sheet.
     void name_copies() {
         const std::vector<Index> groups = groups_of_copies(placed_.curves);
         Index next_place = placed_.curves.num_groups(), next_vertex = placed_.curves.num_vertices;
@@ -124,6 +124,8 @@ private:
             place_.push_back(is_copy ? groups[site] : next_place++);
             vertex_.push_back(is_copy ? placed_.curves.vertex[site] : next_vertex++);
         }
+        place_ = first_of_groups(place_);
+        vertex_ = first_of_groups(vertex_);
         is_last_.assign(site_.size(), 0);
     }
 
@@ -155,8 +157,8 @@ private:
         points_.push_back(domain_.prepared.base.to_intrinsic(middle));
         site_.push_back(no_index);
         is_last_.push_back(1);
-        place_.push_back(*std::ranges::max_element(place_) + 1);
-        vertex_.push_back(*std::ranges::max_element(vertex_) + 1);
+        place_.push_back(added);
+        vertex_.push_back(added);
         triangles_[t] = {a, added, c};
         triangles_[u] = {b, added, d};
         triangles_.push_back({added, b, c});
@@ -174,23 +176,12 @@ private:
         }
         DelaunayResult made = make_delaunay(base_, points_, positions, triangles_,
                                             {.mode = options.delaunay,
-                                             .group = place_of_copy(),
+                                             .group = place_,
                                              .num_threads = options.num_threads,
                                              .progress = progress});
         poll(progress, 1);
         triangles_ = std::move(made.triangles);
         result.delaunay = made.counts;
-    }
-
-    // #V: the first copy at its place.
-    [[nodiscard]] std::vector<Index> place_of_copy() const {
-        std::vector<Index> first(*std::ranges::max_element(place_) + 1, no_index), result;
-        for (Index v = 0; v < place_.size(); ++v) {
-            Index& of_place = first[place_[v]];
-            if (of_place == no_index) of_place = v;
-            result.push_back(of_place);
-        }
-        return result;
     }
 
     void glue_copies() {
@@ -222,7 +213,7 @@ private:
     std::vector<Triangle> triangles_;        // Of vertices of patches: copies are apart.
     std::vector<SurfacePoint> points_;       // #V, on the base.
     std::vector<Index> site_;                // #V: no_index: none.
-    std::vector<Index> place_, vertex_;      // #V
+    std::vector<Index> place_, vertex_;      // #V: the first copy there, and of its sheet.
     std::vector<std::uint8_t> is_last_;      // #V
     DualMesh dual_;
 };

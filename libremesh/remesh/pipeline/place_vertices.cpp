@@ -36,6 +36,7 @@ std::vector<Triangle> find_copies(const DualMesh& dual, const PlacedSites& place
     std::map<DirectedEdge, DirectedEdge> chain;  // By the vertices at its ends: copies.
     for (const ChainEdge& e : placed.chain) chain[{at(e.from), at(e.to)}] = {e.from, e.to};
     std::vector<Triangle> copies(triangles.size(), Triangle{no_index, no_index, no_index});
+    if (chain.empty()) return copies;
     const auto is_on_chain = [&](Index a, Index b) {
         return chain.contains({a, b}) || chain.contains({b, a});
     };
@@ -94,18 +95,10 @@ MeshInPatches part_patches(const DualMesh& dual, const PlacedSites& placed) {
 // #V: the first vertex at the same place; sheets of a junction have several there.
 std::vector<Index> places_of(const DualMesh& dual, const CurveSites& curves) {
     const std::vector<Index> group = groups_of_copies(curves);
-    std::vector<Index> first(curves.num_groups(), no_index), places;
-    for (Index v = 0; v < dual.site.size(); ++v) {
-        const Index site = dual.site[v];
-        Index place = v;
-        if (site < group.size()) {
-            Index& of_group = first[group[site]];
-            if (of_group == no_index) of_group = v;
-            place = of_group;
-        }
-        places.push_back(place);
-    }
-    return places;
+    std::vector<Index> places;
+    Index next = curves.num_groups();
+    for (const Index site : dual.site) places.push_back(site < group.size() ? group[site] : next++);
+    return first_of_groups(places);
 }
 
 void fit(Domain& domain, const PlacedSites& placed, const DualMesh& dual, PlacedMesh& mesh,

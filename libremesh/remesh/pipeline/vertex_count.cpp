@@ -56,13 +56,16 @@ void divide_edges(const Domain& domain, Index count, DualMesh& dual) {
         }
         if (edges.empty()) return;
         std::ranges::sort(edges);
-        const EditedMesh::Mark before = edited.mark();
+        std::vector<bool> has_changed(edited.num_faces(), false);
         for (const auto& [length, h] : edges) {
             if (num_vertices == count || (is_changed && length > edges[0].first / length_ratio))
                 break;
-            const std::vector<Index> changed = edited.changed_since(before);
-            if (std::ranges::binary_search(changed, h / 3)) continue;
-            if (edited.split(h / 3, h % 3) == no_index) continue;
+            if (has_changed[h / 3]) continue;
+            const Index added = edited.split(h / 3, h % 3);
+            if (added == no_index) continue;
+            for (const Index f : edited.faces_at(added)) {
+                if (f < has_changed.size()) has_changed[f] = true;
+            }
             is_changed = true;
             ++num_vertices;
         }

@@ -133,21 +133,9 @@ TEST(CellComplex, IsThatOfTheDiagramOnMeshesThatAreHardForGeodesics) {
 TEST(CellComplex, KnowsGroupsStartsAndShapes) {
     const Surface surface = build_surface(shapes::jitter(shapes::sphere(3), 0.05, 3).view());
     const auto sites = points::scattered(surface, 60, 4);
-    SitePoints groups, starts;
-    for (Index i = 0; i < 60; ++i) {
-        groups.site.push_back((7 * i + 3) % 20);
-        starts.start.push_back(0.01 * static_cast<double>(i % 17));
+    for (const PropagationOptions& options : line_sites::kinds_of_sites(surface)) {
+        expect_that_of_the_diagram(surface, sites, options);
     }
-    SitePoints both = groups;
-    both.start = starts.start;
-    for (const SitePoints& roles : {groups, starts, both}) {
-        expect_that_of_the_diagram(surface, sites, {.points = roles});
-    }
-    const auto shapes = line_sites::numbered(
-        {line_sites::random_line(surface, 9, 2), line_sites::random_region(surface, 6, 5),
-         line_sites::random_line(surface, 5, 9)},
-        60);
-    expect_that_of_the_diagram(surface, sites, {.shapes = shapes});
 }
 
 TEST(CellComplex, KnowsSitesOnEdges) {

@@ -76,21 +76,10 @@ TEST(TraceDiagram, KnowsGroupsStartsAndShapes) {
     const TriangleMesh mesh = shapes::jitter(shapes::sphere(3), 0.05, 3);
     const Surface surface = build_surface(mesh.view());
     const auto sites = points::scattered(surface, 60, 4);
-    SitePoints groups, starts;
-    for (Index i = 0; i < 60; ++i) {
-        groups.site.push_back((7 * i + 3) % 20);
-        starts.start.push_back(0.01 * static_cast<double>(i % 17));
+    for (PropagationOptions options : line_sites::kinds_of_sites(surface)) {
+        options.lambda = 0.05;
+        expect_same_as_at_the_end(surface, sites, options);
     }
-    SitePoints both = groups;
-    both.start = starts.start;
-    for (const SitePoints& roles : {groups, starts, both}) {
-        expect_same_as_at_the_end(surface, sites, {.points = roles, .lambda = 0.05});
-    }
-    const auto shapes = line_sites::numbered(
-        {line_sites::random_line(surface, 9, 2), line_sites::random_region(surface, 6, 5),
-         line_sites::random_line(surface, 5, 9)},
-        60);
-    expect_same_as_at_the_end(surface, sites, {.shapes = shapes, .lambda = 0.05});
 }
 
 TEST(TraceDiagram, HoldsFewerRelaysWithASmallerLambda) {

@@ -10,6 +10,7 @@
 #include "agvd/mesh/surface_points.h"
 #include "agvd/mesh/topology.h"
 #include "support/shapes.h"
+#include "support/triangle_set.h"
 
 using namespace agvd;
 using remesh::detail::simplify_narrow;
@@ -28,15 +29,6 @@ TriangleMesh reordered(const TriangleMesh& mesh, const std::set<Index>& gone) {
     return {take(mesh.positions, order), rename_vertices(mesh.triangles, number)};
 }
 
-std::set<Triangle> sorted(const std::vector<Triangle>& triangles) {
-    std::set<Triangle> result;
-    for (Triangle t : triangles) {
-        std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-        result.insert(t);
-    }
-    return result;
-}
-
 }  // namespace
 
 TEST(SimplifyNarrow, TrianglesFartherOffStay) {
@@ -49,8 +41,8 @@ TEST(SimplifyNarrow, TrianglesFartherOffStay) {
     const Topology topology = analyze_topology(MeshView{mesh.positions, after});
     EXPECT_EQ(topology.components.size(), 1u);
     Index num_far = 0;
-    const std::set<Triangle> now = sorted(after);
-    for (const Triangle& t : sorted(mesh.triangles)) {
+    const std::set<Triangle> now = triangle_set(after);
+    for (const Triangle& t : triangle_set(mesh.triangles)) {
         const bool is_far = std::ranges::all_of(t, [&](Index v) {
             const Vec3 way = mesh.positions[v] - Vec3(5.0 / 12, 5.5 / 12, 0);
             return way.norm() > 1.9 / 12;

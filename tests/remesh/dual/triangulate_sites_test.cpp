@@ -17,6 +17,7 @@
 #include "remesh/sites/sites.h"
 #include "support/points.h"
 #include "support/shapes.h"
+#include "support/triangle_set.h"
 
 using namespace agvd;
 using remesh::PreparedSurface;
@@ -30,16 +31,6 @@ constexpr double not_refined = std::numeric_limits<double>::infinity();
 Topology topology_of(const std::vector<Triangle>& triangles, std::size_t num_sites) {
     TriangleMesh mesh{std::vector(num_sites, Vec3(0, 0, 0)), triangles};
     return analyze_topology(mesh.view());
-}
-
-// Each triangle from its least corner on, in order.
-std::set<Triangle> turned_to_least(const std::vector<Triangle>& triangles) {
-    std::set<Triangle> result;
-    for (Triangle t : triangles) {
-        std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-        result.insert(t);
-    }
-    return result;
 }
 
 SiteTriangles by_labels(const Surface& surface, const DistanceBounds& labels,
@@ -89,7 +80,7 @@ TEST(TriangulateSites, WhereCellsAreDiscsTheirDualIsTaken) {
         for (const auto& [a, b, c] : cells.complex.vertex_sites) {
             dual.push_back({a.value(), b.value(), c.value()});
         }
-        EXPECT_EQ(turned_to_least(found.triangles), turned_to_least(dual));
+        EXPECT_EQ(triangle_set(found.triangles), triangle_set(dual));
         EXPECT_EQ(found.triangles.size(), dual.size());
         EXPECT_TRUE(found.narrow.empty());
         EXPECT_EQ(found.counts.sites, n);
@@ -129,8 +120,8 @@ TEST(TriangulateSites, OnlyTrianglesNearNarrowCellsChange) {
         ASSERT_EQ(topology.components.size(), 1u);
         EXPECT_EQ(topology.components[0].genus, 1);
         std::set<Index> touched;
-        const std::set<Triangle> before = turned_to_least(left.triangles);
-        for (const Triangle& t : turned_to_least(found.triangles)) {
+        const std::set<Triangle> before = triangle_set(left.triangles);
+        for (const Triangle& t : triangle_set(found.triangles)) {
             if (!before.contains(t)) touched.insert(t.begin(), t.end());
         }
         EXPECT_EQ(found.counts.sites_of_cells, n - touched.size());
@@ -181,7 +172,7 @@ TEST(TriangulateSites, OtherComponentsStayAsTheyAre) {
         for (const Triangle& t : triangles) {
             if (position(surface.mesh.view(), sites[t[0]]).x() > 1.5) some.push_back(t);
         }
-        return turned_to_least(some);
+        return triangle_set(some);
     };
     EXPECT_GT(on_ball(found.triangles).size(), 50u);
     EXPECT_EQ(on_ball(found.triangles), on_ball(merged.triangles));
