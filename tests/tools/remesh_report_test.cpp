@@ -31,6 +31,8 @@ remesh::RemeshResult example_result() {
                        .length = 2.5,
                        .close_length = 2.625,
                        .dropped_length = 2.75,
+                       .freed_length = 2.875,
+                       .freed_near = {15, 16, 17},
                        .uncarried_curves = 24,
                        .samples_for_all = 25,
                        .gave_up = true,
@@ -147,6 +149,8 @@ TEST(RemeshReport, GivesEveryFieldOfTheResult) {
                                         {"crease_length_mesh_units", 2.5},
                                         {"close_crease_length_mesh_units", 2.625},
                                         {"dropped_crease_length_mesh_units", 2.75},
+                                        {"given_up_crease_length_mesh_units", 2.875},
+                                        {"given_up_crease_near", {15, 16, 17}},
                                         {"curves_off_given_sites", 24},
                                         {"samples_for_all", 25},
                                         {"gave_up", true},
@@ -304,9 +308,10 @@ TEST(RemeshReport, TextIsForAnyUser) {
         "17 pairs cross (16 in the input)\n"
         "distance: farthest 37.5 % of the size, from the input's vertex at 5 6 7\n"
         "too small for edges of 0.5: creases of length 2.75 (too few of the given sites lie "
-        "on 24 creases or on the boundary; with all creases no mesh was found, or only one "
-        "that self-intersects), creases of length 2.625 (too close to stronger ones), 43 "
-        "walls (thinnest 0.25; about 44 samples would do), 41 "
+        "on 24 creases or on the boundary; with creases no good mesh was found), creases of "
+        "length 2.625 (too close to stronger ones), creases of length 2.875 (given up near 15 16 "
+        "17, where faces would intersect or be flat), 43 walls (thinnest 0.25; about 44 samples "
+        "would do), 41 "
         "components (fewer than 12 vertices; about 42 samples would do)\n"
         "written: out.ply");
 }
@@ -348,6 +353,7 @@ TEST(RemeshReport, DetailsTellTopologyTimeAndMemory) {
           "21 curves, 22 corners, 23 vertices; 2.5 long: creases kept; 2.625 long: creases left "
           "out "
           "as too close to stronger ones; 2.75 long: creases dropped; "
+          "2.875 long: creases given up where faces would intersect or be flat; "
           "1.25 long: texture seams kept; 0.75 long: texture seams left out",
           "4.50 % of the edges failed it before 7 flips, 1.50 % after", "reached their limit",
           "1 edge not proved locally shortest", "fails in 2 faces", "clean 0.25 s, dual 0.50 s",

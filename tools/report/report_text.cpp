@@ -73,7 +73,11 @@ std::string why_dropped(const FeatureCounts& features) {
     if (!features.gave_up) {
         return "to keep all, use " + std::to_string(features.samples_for_all) + " samples";
     }
-    return text + "with all creases no mesh was found, or only one that self-intersects";
+    return text + "with creases no good mesh was found";
+}
+
+std::string describe_place(const Vec3& at) {
+    return significant(at.x()) + ' ' + significant(at.y()) + ' ' + significant(at.z());
 }
 
 // Empty without creases.
@@ -91,6 +95,7 @@ std::string describe(const FeatureCounts& features) {
     add_length(features.length, "creases kept");
     add_length(features.close_length, "creases left out as too close to stronger ones");
     add_length(features.dropped_length, "creases dropped");
+    add_length(features.freed_length, "creases given up where faces would intersect or be flat");
     add_length(features.seam_length, "texture seams kept");
     add_length(features.dropped_seam_length,
                "texture seams left out as too short or too close to each other");
@@ -145,6 +150,10 @@ std::string describe_lost(const Verdict& verdict, const FeatureCounts& features)
         add("creases of length " + significant(features.close_length) +
             " (too close to stronger ones)");
     }
+    if (features.freed_length > 0) {
+        add("creases of length " + significant(features.freed_length) + " (given up near " +
+            describe_place(features.freed_near) + ", where faces would intersect or be flat)");
+    }
     if (verdict.thin_walls > 0) {
         add(counted(verdict.thin_walls, "wall") + " (thinnest " +
             significant(verdict.thinnest_wall) + samples_for(verdict.samples_for_walls));
@@ -185,15 +194,14 @@ std::string describe_verdict(const RemeshResult& result) {
         verdict.small_angle_share > most_narrow
             ? fixed(100 * verdict.small_angle_share, 1) + " % narrow (an angle below 30 degrees)"
             : "even";
-    const Vec3& at = verdict.farthest;
     const std::string lost = describe_lost(verdict, result.features);
     return "triangles: " + shape + ", smallest angle " + fixed(verdict.min_angle * degrees, 1) +
            " degrees" + describe_narrow(verdict.narrow) + "; " + describe_crossings(result) +
            "\ndistance: farthest " +
            significant(100 * verdict.largest_distance / verdict.diagonal) +
-           " % of the size, from the input's vertex at " + significant(at.x()) + ' ' +
-           significant(at.y()) + ' ' + significant(at.z()) + "\ntoo small for edges of " +
-           significant(verdict.spacing) + ": " + (lost.empty() ? "nothing" : lost);
+           " % of the size, from the input's vertex at " + describe_place(verdict.farthest) +
+           "\ntoo small for edges of " + significant(verdict.spacing) + ": " +
+           (lost.empty() ? "nothing" : lost);
 }
 
 // Empty if the file has no attributes.

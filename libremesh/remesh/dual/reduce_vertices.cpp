@@ -5,9 +5,11 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <queue>
 
 #include "agvd/core/progress.h"
+#include "agvd/mesh/any_mesh.h"
 #include "remesh/dual/fan_mesh.h"
 
 namespace remesh {
@@ -39,6 +41,17 @@ struct Collapse {
         return cost != other.cost ? cost > other.cost : gone > other.gone;
     }
 };
+
+// The neighbours of a vertex, ascending.
+std::vector<Index> ring_of(const FanMesh& mesh, Index v) {
+    std::vector<Index> ring;
+    for (const Index f : mesh.faces_at(v)) {
+        for (const Index w : mesh.face(f).corner) {
+            if (w != v) ring.push_back(w);
+        }
+    }
+    return distinct(std::move(ring));
+}
 
 class Reducer {
 public:
@@ -77,23 +90,12 @@ private:
         }
     }
 
-    // Ascending.
-    [[nodiscard]] std::vector<Index> ring_of(Index v) const {
-        std::vector<Index> ring;
-        for (const Index f : mesh_.faces_at(v)) {
-            for (const Index w : mesh_.face(f).corner) {
-                if (w != v) ring.push_back(w);
-            }
-        }
-        return distinct(std::move(ring));
-    }
-
     // Queues the shortest collapse of v that is allowed.
     void judge(Index v) {
         ++stamp_[v];
         if (mesh_.faces_at(v).empty()) return;
         if (!keep_.empty() && keep_[v] != 0 && !demands_.releases_kept) return;
-        const std::vector<Index> ring = ring_of(v);
+        const std::vector<Index> ring = ring_of(mesh_, v);
         // The test of an edge looks at all pairs of faces of its two ends.
         ticker_.tick(4 + ring.size() * ring.size() / 4);
         std::vector<std::pair<double, Index>> ends;  // By squared distance.
@@ -136,7 +138,7 @@ private:
     void apply(const Collapse& collapse) {
         mesh_.collapse(collapse.gone, collapse.into);
         mesh_.forget();
-        for (const Index w : ring_of(collapse.into)) judge(w);
+        for (const Index w : ring_of(mesh_, collapse.into)) judge(w);
         judge(collapse.into);
     }
 
@@ -151,14 +153,32 @@ private:
     std::vector<Index> gone_;
 };
 
-// Of the points and the extra vertices.
-std::vector<Vec3> positions_of(const Surface& surface, std::span<const SurfacePoint> points,
-                               const SimplifiedMesh& patch) {
-    std::vector<Vec3> positions;
-    for (const auto some : {points, std::span<const SurfacePoint>(patch.extra)}) {
-        for (const SurfacePoint& p : some) positions.push_back(position(surface.mesh.view(), p));
+// Collapses an edge after flips of the edges that are in the way: they join `into` with neighbours
+// of `gone`.
+// \return false: it cannot be, and nothing has changed.
+bool collapse_after_flips(FanMesh& mesh, Index gone, Index into) {
+    const FanMesh::Mark before = mesh.mark();
+    for (const Index w : ring_of(mesh, gone)) {
+        const bool share_face = std::ranges::any_of(mesh.faces_at(gone), [&](Index f) {
+            return mesh.has_corner(f, into) && mesh.has_corner(f, w);
+        });
+        const Index h = w == into || share_face ? no_index : mesh.half_edge(into, w);
+        if (h != no_index && mesh.can_flip(h)) mesh.flip(h);
     }
-    return positions;
+    if (mesh.can_collapse(gone, into)) {
+        mesh.collapse(gone, into);
+        return true;
+    }
+    mesh.take_back(before);
+    return false;
+}
+
+// Into the nearest neighbour that can be.
+bool collapse_vertex(FanMesh& mesh, std::span<const Vec3> positions, Index gone) {
+    std::vector<Index> ring = ring_of(mesh, gone);
+    std::ranges::stable_sort(
+        ring, {}, [&](Index w) { return (positions[w] - positions[gone]).squaredNorm(); });
+    return std::ranges::any_of(ring, [&](Index w) { return collapse_after_flips(mesh, gone, w); });
 }
 
 }  // namespace
@@ -177,18 +197,29 @@ SimplifiedMesh simplify_patch(const Surface& surface, std::span<const Index> fac
                               std::span<const SurfacePoint> points) {
     SimplifiedMesh patch = simplify(surface, faces, points);
     if (patch.extra.empty()) return patch;
-    const std::vector<Vec3> positions = positions_of(surface, points, patch);
-    std::vector<std::uint8_t> keep(points.size(), 1);
-    keep.resize(positions.size(), 0);
-    std::vector<Triangle> triangles = patch.triangles;
-    const std::vector<Index> gone =
-        reduce_vertices(positions, triangles, static_cast<Index>(points.size()), keep);
-    const bool are_extra =
-        std::all_of(gone.begin(), gone.end(), [&](Index v) { return v >= points.size(); });
-    if (are_extra && gone.size() == patch.extra.size()) {
-        patch.triangles = std::move(triangles);
-        patch.extra.clear();
+    std::vector<Vec3> positions;
+    for (const auto some : {points, std::span<const SurfacePoint>(patch.extra)}) {
+        for (const SurfacePoint& p : some) positions.push_back(position(surface.mesh.view(), p));
     }
+    FanMesh mesh(patch.triangles, static_cast<Index>(positions.size()));
+    for (bool is_changed = true; is_changed;) {
+        is_changed = false;
+        for (auto v = static_cast<Index>(points.size()); v < positions.size(); ++v) {
+            if (mesh.faces_at(v).empty()) continue;
+            is_changed = collapse_vertex(mesh, positions, v) || is_changed;
+        }
+    }
+    patch.triangles = mesh.triangles();
+    std::vector<Index> number(positions.size());
+    std::iota(number.begin(), number.end(), Index{0});
+    std::vector<SurfacePoint> left;
+    for (auto v = static_cast<Index>(points.size()); v < positions.size(); ++v) {
+        if (mesh.faces_at(v).empty()) continue;
+        number[v] = static_cast<Index>(points.size() + left.size());
+        left.push_back(patch.extra[v - points.size()]);
+    }
+    patch.triangles = rename_vertices(patch.triangles, number);
+    patch.extra = std::move(left);
     return patch;
 }
 

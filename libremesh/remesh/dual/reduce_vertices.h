@@ -29,8 +29,9 @@ namespace remesh {
                                                  std::span<const std::uint8_t> keep = {},
                                                  const Progress& progress = {});
 
-//! Applies simplify(), then removes the extra vertices that it leaves by collapses, if all of them
-//! can be removed. On a curve no patch may have a vertex that the patch across the curve lacks.
+//! Applies simplify(), then removes as many of the extra vertices that it leaves as can be removed
+//! by collapses, and by flips of edges that are in their way. On a curve no patch may have a vertex
+//! that the patch across the curve lacks.
 //! \param surface  may be a Delta-complex.
 //! \param faces    ascending: one component of it.
 //! \param points   in these faces, no two at one position.

@@ -16,13 +16,8 @@
 namespace remesh::detail {
 namespace {
 
-void take_crossings(const std::optional<CrossingFaces>& crossings, BuiltMesh& built) {
-    if (!crossings) return;
-    built.self_intersections = crossings->counts();
-    built.crossing_corners.clear();
-    for_each_corner(crossings->added, built.mesh.triangles,
-                    [&](Index v) { built.crossing_corners.push_back(built.mesh.points[v]); });
-}
+// Rounds in which creases give way.
+constexpr int most_freeings = 2;
 
 // How many vertices the result is to have: as many as were asked for, or one for each given site
 // that owns a part of the surface. Counts the other given sites.
@@ -97,15 +92,24 @@ bool place_mesh(Domain& domain, const PlacedSites& sites, BuiltMesh& built,
 void finish_mesh(const CurvedSurface& curved, InputCrossings& of_input, const StageContext& context,
                  BuiltMesh& built) {
     CrossingFinder finder(curved, of_input, context);
-    take_crossings(unfit_crossings(finder, built.mesh, context.result), built);
-    if (context.result.tiles > 0) return;
-    if (is_improvable(curved, context.options)) {
-        (void)improve(curved, finder, built.mesh, built.self_intersections, context);
+    std::optional<CrossingFaces> crossings = unfit_crossings(finder, built.mesh, context.result);
+    if (context.result.tiles == 0 && is_improvable(curved, context.options)) {
+        const auto repair = [&] {
+            part_faces(curved, finder, built.mesh, crossings, context);
+            improve(curved, finder, built.mesh, crossings, context);
+        };
+        repair();
+        for (int round = 0; round < most_freeings; ++round) {
+            if (!free_creases(curved, crossings, built.mesh, context)) break;
+            repair();
+        }
     }
+    if (crossings) built.self_intersections = crossings->counts();
+    if (context.result.tiles > 0) return;
     if (curved.bound == nullptr || curved.has_junctions()) return;
     built.proved_distance = bring_near(curved, built.mesh, context);
     if (auto pairs = finder.find(built.mesh)) {
-        take_crossings(finder.tell_added(built.mesh, *std::move(pairs)), built);
+        built.self_intersections = finder.tell_added(built.mesh, *std::move(pairs)).counts();
     }
 }
 

@@ -1,12 +1,14 @@
 #include "remesh/pipeline/crossings.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "agvd/mesh/any_mesh.h"
 #include "agvd/mesh/scale.h"
 #include "remesh/pipeline/domain.h"
 #include "remesh/pipeline/stage_context.h"
 #include "remesh/placement/placement.h"
+#include "remesh/placement/shape_quality.h"
 #include "remesh/quality/evaluate.h"
 
 namespace remesh::detail {
@@ -14,8 +16,6 @@ namespace {
 
 // Most rounds that move vertices back onto the surface.
 constexpr int max_unfits = 4;
-// Fewer samples than this for each new pair are hopeless.
-constexpr std::size_t samples_per_pair = 4;
 
 using Corners = std::array<Vec3, 3>;
 
@@ -45,6 +45,19 @@ std::vector<Vec3> segment_in_plane(const Corners& t, const Corners& plane) {
 
 std::optional<FacePairs> find_in(const MeshView& mesh, const RemeshOptions& options) {
     return find_self_intersections(mesh, options.num_threads, progress_of(Stage::Check, options));
+}
+
+// Pairs of faces at an edge that are folds.
+FacePairs find_folds(const MeshView& mesh) {
+    FacePairs folds;
+    for_each_edge(sorted_edge_sides(mesh.triangles), [&](std::span<const EdgeSide> edge) {
+        if (edge.size() != 2) return;
+        const Index f = edge[0].half_edge / 3, g = edge[1].half_edge / 3;
+        if (is_fold(normal_of(corners_of(mesh, f)), normal_of(corners_of(mesh, g)))) {
+            folds.push_back(std::minmax(f, g));
+        }
+    });
+    return folds;
 }
 
 // Moves a vertex and all its copies back onto the surface.
@@ -110,7 +123,9 @@ FacePairs pairs_elsewhere(const ClosestPointTree& triangles, const MeshView& mes
 std::optional<FacePairs> CrossingFinder::find(const PlacedMesh& mesh) {
     const StageClock clock(Stage::Check, context_.result);
     poll(progress_of(Stage::Check, context_.options), 0);
-    std::optional<FacePairs> all = find_in(welded_mesh(curved_, mesh), context_.options);
+    const TriangleMesh whole = welded_mesh(curved_, mesh);
+    std::optional<FacePairs> all = find_in(whole, context_.options);
+    if (all) add_folds(whole, *all);
     if (all && !all->empty()) {
         if (!of_input_.is_searched || of_input_.is_welded != curved_.has_junctions()) {
             find_in_input();
@@ -130,6 +145,18 @@ CrossingFaces CrossingFinder::tell_added(const PlacedMesh& mesh, FacePairs all) 
     return found;
 }
 
+void CrossingFinder::add_folds(const MeshView& mesh, FacePairs& pairs) {
+    FacePairs folds = find_folds(mesh);
+    if (folds.empty()) return;
+    if (!std::exchange(of_input_.are_folds_searched, true)) {
+        const MeshView input = curved_.cleaned->mesh.view();
+        const FacePairs of_input = find_folds(input);
+        if (!of_input.empty()) of_input_.folds.emplace(crossing_triangles(input, of_input));
+    }
+    if (of_input_.folds) folds = pairs_elsewhere(*of_input_.folds, mesh, folds);
+    pairs.insert(pairs.end(), folds.begin(), folds.end());
+}
+
 void CrossingFinder::find_in_input() {
     const bool is_coarse = curved_.cleaned != curved_.whole;
     const TriangleMesh& input = curved_.cleaned->mesh;
@@ -142,19 +169,14 @@ void CrossingFinder::find_in_input() {
     }
     const MeshView mesh{input.positions, welded.empty() ? input.triangles : welded};
     const FacePairs pairs = find_in(mesh, context_.options).value();
-    of_input_ = {.is_searched = true,
-                 .is_welded = curved_.has_junctions(),
-                 .num_pairs = static_cast<Index>(pairs.size()),
-                 .triangles = {}};
+    of_input_.is_searched = true;
+    of_input_.is_welded = curved_.has_junctions();
+    of_input_.num_pairs = static_cast<Index>(pairs.size());
+    of_input_.triangles.reset();
     if (!pairs.empty()) {
         of_input_.triangles.emplace(crossing_triangles(mesh, pairs),
                                     progress_of(Stage::Check, context_.options));
     }
-}
-
-bool is_hopeless(std::size_t num_pairs, const StageContext& context) {
-    const std::size_t most = context.options.num_samples / samples_per_pair;
-    return num_pairs > context.result.input_self_intersections + most;
 }
 
 std::optional<CrossingFaces> unfit_crossings(CrossingFinder& finder, PlacedMesh& mesh,

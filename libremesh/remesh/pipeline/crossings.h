@@ -52,12 +52,14 @@ void for_each_corner(const FacePairs& pairs, const std::vector<Triangle>& triang
 [[nodiscard]] FacePairs pairs_elsewhere(const ClosestPointTree& triangles, const MeshView& mesh,
                                         const FacePairs& pairs);
 
-//! Self-intersections of the cleaned input. All attempts of a run share them.
+//! Self-intersections of the cleaned input. All meshes of a run share them.
 struct InputCrossings {
     bool is_searched = false;
     bool is_welded = false;  //!< Sheets that meet at junctions did not count.
     Index num_pairs = 0;
     std::optional<ClosestPointTree> triangles;  //!< See crossing_triangles; unset: there are none.
+    bool are_folds_searched = false;
+    std::optional<ClosestPointTree> folds;  //!< The same of folds (is_fold).
 };
 
 //! Finds self-intersections, and those of the input as soon as a result has any.
@@ -68,7 +70,8 @@ public:
                    const StageContext& context)
         : curved_(curved), of_input_(of_input), context_(context) {}
 
-    //! Intersecting faces. Sheets that meet at a junction do not count.
+    //! Intersecting faces, and folds (is_fold) where the input has none. Sheets that meet at a
+    //! junction do not count.
     //! \return unset without CGAL.
     //! Cost: that of find_self_intersections.
     [[nodiscard]] std::optional<FacePairs> find(const PlacedMesh& mesh);
@@ -76,16 +79,13 @@ public:
     [[nodiscard]] CrossingFaces tell_added(const PlacedMesh& mesh, FacePairs all);
 
 private:
+    void add_folds(const MeshView& mesh, FacePairs& pairs);
     void find_in_input();
 
     const CurvedSurface& curved_;
     InputCrossings& of_input_;
     const StageContext& context_;
 };
-
-//! Whether a result has so many more intersecting pairs of faces than the input that more sites
-//! would not help: more than one for four samples, as on meshes with spikes.
-[[nodiscard]] bool is_hopeless(std::size_t num_pairs, const StageContext& context);
 
 //! Moves vertices of intersecting triangles back onto the surface, in a few rounds.
 //! \return the pairs that still intersect; unset without CGAL.

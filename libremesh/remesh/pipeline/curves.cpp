@@ -6,8 +6,6 @@
 #include <utility>
 
 #include "agvd/mesh/closest_point.h"
-#include "agvd/mesh/point_grid.h"
-#include "agvd/mesh/scale.h"
 #include "agvd/mesh/surface_points.h"
 #include "remesh/clean/carry.h"
 #include "remesh/curves/crease_chains.h"
@@ -28,10 +26,6 @@ constexpr std::size_t least_scale = 300;
 constexpr double least_junction = 2;
 // In spacings: given sites this near to a curve are put onto it if sites are relaxed.
 constexpr double on_curve = 0.1;
-
-// In spacings: see edges_near().
-constexpr double around_failure = 2;
-constexpr double grid_margin = 1e-3;
 
 // Adds marks to others.
 void add_marks(std::span<const std::uint8_t> more, std::vector<std::uint8_t>& marks) {
@@ -173,37 +167,13 @@ FoundCurves find_curves(const CleanedInput& cleaned, double spacing, CloseCrease
     return found;
 }
 
-std::vector<Index> edges_near(std::span<const Vec3> points, const Surface& surface, double spacing,
-                              std::span<const std::uint8_t> is_among) {
-    const double reach = around_failure * spacing;
-    MeshBox box;
-    for (const Vec3& p : points) box.add(p);
-    PointGrid grid(box.low, 2 * reach * (1 + grid_margin), points.size());
-    for (Index i = 0; i < points.size(); ++i) grid.add(points[i], i);
-    std::vector<Index> near;
-    for (Index e = 0; e < is_among.size(); ++e) {
-        if (is_among[e] == 0) continue;
-        const Index h = surface.edge_half[e];
-        const Vec3 &a = surface.mesh.positions[surface.tail(h)],
-                   &b = surface.mesh.positions[surface.head(h)];
-        bool is_near = false;
-        const int parts = 1 + static_cast<int>(surface.length[e] / reach);
-        for (int i = 0; i <= parts; ++i) {
-            grid.visit_near(a + (b - a) * i / parts, reach, [&](Index p) {
-                is_near = is_near || distance_to_segment(points[p], a, b) < reach;
-            });
-        }
-        if (is_near) near.push_back(e);
-    }
-    return near;
-}
-
 std::unique_ptr<const CurvePlan> plan_curves(const CleanedInput& cleaned, const FoundCurves& found,
                                              const KeptCurves& kept, double spacing,
                                              const SizeField* sizes, const StageContext& context) {
     const auto& [options, result] = context;
     const StageClock clock(Stage::Clean, result);
     result.junctions.apart_edges = result.junctions.edges;
+    result.features = {};
     for (Index e = 0; e < found.is_crease.size(); ++e) {
         if (kept.is_crease[e] != 0) continue;
         const double length = cleaned.surface.length[e];

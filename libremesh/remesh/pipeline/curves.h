@@ -34,7 +34,7 @@ enum class CloseCreases {
     GoOrRefine  //!< They stay where shorter edges between them are worth it.
 };
 
-//! Which of these curves one attempt reproduces.
+//! Which of these curves a mesh reproduces.
 struct KeptCurves {
     bool has_junctions = true;
     bool has_seams = true;
@@ -57,11 +57,6 @@ struct CurvePlan {
 [[nodiscard]] std::vector<std::uint8_t> find_own_creases(const CleanedInput& cleaned,
                                                          double spacing,
                                                          const RemeshOptions& options);
-
-//! Of some edges those within two spacings of some points. Cost: O(#E + #points).
-//! \param is_among  #E: 1 for these edges.
-[[nodiscard]] std::vector<Index> edges_near(std::span<const Vec3> points, const Surface& surface,
-                                            double spacing, std::span<const std::uint8_t> is_among);
 
 //! \param sizes  target lengths; null: all equal.
 //! \return see plan_network; without a cut if the sites are too few.

@@ -17,8 +17,22 @@ namespace {
 // Most tries; in the second one fewer vertices may move. Repair adds no intersections but those in
 // one plane or by rounding.
 constexpr int most_tries = 2;
+constexpr int most_partings = 3;
+// Faces for each bad one, or pair that intersects, at least: with fewer, as on meshes with spikes,
+// repairs would take long and gain little.
+constexpr std::size_t faces_per_bad = 4;
 // Around bad triangles: edits reach some edges far, and vertices to spare are found there.
 constexpr Index rings_of_places = 8;
+
+bool is_hopeless(std::size_t num_bad, const PlacedMesh& mesh) {
+    return faces_per_bad * num_bad > mesh.triangles.size();
+}
+
+// The pairs that do not follow from the input's, if these are no more.
+FacePairs pairs_to_part(const std::optional<CrossingFaces>& crossings, const PlacedMesh& mesh) {
+    if (!crossings || 2 * crossings->added.size() < crossings->all.size()) return {};
+    return is_hopeless(crossings->added.size(), mesh) ? FacePairs{} : crossings->added;
+}
 
 }  // namespace
 
@@ -36,7 +50,7 @@ std::vector<Mobility> find_mobility(const CurvedSurface& curved, const MeshCurve
                                                       : Mobility::Node;
         // A mesh may pass by a vertex on a curve, and a rim may lie off the boundary.
         if (!is_on_edge[v]) {
-            if (place.node == no_index) mobility = Mobility::Free;
+            if (place.node == no_index || !curved.has_locked()) mobility = Mobility::Free;
         } else if (mobility == Mobility::Free) {
             mobility = Mobility::Boundary;
         }
@@ -123,8 +137,8 @@ bool is_improvable(const CurvedSurface& curved, const RemeshOptions& options) {
     return is_relaxed(options) && !options.sites && !curved.has_junctions();
 }
 
-bool improve(const CurvedSurface& curved, CrossingFinder& finder, PlacedMesh& mesh,
-             std::optional<CrossingCounts>& crossings, const StageContext& context) {
+void improve(const CurvedSurface& curved, CrossingFinder& finder, PlacedMesh& mesh,
+             std::optional<CrossingFaces>& crossings, const StageContext& context) {
     const MeshCurves curves(*curved.whole, curved.cut(), curved.plan->network.network);
     std::vector<Mobility> mobility = find_mobility(curved, curves, mesh);
     for (int round = 0; round < most_tries; ++round) {
@@ -135,19 +149,76 @@ bool improve(const CurvedSurface& curved, CrossingFinder& finder, PlacedMesh& me
             numbers = repair_shape(curves, mobility, improved,
                                    progress_at(Stage::Place, context.options, 1));
         }
-        if (numbers.empty()) return false;
+        if (numbers.empty()) return;
         std::optional<FacePairs> pairs = finder.find(improved);
-        if (!pairs || pairs->size() <= crossings->all) {
-            if (pairs) crossings = finder.tell_added(improved, *std::move(pairs)).counts();
+        if (!pairs || pairs->size() <= crossings->all.size()) {
+            if (pairs) crossings = finder.tell_added(improved, *std::move(pairs));
             mesh = std::move(improved);
-            return true;
+            return;
         }
         for_each_corner(*pairs, improved.triangles, [&](Index v) {
             const Index before = numbers[v];
             if (before < mobility.size()) mobility[before] = Mobility::Fixed;
         });
     }
-    return false;
+}
+
+void part_faces(const CurvedSurface& curved, CrossingFinder& finder, PlacedMesh& mesh,
+                std::optional<CrossingFaces>& crossings, const StageContext& context) {
+    const MeshCurves curves(*curved.whole, curved.cut(), curved.plan->network.network);
+    for (int round = 0; round < most_partings; ++round) {
+        const FacePairs pairs = pairs_to_part(crossings, mesh);
+        if (pairs.empty()) return;
+        PlacedMesh parted = mesh;
+        {
+            const StageClock clock(Stage::Place, context.result);
+            if (repair_crossings(curves, find_mobility(curved, curves, mesh), pairs, parted,
+                                 progress_at(Stage::Place, context.options, 1))
+                    .empty()) {
+                return;
+            }
+        }
+        CrossingFaces left = finder.tell_added(parted, *finder.find(parted));
+        if (left.added.size() >= pairs.size()) return;
+        mesh = std::move(parted);
+        crossings = std::move(left);
+    }
+}
+
+bool free_creases(const CurvedSurface& curved, const std::optional<CrossingFaces>& crossings,
+                  PlacedMesh& mesh, const StageContext& context) {
+    const TriangleMesh whole = whole_mesh(*curved.whole, mesh);
+    std::vector<Index> bad;
+    for (const auto& [f, g] : pairs_to_part(crossings, mesh)) bad.insert(bad.end(), {f, g});
+    for (Index f = 0; f < whole.triangles.size(); ++f) {
+        if (is_flat(whole.positions, whole.triangles[f])) bad.push_back(f);
+    }
+    if (bad.empty() || is_hopeless(bad.size(), mesh)) return false;
+    std::vector<std::uint8_t> is_bad(mesh.points.size(), 0);
+    for (const Index f : bad) {
+        for (const Index v : mesh.triangles[f]) is_bad[v] = 1;
+    }
+    const std::vector<DirectedEdge> rim = rim_of(mesh.triangles);
+    FeatureCounts& counts = context.result.features;
+    double longest = 0;
+    const double before = counts.freed_length;
+    std::erase_if(mesh.hard, [&](const DirectedEdge& edge) {
+        const DirectedEdge back{edge.second, edge.first};
+        if ((is_bad[edge.first] == 0 && is_bad[edge.second] == 0) ||
+            std::ranges::binary_search(rim, edge) || std::ranges::binary_search(rim, back)) {
+            return false;
+        }
+        const Vec3 &a = whole.positions[edge.first], &b = whole.positions[edge.second];
+        const double length = (b - a).norm();
+        counts.freed_length += length / 2;  // Inner edges come once for each side.
+        if (length > longest) {
+            longest = length;
+            counts.freed_near = (a + b) / 2;
+        }
+        return true;
+    });
+    counts.length -= counts.freed_length - before;
+    return counts.freed_length > before;
 }
 
 }  // namespace remesh::detail

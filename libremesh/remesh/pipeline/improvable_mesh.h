@@ -8,6 +8,7 @@
 namespace remesh::detail {
 
 class CrossingFinder;
+struct CrossingFaces;
 struct CurvedSurface;
 struct StageContext;
 
@@ -21,12 +22,24 @@ struct StageContext;
                                                   const MeshCurves& curves, const PlacedMesh& mesh);
 
 //! Improves narrow triangles (repair_shape). If more of the improved triangles intersect than
-//! before, fixes their corners and tries again, once.
+//! before, fixes their corners and tries again, once. The mesh stays if none is better.
 //! \param crossings  of the mesh, then of the improved one; unset without CGAL.
-//! \return false: no improved mesh is better, and `crossings` is as before.
 //! Cost: O(#surface), and that of repair_shape, twice at most.
-[[nodiscard]] bool improve(const CurvedSurface& curved, CrossingFinder& finder, PlacedMesh& mesh,
-                           std::optional<CrossingCounts>& crossings, const StageContext& context);
+void improve(const CurvedSurface& curved, CrossingFinder& finder, PlacedMesh& mesh,
+             std::optional<CrossingFaces>& crossings, const StageContext& context);
+
+//! Parts faces that intersect where the input's do not (repair_crossings).
+//! \param crossings  as of improve().
+//! Cost: that of repair_crossings and find_self_intersections, three times at most.
+void part_faces(const CurvedSurface& curved, CrossingFinder& finder, PlacedMesh& mesh,
+                std::optional<CrossingFaces>& crossings, const StageContext& context);
+
+//! Takes the mark of a crease from the edges at the corners of faces that still intersect, where
+//! the input's do not, or have no area.
+//! \return whether there are any. Cost: O(n log n).
+[[nodiscard]] bool free_creases(const CurvedSurface& curved,
+                                const std::optional<CrossingFaces>& crossings, PlacedMesh& mesh,
+                                const StageContext& context);
 
 //! Improves the bad triangles of a mesh that is large, or a tile of one: only what lies within some
 //! rings of them is looked at and changed. Crossings are not searched. Vertices that are kept have

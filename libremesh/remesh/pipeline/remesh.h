@@ -125,10 +125,13 @@ struct FeatureCounts {
     //! ones are kept.
     double close_length = 0;
     double dropped_length = 0;  //!< Of the dropped creases: the sites are too few or lie elsewhere.
-    Index uncarried_curves = 0;  //!< Creases that given sites do not lie on.
-    Index samples_for_all = 0;   //!< Fewest samples that keep all creases.
-    //! Creases were dropped because no mesh with all of them was found, or only one that
-    //! self-intersects.
+    //! Of edges on creases that gave way, as faces there would intersect or have no area.
+    double freed_length = 0;
+    Vec3 freed_near = Vec3::Zero();  //!< The middle of the longest of these edges.
+    Index uncarried_curves = 0;      //!< Creases that given sites do not lie on.
+    Index samples_for_all = 0;       //!< Fewest samples that keep all creases.
+    //! All creases were dropped, because no mesh with them was found, or only one most of whose
+    //! faces intersect.
     bool gave_up = false;
     double seam_length = 0;  //!< Of RemeshOptions::texture_seams that became curves, mesh units.
     double dropped_seam_length = 0;  //!< Of the others: too close to each other, or too short.

@@ -115,14 +115,17 @@ void scale_back(RemeshResult& result, int exponent) {
     Verdict& verdict = result.verdict;
     for (double* length :
          {&result.features.length, &result.features.close_length, &result.features.dropped_length,
-          &result.features.seam_length, &result.features.dropped_seam_length,
-          &result.sizing.mean_edge, &result.sizing.least_target, &result.sizing.largest_target,
+          &result.features.freed_length, &result.features.seam_length,
+          &result.features.dropped_seam_length, &result.sizing.mean_edge,
+          &result.sizing.least_target, &result.sizing.largest_target,
           &result.sizing.largest_distance, &verdict.spacing, &verdict.thinnest_wall,
           &verdict.largest_distance, &verdict.diagonal}) {
         *length = std::ldexp(*length, exponent);
     }
     for (double& target : result.sizing.targets) target = std::ldexp(target, exponent);
-    for (double& coordinate : verdict.farthest) coordinate = std::ldexp(coordinate, exponent);
+    for (auto* place : {&verdict.farthest, &result.features.freed_near}) {
+        for (double& coordinate : *place) coordinate = std::ldexp(coordinate, exponent);
+    }
     for (ComponentTopology& component : result.input_topology.components) {
         component.area = std::ldexp(component.area, 2 * exponent);
     }

@@ -1,9 +1,8 @@
-// Runs the stages: cleaning once, then attempts with other curves until one gives a mesh without
-// self-intersections that the input does not have. The best attempt counts.
+// Runs the stages after cleaning. Only where no mesh has all curves they run again without some,
+// and where the result does not reach a narrow part, with shorter edges there.
 #include "remesh/pipeline/run.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -22,7 +21,7 @@
 namespace remesh::detail {
 namespace {
 
-// Thrown if no attempt gives a mesh.
+// Thrown if no curves that may be left out give a mesh.
 struct TooFewSamples {
     Index asked;
     Index reached;  // Vertices that may suffice.
@@ -34,15 +33,15 @@ Index num_more_crossings(const RemeshResult& result) {
     return pairs - std::min(pairs, result.input_self_intersections);
 }
 
-// Intersections that follow from the input's are no reason to give up creases: meshes of other
-// faces have other numbers of them.
-bool is_fine(const RemeshResult& result) {
-    return num_more_crossings(result) == 0 || result.new_self_intersections == 0;
-}
-
 // Whether the result does not reach a part of the input.
 bool has_lost_part(const RemeshResult& result) {
     return result.verdict.largest_distance > result.verdict.spacing;
+}
+
+// Whether so many faces intersect that repairs in places are in vain, as where few vertices lie on
+// the creases of one plane.
+bool is_crushed(const RemeshResult& result) {
+    return 4 * std::size_t{result.new_self_intersections} > result.mesh.triangles.size();
 }
 
 // Whether lengths in places are ours to choose.
@@ -54,31 +53,21 @@ bool may_shorten(const RemeshOptions& options) {
             std::holds_alternative<MeanEdge>(sizing.count));
 }
 
-// Whether an attempt with fewer creases, or without seams, would differ from this one.
-bool has_more_to_drop(const KeptCurves& kept, const FeatureCounts& features) {
-    return features.curves > 0 && (kept.has_seams || features.length > 0);
-}
+// What goes where there is no mesh with it, each with those before: shorter edges between close
+// creases, then creases and seams.
+enum class LeftOut { Nothing, Strips, Curves };
 
-// A run after cleaning. Tries all curves, the same with other sites, then without strips. Changes
-// creases where faces intersect that do not in the input, and at last leaves out all, until a mesh
-// has no such faces. If none of these gives a mesh, tries the same without junctions.
-class Attempts {
-    // Changes of creases in places before all go.
-    static constexpr int most_changes = 3;
-    // Runs with shorter edges in places.
-    static constexpr int most_shortenings = 3;
-
+class MeshRun {
 public:
     // \param lengths  on the cleaned surface: how long edges are at most.
-    // \param bound    see run_attempt.
-    Attempts(const CleanedInput& cleaned, const RemeshResult& after_cleaning,
-             const RemeshOptions& given, std::span<const SizedPoint> lengths,
-             const DistanceBound* bound)
+    // \param bound    see mesh_with_curves.
+    MeshRun(const CleanedInput& cleaned, RemeshResult after_cleaning, const RemeshOptions& given,
+            std::span<const SizedPoint> lengths, const DistanceBound* bound)
         : cleaned_(cleaned),
           options_(given),
           lengths_(lengths),
           bound_(bound),
-          first_(after_cleaning) {
+          result_(std::move(after_cleaning)) {
         find_lengths();
         if (sizes_.num_samples != options_.num_samples) {
             options_.num_samples = sizes_.num_samples;
@@ -88,214 +77,114 @@ public:
     }
 
     RemeshResult run() {
-        find_mesh();
-        shorten_edges();
-        if (may_repair(kept_) && !is_best_bound_) bring_near();
-        best_->seconds = first_.seconds;
-        best_->features.samples_for_all = samples_for_all_;
-        return *std::move(best_);
+        const MadeMesh made = find_mesh();
+        // A rod that is narrower than the spacing gets shorter by some edges.
+        if (may_shorten(options_) && has_lost_part(result_) && !made.narrow_points.empty()) {
+            reach(made.narrow_points);
+        }
+        return std::move(result_);
     }
 
-    // \throw TooFewSamples  no attempt gives a mesh.
-    void find_mesh() {
-        run_all(true);
-        if (!best_) run_all(false);
-        if (!best_) throw TooFewSamples{options_.num_samples, num_needed_};
+    // \throw TooFewSamples  no curves that may be left out give a mesh.
+    MadeMesh find_mesh() {
+        const RemeshResult start = result_;
+        Index num_needed = 0;
+        std::optional<std::pair<RemeshResult, MadeMesh>> crushed;
+        for (const bool has_junctions : {true, false}) {
+            if (!has_junctions && found_.junctions.empty()) break;
+            for (const LeftOut left_out : {LeftOut::Nothing, LeftOut::Strips, LeftOut::Curves}) {
+                if (!leave_out(left_out)) continue;
+                kept_.has_junctions = has_junctions;
+                const auto seconds = result_.seconds;
+                result_ = start;
+                result_.seconds = seconds;
+                MadeMesh made = mesh_with_curves(cleaned_, found_, kept_, sizes_.field.get(),
+                                                 bound_, of_input_, {options_, result_});
+                samples_for_all_ = std::max(samples_for_all_, result_.features.samples_for_all);
+                if (!made.has_mesh) {
+                    num_needed = std::max(made.num_needed, options_.num_samples + 1);
+                    continue;
+                }
+                result_.features.gave_up = kept_.is_crease != found_.is_crease;
+                result_.features.samples_for_all = samples_for_all_;
+                if (!is_crushed(result_)) return made;
+                if (!crushed) crushed.emplace(result_, std::move(made));
+            }
+        }
+        if (crushed) {
+            result_ = std::move(crushed->first);
+            return std::move(crushed->second);
+        }
+        throw TooFewSamples{options_.num_samples, num_needed};
     }
 
 private:
     void find_lengths() {
         const double spacing = spacing_for(cleaned_, options_);
-        // A crease left out costs distance.
+        // A crease left out costs distance. With a mean edge given, shorter edges between close
+        // creases would make the others longer.
+        const bool refines = has_strips_ && may_shorten(options_) &&
+                             !std::holds_alternative<MeanEdge>(options_.sizing.count);
         const CloseCreases close = bound_ != nullptr ? CloseCreases::Stay
-                                   : refines_        ? CloseCreases::GoOrRefine
+                                   : refines         ? CloseCreases::GoOrRefine
                                                      : CloseCreases::Go;
-        found_ = find_curves(cleaned_, spacing, close, {options_, first_});
-        sizes_ = find_sizes(cleaned_, found_, spacing, {}, lengths_, {options_, first_});
+        found_ = find_curves(cleaned_, spacing, close, {options_, result_});
+        sizes_ = find_sizes(cleaned_, found_, spacing, {}, lengths_, {options_, result_});
     }
 
-    void run_all(bool has_junctions) {
-        KeptCurves kept{has_junctions, !found_.is_seam.empty(), found_.is_crease};
-        BadPoints bad;
-        if (try_curves(kept, bad) || try_other_sites(kept)) return;
-        for (int num_changes = 0;;) {
-            if (!found_.strips.empty()) {
-                refines_ = false;
+    // Sets the curves that are kept.
+    // \return whether they differ from those before.
+    bool leave_out(LeftOut left_out) {
+        const KeptCurves before = kept_;
+        switch (left_out) {
+            case LeftOut::Nothing:
+                kept_ = {true, !found_.is_seam.empty(), found_.is_crease};
+                return true;
+            case LeftOut::Strips:
+                if (found_.strips.empty()) return false;
+                has_strips_ = false;
                 find_lengths();
-                kept.is_crease = found_.is_crease;
-            } else if (kept.has_seams) {
-                kept.has_seams = false;
-            } else if (!change_near(bad, num_changes, kept.is_crease)) {
-                // Faces without area are no reason to give up more.
-                if (!has_creases(kept.is_crease) || (best_ && is_fine(*best_))) return;
-                kept.is_crease.assign(kept.is_crease.size(), 0);
-            }
-            bad = {};
-            if (try_curves(kept, bad)) return;
-        }
-    }
-
-    bool try_other_sites(const KeptCurves& kept) {
-        if (options_.sites) return false;
-        BadPoints bad;
-        ++options_.seed;
-        const bool is_done = try_curves(kept, bad);
-        --options_.seed;
-        return is_done;
-    }
-
-    // Corners of bad faces.
-    struct BadPoints {
-        std::vector<SurfacePoint> crossings, flats;  // Of faces that intersect, and without area.
-    };
-
-    // Changes creases at bad faces: where some intersect, those that were left out come back. The
-    // next time all go there.
-    // \param num_changes  so far.
-    // \return whether there was a change.
-    bool change_near(const BadPoints& bad, int& num_changes,
-                     std::vector<std::uint8_t>& is_crease) const {
-        const double spacing = spacing_for(cleaned_, options_);
-        while (num_changes < most_changes) {
-            const bool come_back = num_changes++ == 0;
-            std::vector<SurfacePoint> points = bad.crossings;
-            if (!come_back) points.insert(points.end(), bad.flats.begin(), bad.flats.end());
-            std::vector<std::uint8_t> is_among = come_back ? found_.is_close : is_crease;
-            if (!come_back) {
-                for (Index e = 0; e < is_among.size(); ++e) {
-                    if (found_.is_given[e] != 0) is_among[e] = 0;
-                }
-            }
-            std::vector<Vec3> corners;
-            corners.reserve(points.size());
-            for (const SurfacePoint& point : points) {
-                corners.push_back(position(cleaned_.surface.mesh.view(), point));
-            }
-            const std::vector<Index> near =
-                edges_near(corners, cleaned_.surface, spacing, is_among);
-            for (const Index e : near) is_crease[e] = come_back ? 1 : 0;
-            if (!near.empty()) return true;
+                kept_.is_crease = found_.is_crease;
+                return true;
+            case LeftOut::Curves:
+                kept_.has_seams = false;
+                kept_.is_crease.assign(kept_.is_crease.size(), 0);
+                return before.has_seams || before.is_crease != kept_.is_crease;
         }
         return false;
     }
 
-    // Keeps the result if it is the best.
-    // \param[out] bad  no crossings if less creases would not help; empty if there is no mesh.
-    // \return whether no other curves would give a better one.
-    bool try_curves(const KeptCurves& kept, BadPoints& bad) {
-        RemeshResult result = first_;
-        // Repairs take long: of further attempts only the best one gets them.
-        const bool is_first = std::exchange(is_first_, false);
-        const DistanceBound* bound = is_first && may_repair(kept) ? bound_ : nullptr;
-        AttemptEnd end = run_attempt(cleaned_, found_, kept, sizes_.field.get(), bound, of_input_,
-                                     {options_, result});
-        first_.seconds = result.seconds;
-        samples_for_all_ = std::max(samples_for_all_, result.features.samples_for_all);
-        const bool is_bare = !has_more_to_drop(kept, result.features);
-        if (!end.has_mesh) {
-            num_needed_ = std::max(end.num_needed, options_.num_samples + 1);
-            return is_bare;
-        }
-        result.features.gave_up = kept.is_crease != found_.is_crease;
-        if (!is_hopeless(result.self_intersections.value_or(0), {options_, result})) {
-            bad.crossings = end.crossing_corners;
-        }
-        bad.flats = std::move(end.flat_corners);
-        if (!best_ || is_better(result, *best_)) {
-            best_ = std::move(result);
-            is_best_bound_ = bound != nullptr;
-            kept_ = kept;
-            seed_ = options_.seed;
-            narrow_points_ = std::move(end.narrow_points);
-            crossings_ = std::move(end.crossing_corners);
-        }
-        // Shorter edges are needed first.
-        if (bound != nullptr && best_->sizing.largest_distance == 0) return true;
-        return is_bare || (is_fine(*best_) && best_->verdict.faces_without_area == 0);
-    }
-
-    // Runs the best attempt again with shorter edges on narrow parts, if such a part was lost, and
-    // where faces intersect that do not in the input. Keeps the best result.
-    void shorten_edges() {
-        if (!may_shorten(options_)) return;
-        // A rod that is narrower than the spacing gets shorter by some edges.
-        if (!has_lost_part(*best_)) narrow_points_.clear();
-        double length = best_->verdict.spacing;
-        std::vector<SizedPoint> points;
-        std::vector<SurfacePoint> crossings = std::move(crossings_);
-        for (int round = 0; round < most_shortenings; ++round) {
-            // Those of the input would come with any length.
-            if (is_fine(*best_) || best_->input_self_intersections > 0 ||
-                is_hopeless(best_->self_intersections.value_or(0), {options_, *best_})) {
-                crossings.clear();
-            }
-            const bool is_lost = round == 0 && !narrow_points_.empty();
-            if (crossings.empty() && !is_lost) return;
-            length /= 2;
-            for (const SurfacePoint& point : crossings) points.push_back({point, length});
-            crossings = run_shorter(points);
-        }
-    }
-
-    // \return corners of faces that intersect.
-    std::vector<SurfacePoint> run_shorter(std::span<const SizedPoint> points) {
-        RemeshResult again = first_;
+    // Runs again with shorter edges at some points. Keeps the result if it is nearer to the input.
+    void reach(std::span<const SurfacePoint> points) {
+        RemeshResult again = result_;
         // The number stays, whatever it follows from: a mean edge would make the others longer.
         RemeshOptions options = options_;
         options.sizing.count = NumSamples{};
-        options.seed = seed_;
         const StageContext context{options, again};
-        const RunSizes sizes = find_sizes(cleaned_, found_, spacing_for(cleaned_, options_),
-                                          narrow_points_, points, context);
-        AttemptEnd end =
-            run_attempt(cleaned_, found_, kept_, sizes.field.get(), nullptr, of_input_, context);
-        first_.seconds = again.seconds;
-        const Index crossings = num_more_crossings(again), before = num_more_crossings(*best_);
-        const bool is_nearer = again.verdict.largest_distance < best_->verdict.largest_distance;
-        if (end.has_mesh && (crossings < before || (crossings == before && is_nearer))) {
-            again.features.gave_up = best_->features.gave_up;
-            best_ = std::move(again);
-        }
-        return std::move(end.crossing_corners);
-    }
-
-    // Whether faces are repaired that are too far from the input: meshes with junctions are not
-    // edited.
-    [[nodiscard]] bool may_repair(const KeptCurves& kept) const {
-        return bound_ != nullptr && (!kept.has_junctions || found_.junctions.empty());
-    }
-    // Runs the best attempt again, and repairs its faces that are too far from the input.
-    void bring_near() {
-        RemeshResult again = first_;
-        options_.seed = seed_;
-        const AttemptEnd end = run_attempt(cleaned_, found_, kept_, sizes_.field.get(), bound_,
-                                           of_input_, {options_, again});
-        first_.seconds = again.seconds;
-        if (!end.has_mesh) return;
-        again.features.gave_up = best_->features.gave_up;
-        best_ = std::move(again);
+        const RunSizes sizes =
+            find_sizes(cleaned_, found_, spacing_for(cleaned_, options_), points, {}, context);
+        const MadeMesh made = mesh_with_curves(cleaned_, found_, kept_, sizes.field.get(), nullptr,
+                                               of_input_, context);
+        result_.seconds = again.seconds;
+        const Index crossings = num_more_crossings(again), before = num_more_crossings(result_);
+        const bool is_nearer = again.verdict.largest_distance < result_.verdict.largest_distance;
+        if (!made.has_mesh || crossings > before || (crossings == before && !is_nearer)) return;
+        again.features.gave_up = result_.features.gave_up;
+        again.features.samples_for_all = samples_for_all_;
+        result_ = std::move(again);
     }
 
     const CleanedInput& cleaned_;
     RemeshOptions options_;
     std::span<const SizedPoint> lengths_;
     const DistanceBound* bound_;
-    RemeshResult first_;  // Of cleaning and what was found here; its times include all attempts.
+    RemeshResult result_;
     FoundCurves found_;
+    KeptCurves kept_;
     RunSizes sizes_;
-    bool is_first_ = true;        // The next attempt.
-    bool is_best_bound_ = false;  // The best one keeps the distance, or it cannot.
     InputCrossings of_input_;
-    // Strips between close creases. With a mean edge given the others would be longer.
-    bool refines_ =
-        may_shorten(options_) && !std::holds_alternative<MeanEdge>(options_.sizing.count);
-    std::optional<RemeshResult> best_;
-    KeptCurves kept_;                          // Of the best.
-    std::uint64_t seed_ = 0;                   // Of the best.
-    std::vector<SurfacePoint> narrow_points_;  // Of the best.
-    std::vector<SurfacePoint> crossings_;      // Corners of the best that intersect.
-    Index samples_for_all_ = 0;                // Of the attempt with most curves.
-    Index num_needed_ = 0;                     // Vertices, by the last attempt without a mesh.
+    bool has_strips_ = true;
+    Index samples_for_all_ = 0;  // Of the run with most curves.
 };
 
 // \throw TooFewSamples  no mesh of this topology has as few vertices as are asked for.
@@ -329,7 +218,7 @@ EnoughSamples find_enough(const CleanedInput& cleaned, const RemeshResult& after
         const std::optional<CleanedInput> coarse =
             coarse_input(cleaned, spacing_for(cleaned, more), {more, result});
         try {
-            Attempts(coarse ? *coarse : cleaned, result, more, {}, nullptr).find_mesh();
+            (void)MeshRun(coarse ? *coarse : cleaned, result, more, {}, nullptr).find_mesh();
             return {.count = reached, .is_tried = true};
         } catch (const TooFewSamples& failure) {
             reached = failure.reached > reached + 1 ? failure.reached : reached + reached / 4 + 1;
@@ -383,17 +272,6 @@ std::string describe_gaps(const CleanedInput& cleaned) {
 
 }  // namespace
 
-// Fewer creases are worth fewer new self-intersections, no lost part, and faces without area.
-bool is_better(const RemeshResult& result, const RemeshResult& best) {
-    if (is_fine(result) != is_fine(best)) return is_fine(result);
-    const Index crossings = num_more_crossings(result), of_best = num_more_crossings(best);
-    if (!is_fine(result) && crossings != of_best) {
-        return crossings < of_best && result.new_self_intersections < best.new_self_intersections;
-    }
-    if (has_lost_part(result) != has_lost_part(best)) return has_lost_part(best);
-    return result.verdict.faces_without_area < best.verdict.faces_without_area;
-}
-
 RemeshResult run_stages(const InputMesh& input, const RemeshOptions& given) {
     RemeshOptions options = given;
     RemeshResult result;
@@ -416,7 +294,7 @@ RemeshResult run_stages(const InputMesh& input, const RemeshOptions& given) {
         RemeshResult after_cleaning = result;
         const auto run = [&](const RemeshOptions& changed, std::span<const SizedPoint> lengths,
                              const DistanceBound* bound) {
-            RemeshResult made = Attempts(used, after_cleaning, changed, lengths, bound).run();
+            RemeshResult made = MeshRun(used, after_cleaning, changed, lengths, bound).run();
             after_cleaning.seconds = made.seconds;
             return made;
         };

@@ -1,5 +1,5 @@
 //! \file
-//! The stages of remesh() in their order: a whole run, and one attempt.
+//! The stages of remesh() in their order: a whole run, and what comes after cleaning.
 #pragma once
 
 #include "remesh/pipeline/cleaned_input.h"
@@ -16,31 +16,26 @@ struct KeptCurves;
 //! \throw what remesh() throws.
 [[nodiscard]] RemeshResult run_stages(const InputMesh& input, const RemeshOptions& options);
 
-//! Whether a result is better than the best one so far: by new self-intersections, then by a part
-//! of the input that it does not reach, then by faces without area.
-[[nodiscard]] bool is_better(const RemeshResult& result, const RemeshResult& best);
-
-//! What an attempt tells besides its result.
-struct AttemptEnd {
+//! What mesh_with_curves() tells besides its result.
+struct MadeMesh {
     bool has_mesh = false;
     Index num_needed = 0;  //!< Without a mesh: so many vertices may suffice.
-    std::vector<SurfacePoint> crossing_corners = {};  //!< See BuiltMesh.
-    std::vector<SurfacePoint> flat_corners = {};      //!< Of faces without area, likewise.
     //! On the cleaned surface, where parts are narrower than the spacing: see PlacedSites.
     std::vector<SurfacePoint> narrow_points = {};
 };
 
-//! Runs all stages after cleaning, with some of the curves, and sets what they give in the result
-//! of the context. Checks that the mesh has the topology of the input, and the vertex count that
-//! was asked for.
+//! Runs all stages from the network of curves on, and sets what they give in the result of the
+//! context. Checks that the mesh has the topology of the input, and the vertex count that was asked
+//! for.
+//! \param kept      of the curves found. Seams go where they would take vertices from creases.
 //! \param sizes     target lengths; null: all equal.
 //! \param bound     a distance that the mesh is to keep; null: none. If that is proved, it is told
 //!                  in result.sizing.
 //! \param of_input  of the cleaned input; searched if the result intersects itself.
-[[nodiscard]] AttemptEnd run_attempt(const CleanedInput& cleaned, const FoundCurves& found,
-                                     const KeptCurves& kept, const SizeField* sizes,
-                                     const DistanceBound* bound, InputCrossings& of_input,
-                                     const StageContext& context);
+[[nodiscard]] MadeMesh mesh_with_curves(const CleanedInput& cleaned, const FoundCurves& found,
+                                        const KeptCurves& kept, const SizeField* sizes,
+                                        const DistanceBound* bound, InputCrossings& of_input,
+                                        const StageContext& context);
 
 //! The mean distance of the sites that the options ask for, mesh units.
 [[nodiscard]] inline double spacing_for(const CleanedInput& cleaned, const RemeshOptions& options) {

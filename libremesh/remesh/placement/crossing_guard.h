@@ -31,8 +31,8 @@ namespace remesh::detail {
            std::max({volume[0], volume[1], volume[2]}) <= 0;
 }
 
-//! Knows the pairs of faces that intersect, up to rounding. Faces that share an edge, or lie in one
-//! plane, do not count.
+//! Knows the pairs of faces that intersect, up to rounding, or are folds (is_fold). Others that
+//! share an edge, or lie in one plane, do not count.
 class CrossingGuard {
 public:
     //! \param mesh  outlives this. Cost: O(#faces).
@@ -45,8 +45,9 @@ public:
 
     //! Compares the intersections of some faces with those that were taken over last.
     //! \param changed  each once, also those that are no longer there.
-    //! \return false if there are more. Cost: O(faces nearby).
-    [[nodiscard]] bool accepts(std::span<const Index> changed) {
+    //! \param most     how many more there may be.
+    //! \return false if there are more than that. Cost: O(faces nearby).
+    [[nodiscard]] bool accepts(std::span<const Index> changed, std::size_t most = 0) {
         before_.clear();
         now_.clear();
         for (const Index f : changed) {
@@ -58,9 +59,18 @@ public:
         for (const Index f : changed) {
             if (!mesh_.face(f).is_there) continue;
             for (const Index other : faces_through(f)) now_.insert(std::minmax(f, other));
-            if (now_.size() > before_.size()) return false;
+            if (now_.size() > before_.size() + most) return false;
         }
         return true;
+    }
+    //! After accepts(): how many more there are.
+    [[nodiscard]] int growth() const {
+        return static_cast<int>(now_.size()) - static_cast<int>(before_.size());
+    }
+    //! One that intersects a face, as was taken over last; no_index: none.
+    [[nodiscard]] Index face_through(Index f) const {
+        const auto found = pairs_.lower_bound({f, 0});
+        return found != pairs_.end() && found->first == f ? found->second : no_index;
     }
     //! Takes over what accepts() has found.
     void take_over() {
@@ -130,8 +140,9 @@ private:
     }
     [[nodiscard]] bool do_cross(Index f, Index g) const {
         const auto is_common = [&](Index v) { return mesh_.has_corner(g, v); };
-        return std::ranges::count_if(mesh_.face(f).corner, is_common) < 2 &&
-               (has_edge_through(f, g) || has_edge_through(g, f));
+        const auto num_common = std::ranges::count_if(mesh_.face(f).corner, is_common);
+        if (num_common == 2) return is_fold(mesh_.normal_of(f), mesh_.normal_of(g));
+        return num_common < 2 && (has_edge_through(f, g) || has_edge_through(g, f));
     }
     // Whether an edge of f that has no corner of g passes through g.
     [[nodiscard]] bool has_edge_through(Index f, Index g) const {

@@ -234,6 +234,8 @@ private:
     // Nodes are merged along edges shorter than this, in mean lengths.
     static constexpr double short_edge = 0.35;
     static constexpr double sliver_quality = 0.1;  // An angle of 5 degrees.
+    // In mean lengths: collapses make no longer slivers, which could reach far off the surface.
+    static constexpr double longest_of_sliver = 2;
     // Share of the edge's length: a new vertex farther from the middle lies on another part of the
     // surface.
     static constexpr double largest_miss = 0.35;
@@ -264,6 +266,10 @@ private:
         vertex.facing =
             curves_.is_sharp(vertex.place) ? Vec3(Vec3::Zero()) : facing_at(surface_, vertex.point);
         vertex.at = position(surface_.mesh.view(), vertex.point) + vertex.offset;
+    }
+    [[nodiscard]] double longest_edge_of(const Triangle& t) const {
+        return std::max({(at(t[1]) - at(t[0])).norm(), (at(t[2]) - at(t[1])).norm(),
+                         (at(t[0]) - at(t[2])).norm()});
     }
     [[nodiscard]] double quality_of(const Triangle& t) const {
         const auto& [a, b, c] = t;
@@ -344,7 +350,10 @@ private:
             if (has_corner(f, into)) return true;
             Triangle moved = face(f).corner;
             std::replace(moved.begin(), moved.end(), gone, into);
-            return is_gentle(f, normal_of(f), normal_of(moved));
+            return is_gentle(f, normal_of(f), normal_of(moved)) &&
+                   (!is_sliver(f) ||
+                    longest_edge_of(moved) <= std::max(longest_edge_of(face(f).corner),
+                                                       longest_of_sliver * mean_length_));
         });
     }
     // For a vertex on a curve: whether it goes along it, no triangle of the rim alone would be

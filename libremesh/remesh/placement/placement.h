@@ -106,6 +106,16 @@ std::vector<Index> repair_shape(const detail::MeshCurves& curves,
                                 std::span<const detail::Mobility> mobility, PlacedMesh& mesh,
                                 const Progress& progress = {}, std::span<const Index> faces = {});
 
+//! Edits faces that intersect until they do not, with their number of vertices kept, as by
+//! repair_shape().
+//! \param pairs  of faces that intersect.
+//! \throw Cancelled  the progress callback returned false; `mesh` is unchanged.
+//! \return as repair_shape(). Cost: O(#triangles log #triangles), and some ten milliseconds a pair.
+std::vector<Index> repair_crossings(const detail::MeshCurves& curves,
+                                    std::span<const detail::Mobility> mobility,
+                                    std::span<const std::pair<Index, Index>> pairs,
+                                    PlacedMesh& mesh, const Progress& progress = {});
+
 //! Whether a triangle has no area, as its corners lie on one line up to rounding: it is less than
 //! 1e-10 times as high as it is long.
 [[nodiscard]] bool is_flat(std::span<const Vec3> positions, const Triangle& triangle);

@@ -69,4 +69,12 @@ bool try_steps(std::span<const Vec3> directions, double length, const TryStep& t
     return is_better;
 }
 
+//! Whether two triangles at an edge lie nearly on each other, with less than a degree between them.
+//! Others take them for triangles that intersect. One without area is no fold.
+//! \param a, b  their normals, of any length.
+[[nodiscard]] inline bool is_fold(const Vec3& a, const Vec3& b) {
+    constexpr double cosine = 0.99984769515639;  // Of a degree.
+    return a.dot(b) < -cosine * a.norm() * b.norm();
+}
+
 }  // namespace remesh::detail

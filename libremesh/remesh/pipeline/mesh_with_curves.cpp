@@ -63,32 +63,25 @@ bool check_mesh(const CleanedInput& cleaned, const CurvedSurface& curved,
     return true;
 }
 
-std::vector<SurfacePoint> flat_corners(const TriangleMesh& mesh,
-                                       std::span<const SurfacePoint> points) {
-    std::vector<SurfacePoint> corners;
-    for (const Triangle& t : mesh.triangles) {
-        if (!is_flat(mesh.positions, t)) continue;
-        for (const Index v : t) corners.push_back(points[v]);
-    }
-    return corners;
-}
-
 }  // namespace
 
-AttemptEnd run_attempt(const CleanedInput& cleaned, const FoundCurves& found,
-                       const KeptCurves& kept, const SizeField* sizes, const DistanceBound* bound,
-                       InputCrossings& of_input, const StageContext& context) {
+MadeMesh mesh_with_curves(const CleanedInput& cleaned, const FoundCurves& found,
+                          const KeptCurves& kept, const SizeField* sizes,
+                          const DistanceBound* bound, InputCrossings& of_input,
+                          const StageContext& context) {
     const auto& [options, result] = context;
     const double spacing = spacing_for(cleaned, options);
     std::unique_ptr<const CurvePlan> plan =
         plan_curves(cleaned, found, kept, spacing, sizes, context);
     // Of the vertices that seams take, creases come first.
-    if (kept.has_seams && !found.is_seam.empty() && !options.sites &&
-        result.features.dropped_length > 0) {
-        return {};
+    if (kept.has_seams && !options.sites && result.features.dropped_length > 0) {
+        KeptCurves without = kept;
+        without.has_seams = false;
+        plan = plan_curves(cleaned, found, without, spacing, sizes, context);
     }
-    if (plan->network.sites_for_boundary > 0)
+    if (plan->network.sites_for_boundary > 0) {
         return {.num_needed = plan->network.sites_for_boundary};
+    }
     CurvedSurface curved{.plan = std::move(plan),
                          .whole = &cleaned.surface,
                          .cleaned = &cleaned.finest().surface,
@@ -135,10 +128,7 @@ AttemptEnd run_attempt(const CleanedInput& cleaned, const FoundCurves& found,
         result.self_intersections = crossings->all;
         result.new_self_intersections = crossings->added;
     }
-    return {.has_mesh = true,
-            .crossing_corners = std::move(built.crossing_corners),
-            .flat_corners = flat_corners(result.mesh, points),
-            .narrow_points = std::move(narrow_points)};
+    return {.has_mesh = true, .narrow_points = std::move(narrow_points)};
 }
 
 }  // namespace remesh::detail
