@@ -85,7 +85,6 @@ TEST_F(Remesh, VerboseTellsTimeMemoryAndWorkOfEachStage) {
 
 TEST_F(Remesh, WordsOfTheMethodComeWithVerboseOnly) {
     const std::string in = put("in.off", shapes::cube());
-    // Only with a bound on the error are cells needed.
     std::vector<std::string> words{in, at("out.off"), "-n", "100", "--max-error", ".01"};
     const std::string brief = remesh(words).err;
     words.emplace_back("--verbose");

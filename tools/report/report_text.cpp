@@ -189,11 +189,13 @@ std::string describe_narrow(const NarrowFaces& narrow) {
 // Three lines: the shape of the triangles, the distance, and what is lost.
 std::string describe_verdict(const RemeshResult& result) {
     const Verdict& verdict = result.verdict;
-    constexpr double most_narrow = 0.01;
-    const std::string shape =
-        verdict.small_angle_share > most_narrow
-            ? fixed(100 * verdict.small_angle_share, 1) + " % narrow (an angle below 30 degrees)"
-            : "even";
+    constexpr double few = 0.01;
+    const std::string share = verdict.small_angle_share > few
+                                  ? fixed(100 * verdict.small_angle_share, 1) + " %"
+                                  : "few";
+    const std::string shape = verdict.small_angle_share > 0
+                                  ? share + " narrow (an angle below 30 degrees)"
+                                  : "even";
     const std::string lost = describe_lost(verdict, result.features);
     return "triangles: " + shape + ", smallest angle " + fixed(verdict.min_angle * degrees, 1) +
            " degrees" + describe_narrow(verdict.narrow) + "; " + describe_crossings(result) +

@@ -19,6 +19,13 @@ namespace {
 // Rounds in which creases give way.
 constexpr int most_freeings = 2;
 
+void take_crossings(const CrossingFaces& crossings, BuiltMesh& built) {
+    built.self_intersections = crossings.counts();
+    built.crossing_corners.clear();
+    for_each_corner(crossings.added, built.mesh.triangles,
+                    [&](Index v) { built.crossing_corners.push_back(built.mesh.points[v]); });
+}
+
 // How many vertices the result is to have: as many as were asked for, or one for each given site
 // that owns a part of the surface. Counts the other given sites.
 Index find_target(const Domain& domain, const PlacedSites& placed, const DualMesh& dual,
@@ -104,12 +111,12 @@ void finish_mesh(const CurvedSurface& curved, InputCrossings& of_input, const St
             repair();
         }
     }
-    if (crossings) built.self_intersections = crossings->counts();
+    if (crossings) take_crossings(*crossings, built);
     if (context.result.tiles > 0) return;
     if (curved.bound == nullptr || curved.has_junctions()) return;
     built.proved_distance = bring_near(curved, built.mesh, context);
     if (auto pairs = finder.find(built.mesh)) {
-        built.self_intersections = finder.tell_added(built.mesh, *std::move(pairs)).counts();
+        take_crossings(finder.tell_added(built.mesh, *std::move(pairs)), built);
     }
 }
 

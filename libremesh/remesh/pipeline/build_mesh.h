@@ -20,6 +20,8 @@ struct BuiltMesh {
     Index num_vertices = 0;        //!< To which the sites could be reduced.
     std::optional<CrossingCounts> self_intersections = {};  //!< Unset without CGAL.
     std::optional<double> proved_distance = {};  //!< See bring_near; unset: there is no bound.
+    //! Corners of the faces that intersect, the input's not; on the cleaned surface.
+    std::vector<SurfacePoint> crossing_corners = {};
 };
 
 //! The dual of the sites with its exact number of vertices, and their positions.

@@ -47,19 +47,6 @@ std::optional<FacePairs> find_in(const MeshView& mesh, const RemeshOptions& opti
     return find_self_intersections(mesh, options.num_threads, progress_of(Stage::Check, options));
 }
 
-// Pairs of faces at an edge that are folds.
-FacePairs find_folds(const MeshView& mesh) {
-    FacePairs folds;
-    for_each_edge(sorted_edge_sides(mesh.triangles), [&](std::span<const EdgeSide> edge) {
-        if (edge.size() != 2) return;
-        const Index f = edge[0].half_edge / 3, g = edge[1].half_edge / 3;
-        if (is_fold(normal_of(corners_of(mesh, f)), normal_of(corners_of(mesh, g)))) {
-            folds.push_back(std::minmax(f, g));
-        }
-    });
-    return folds;
-}
-
 // Moves a vertex and all its copies back onto the surface.
 void unfit(Index v, PlacedMesh& mesh) {
     mesh.offsets[v].setZero();
@@ -84,6 +71,18 @@ TriangleMesh welded_mesh(const CurvedSurface& curved, const PlacedMesh& mesh) {
 }
 
 }  // namespace
+
+FacePairs find_folds(const MeshView& mesh) {
+    FacePairs folds;
+    for_each_edge(sorted_edge_sides(mesh.triangles), [&](std::span<const EdgeSide> edge) {
+        if (edge.size() != 2) return;
+        const Index f = edge[0].half_edge / 3, g = edge[1].half_edge / 3;
+        if (is_fold(normal_of(corners_of(mesh, f)), normal_of(corners_of(mesh, g)))) {
+            folds.push_back(std::minmax(f, g));
+        }
+    });
+    return folds;
+}
 
 Corners crossing_triangle(const Corners& a, const Corners& b) {
     std::vector<Vec3> of_a = segment_in_plane(a, b), of_b = segment_in_plane(b, a);

@@ -38,6 +38,9 @@ void for_each_corner(const FacePairs& pairs, const std::vector<Triangle>& triang
     }
 }
 
+//! Pairs of faces at an edge that are folds (is_fold). Cost: O(n log n).
+[[nodiscard]] FacePairs find_folds(const MeshView& mesh);
+
 //! A triangle, mostly a segment with its second end twice, that holds all points which two
 //! intersecting triangles have in common: of the two segments in the plane of the other the shorter
 //! one, or the triangle of smaller area if they lie in one plane.

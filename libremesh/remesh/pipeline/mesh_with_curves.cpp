@@ -128,7 +128,9 @@ MadeMesh mesh_with_curves(const CleanedInput& cleaned, const FoundCurves& found,
         result.self_intersections = crossings->all;
         result.new_self_intersections = crossings->added;
     }
-    return {.has_mesh = true, .narrow_points = std::move(narrow_points)};
+    return {.has_mesh = true,
+            .narrow_points = std::move(narrow_points),
+            .crossing_corners = std::move(built.crossing_corners)};
 }
 
 }  // namespace remesh::detail

@@ -1,5 +1,5 @@
-// Runs the stages after cleaning. Only where no mesh has all curves they run again without some,
-// and where the result does not reach a narrow part, with shorter edges there.
+// Runs the stages after cleaning. Where no mesh has the curves, or faces still intersect, they run
+// again with others, and where the result does not reach a narrow part, with shorter edges there.
 #include "remesh/pipeline/run.h"
 
 #include <algorithm>
@@ -38,6 +38,12 @@ bool has_lost_part(const RemeshResult& result) {
     return result.verdict.largest_distance > result.verdict.spacing;
 }
 
+// Whether faces intersect, and most of these pairs do not follow from the input's.
+bool has_own_crossings(const RemeshResult& result) {
+    return result.new_self_intersections > 0 &&
+           2 * result.new_self_intersections >= *result.self_intersections;
+}
+
 // Whether so many faces intersect that repairs in places are in vain, as where few vertices lie on
 // the creases of one plane.
 bool is_crushed(const RemeshResult& result) {
@@ -53,11 +59,15 @@ bool may_shorten(const RemeshOptions& options) {
             std::holds_alternative<MeanEdge>(sizing.count));
 }
 
-// What goes where there is no mesh with it, each with those before: shorter edges between close
-// creases, then creases and seams.
-enum class LeftOut { Nothing, Strips, Curves };
+// Which creases and seams a mesh is to have, in the order in which they are tried: the selected
+// ones; those that are close to others as well, without which walls between them may intersect; the
+// selected ones without shorter edges between them; none.
+enum class Choice { Selected, CloseToo, NoStrips, None };
 
 class MeshRun {
+    // Runs with shorter edges in places.
+    static constexpr int most_shortenings = 3;
+
 public:
     // \param lengths  on the cleaned surface: how long edges are at most.
     // \param bound    see mesh_with_curves.
@@ -77,45 +87,44 @@ public:
     }
 
     RemeshResult run() {
-        const MadeMesh made = find_mesh();
-        // A rod that is narrower than the spacing gets shorter by some edges.
-        if (may_shorten(options_) && has_lost_part(result_) && !made.narrow_points.empty()) {
-            reach(made.narrow_points);
-        }
+        MadeMesh made = find_mesh();
+        if (may_shorten(options_)) shorten_edges(std::move(made));
         return std::move(result_);
     }
 
-    // \throw TooFewSamples  no curves that may be left out give a mesh.
+    // \throw TooFewSamples  no choice of curves gives a mesh.
     MadeMesh find_mesh() {
         const RemeshResult start = result_;
-        Index num_needed = 0;
-        std::optional<std::pair<RemeshResult, MadeMesh>> crushed;
+        Index num_needed = 0, samples_for_all = 0;
+        std::optional<RemeshResult> best;
+        MadeMesh best_made;
         for (const bool has_junctions : {true, false}) {
-            if (!has_junctions && found_.junctions.empty()) break;
-            for (const LeftOut left_out : {LeftOut::Nothing, LeftOut::Strips, LeftOut::Curves}) {
-                if (!leave_out(left_out)) continue;
+            if (!has_junctions && (best || found_.junctions.empty())) break;
+            for (const Choice choice :
+                 {Choice::Selected, Choice::CloseToo, Choice::NoStrips, Choice::None}) {
+                if (!is_worth_trying(choice, best) || !choose(choice)) continue;
                 kept_.has_junctions = has_junctions;
-                const auto seconds = result_.seconds;
-                result_ = start;
-                result_.seconds = seconds;
+                RemeshResult tried = start;
+                tried.seconds = result_.seconds;
                 MadeMesh made = mesh_with_curves(cleaned_, found_, kept_, sizes_.field.get(),
-                                                 bound_, of_input_, {options_, result_});
-                samples_for_all_ = std::max(samples_for_all_, result_.features.samples_for_all);
+                                                 bound_, of_input_, {options_, tried});
+                result_.seconds = tried.seconds;
+                samples_for_all = std::max(samples_for_all, tried.features.samples_for_all);
+                tried.features.gave_up = choice == Choice::None;
                 if (!made.has_mesh) {
                     num_needed = std::max(made.num_needed, options_.num_samples + 1);
-                    continue;
+                } else if (!best || tried.new_self_intersections < best->new_self_intersections) {
+                    best = std::move(tried);
+                    best_made = std::move(made);
+                    best_kept_ = kept_;
                 }
-                result_.features.gave_up = kept_.is_crease != found_.is_crease;
-                result_.features.samples_for_all = samples_for_all_;
-                if (!is_crushed(result_)) return made;
-                if (!crushed) crushed.emplace(result_, std::move(made));
             }
         }
-        if (crushed) {
-            result_ = std::move(crushed->first);
-            return std::move(crushed->second);
-        }
-        throw TooFewSamples{options_.num_samples, num_needed};
+        if (!best) throw TooFewSamples{options_.num_samples, num_needed};
+        best->seconds = result_.seconds;
+        best->features.samples_for_all = samples_for_all;
+        result_ = *std::move(best);
+        return best_made;
     }
 
 private:
@@ -132,21 +141,40 @@ private:
         sizes_ = find_sizes(cleaned_, found_, spacing, {}, lengths_, {options_, result_});
     }
 
-    // Sets the curves that are kept.
-    // \return whether they differ from those before.
-    bool leave_out(LeftOut left_out) {
-        const KeptCurves before = kept_;
-        switch (left_out) {
-            case LeftOut::Nothing:
-                kept_ = {true, !found_.is_seam.empty(), found_.is_crease};
+    // Other curves are for faces that still intersect, fewer ones only where there is no good mesh.
+    static bool is_worth_trying(Choice choice, const std::optional<RemeshResult>& best) {
+        switch (choice) {
+            case Choice::Selected:
                 return true;
-            case LeftOut::Strips:
+            case Choice::CloseToo:
+                return best && has_own_crossings(*best);
+            case Choice::NoStrips:
+            case Choice::None:
+                return !best || is_crushed(*best);
+        }
+        return false;
+    }
+
+    // Sets the curves that are kept.
+    // \return whether they differ from those of the choice before.
+    bool choose(Choice choice) {
+        const KeptCurves before = kept_;
+        kept_ = {true, !found_.is_seam.empty(), found_.is_crease};
+        switch (choice) {
+            case Choice::Selected:
+                return true;
+            case Choice::CloseToo:
+                for (Index e = 0; e < found_.is_close.size(); ++e) {
+                    if (found_.is_close[e] != 0) kept_.is_crease[e] = 1;
+                }
+                return kept_.is_crease != found_.is_crease;
+            case Choice::NoStrips:
                 if (found_.strips.empty()) return false;
                 has_strips_ = false;
                 find_lengths();
                 kept_.is_crease = found_.is_crease;
                 return true;
-            case LeftOut::Curves:
+            case Choice::None:
                 kept_.has_seams = false;
                 kept_.is_crease.assign(kept_.is_crease.size(), 0);
                 return before.has_seams || before.is_crease != kept_.is_crease;
@@ -154,24 +182,42 @@ private:
         return false;
     }
 
-    // Runs again with shorter edges at some points. Keeps the result if it is nearer to the input.
-    void reach(std::span<const SurfacePoint> points) {
+    // Runs again with shorter edges on narrow parts, if such a part was lost, and where faces still
+    // intersect. Keeps the best result.
+    void shorten_edges(MadeMesh made) {
+        // A rod that is narrower than the spacing gets shorter by some edges.
+        const std::vector<SurfacePoint> narrow =
+            has_lost_part(result_) ? std::move(made.narrow_points) : std::vector<SurfacePoint>();
+        double length = result_.verdict.spacing;
+        std::vector<SizedPoint> points;
+        for (int round = 0; round < most_shortenings; ++round) {
+            const bool crosses = has_own_crossings(result_) && !is_crushed(result_);
+            if (!crosses && (round > 0 || narrow.empty())) return;
+            length /= 2;
+            for (const SurfacePoint& p : made.crossing_corners) points.push_back({p, length});
+            made = run_shorter(narrow, points);
+        }
+    }
+
+    MadeMesh run_shorter(std::span<const SurfacePoint> narrow, std::span<const SizedPoint> points) {
         RemeshResult again = result_;
         // The number stays, whatever it follows from: a mean edge would make the others longer.
         RemeshOptions options = options_;
         options.sizing.count = NumSamples{};
         const StageContext context{options, again};
         const RunSizes sizes =
-            find_sizes(cleaned_, found_, spacing_for(cleaned_, options_), points, {}, context);
-        const MadeMesh made = mesh_with_curves(cleaned_, found_, kept_, sizes.field.get(), nullptr,
-                                               of_input_, context);
+            find_sizes(cleaned_, found_, spacing_for(cleaned_, options_), narrow, points, context);
+        MadeMesh made = mesh_with_curves(cleaned_, found_, best_kept_, sizes.field.get(), nullptr,
+                                         of_input_, context);
         result_.seconds = again.seconds;
         const Index crossings = num_more_crossings(again), before = num_more_crossings(result_);
         const bool is_nearer = again.verdict.largest_distance < result_.verdict.largest_distance;
-        if (!made.has_mesh || crossings > before || (crossings == before && !is_nearer)) return;
-        again.features.gave_up = result_.features.gave_up;
-        again.features.samples_for_all = samples_for_all_;
-        result_ = std::move(again);
+        if (made.has_mesh && (crossings < before || (crossings == before && is_nearer))) {
+            again.features.gave_up = result_.features.gave_up;
+            again.features.samples_for_all = result_.features.samples_for_all;
+            result_ = std::move(again);
+        }
+        return made;
     }
 
     const CleanedInput& cleaned_;
@@ -180,11 +226,10 @@ private:
     const DistanceBound* bound_;
     RemeshResult result_;
     FoundCurves found_;
-    KeptCurves kept_;
+    KeptCurves kept_, best_kept_;  // At hand, and of the result.
     RunSizes sizes_;
     InputCrossings of_input_;
     bool has_strips_ = true;
-    Index samples_for_all_ = 0;  // Of the run with most curves.
 };
 
 // \throw TooFewSamples  no mesh of this topology has as few vertices as are asked for.

@@ -22,6 +22,7 @@ struct MadeMesh {
     Index num_needed = 0;  //!< Without a mesh: so many vertices may suffice.
     //! On the cleaned surface, where parts are narrower than the spacing: see PlacedSites.
     std::vector<SurfacePoint> narrow_points = {};
+    std::vector<SurfacePoint> crossing_corners = {};  //!< See BuiltMesh.
 };
 
 //! Runs all stages from the network of curves on, and sets what they give in the result of the

@@ -27,7 +27,7 @@ constexpr double least_quality_left = 0.2;
 constexpr std::size_t most_edits = 300;
 constexpr int most_added = 8;
 // By how many pairs a split may leave more.
-constexpr int most_growth = 1;
+constexpr int most_growth = 2;
 // In mean edge lengths: shorter edges are not divided.
 constexpr double least_edge = 0.1;
 // What a pair less is worth: see ShapeGain.

@@ -1,6 +1,8 @@
 // Self-intersections of the result, and which of them follow from the input's.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "remesh/meshfile/mesh_file.h"
@@ -62,6 +64,34 @@ TEST(CrossingPlaces, PairsFartherThanTheirLongestEdgeAreElsewhere) {
     // The longest edges are 1.12.
     EXPECT_EQ(remesh::detail::pairs_elsewhere(places, mesh, pairs),
               (remesh::detail::FacePairs{pairs[3], pairs[4], pairs[5]}));
+}
+
+// A prism over a triangle of this angle, in degrees: its two long sides meet at an edge.
+agvd::TriangleMesh wedge(double degrees) {
+    const double y = std::tan(degrees * std::numbers::pi / 180);
+    return {{{0, 0, 0}, {1, 0, 0}, {1, y, 0}, {0, 0, 1}, {1, 0, 1}, {1, y, 1}},
+            {{0, 2, 1},
+             {3, 4, 5},
+             {0, 1, 4},
+             {0, 4, 3},
+             {0, 3, 5},
+             {0, 5, 2},
+             {1, 2, 5},
+             {1, 5, 4}}};
+}
+
+TEST(Crossings, FacesWithLessThanADegreeBetweenThemAreFolds) {
+    EXPECT_TRUE(remesh::detail::find_folds(wedge(1.01).view()).empty());
+    EXPECT_EQ(remesh::detail::find_folds(wedge(0.99).view()),
+              (remesh::detail::FacePairs{{3, 4}}));
+}
+
+TEST(Crossings, FoldsOfTheInputAreNotNew) {
+    if (!has_cgal()) GTEST_SKIP() << "without CGAL";
+    const auto result = remesh::remesh(wedge(0.8).view(), {.num_samples = 60});
+    EXPECT_FALSE(remesh::detail::find_folds(result.mesh.view()).empty());
+    EXPECT_EQ(result.self_intersections, 0u);
+    EXPECT_EQ(result.new_self_intersections, 0u);
 }
 
 TEST(Crossings, ThatFollowFromTheInputAddNoVerticesAndDropNoCreases) {

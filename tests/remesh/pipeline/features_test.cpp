@@ -439,6 +439,36 @@ TEST(Features, CreasesStayWhereFacesIntersected) {
     EXPECT_EQ(result.self_intersections.value_or(0), 0u);
 }
 
+// Without the creases that are close to others, faces of thin walls intersect.
+TEST(Features, CloseCreasesComeBackWhereFacesIntersect) {
+    const TriangleMesh mesh = remesh::read_mesh(files::find_mesh("data/part.off")).mesh;
+    const RemeshResult result = remesh::remesh(mesh.view(), {.num_samples = 120});
+    if (!result.self_intersections) GTEST_SKIP() << "without CGAL";
+    expect_sound(result, 120);
+    EXPECT_EQ(*result.self_intersections, 0u);
+    EXPECT_EQ(result.features.close_length, 0);
+    EXPECT_EQ(result.features.freed_length, 0);
+    EXPECT_FALSE(result.features.gave_up);
+    const RemeshResult more = remesh::remesh(mesh.view(), {.num_samples = 300});
+    EXPECT_EQ(*more.self_intersections, 0u);
+    EXPECT_GT(more.features.close_length, 0);
+}
+
+// A crease gives way where faces would intersect, and nowhere else.
+TEST(Features, CreasesGiveWayWhereFacesIntersect) {
+    const TriangleMesh mesh = remesh::read_mesh(files::find_mesh("data/part.off")).mesh;
+    const RemeshResult result = remesh::remesh(mesh.view(), {.num_samples = 180});
+    if (!result.self_intersections) GTEST_SKIP() << "without CGAL";
+    expect_sound(result, 180);
+    EXPECT_EQ(*result.self_intersections, 0u);
+    EXPECT_FALSE(result.features.gave_up);
+    EXPECT_GT(result.features.freed_length, 0);
+    EXPECT_LT(result.features.freed_length, 0.15 * result.features.length);
+    const agvd::ClosestPointTree tree(mesh.view());
+    EXPECT_LT(std::sqrt(tree.query(result.features.freed_near).distance_sq),
+              0.1 * result.sizing.mean_edge);
+}
+
 TEST_P(SharpPart, KeepsItsCreasesAndCorners) {
     const auto file = files::find_mesh(GetParam());
     if (!std::filesystem::exists(file)) GTEST_SKIP() << "no real mesh at " << file;
