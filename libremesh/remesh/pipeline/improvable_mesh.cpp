@@ -17,7 +17,7 @@ namespace {
 // Most tries; in the second one fewer vertices may move. Repair adds no intersections but those in
 // one plane or by rounding.
 constexpr int most_tries = 2;
-constexpr int most_partings = 3;
+constexpr int most_partings = 2;
 // Faces for each bad one, or pair that intersects, at least: with fewer, as on meshes with spikes,
 // repairs would take long and gain little.
 constexpr std::size_t faces_per_bad = 4;

@@ -1,5 +1,5 @@
-// Runs the stages after cleaning. Where no mesh has the curves, or faces still intersect, they run
-// again with others, and where the result does not reach a narrow part, with shorter edges there.
+// The order of a run: cleaning, the number of samples, maybe a coarser input, and the stages from
+// the network of curves on (mesh_run.h). An error tells a number of samples that works.
 #include "remesh/pipeline/run.h"
 
 #include <algorithm>
@@ -8,229 +8,15 @@
 #include <utility>
 
 #include "agvd/core/number_text.h"
-#include "remesh/pipeline/build_mesh.h"
 #include "remesh/pipeline/coarse_input.h"
-#include "remesh/pipeline/crossings.h"
-#include "remesh/pipeline/curves.h"
 #include "remesh/pipeline/meet_distance.h"
+#include "remesh/pipeline/mesh_run.h"
 #include "remesh/pipeline/sample_count.h"
-#include "remesh/pipeline/sizes.h"
 #include "remesh/pipeline/stage_context.h"
 #include "remesh/sites/shares.h"
 
 namespace remesh::detail {
 namespace {
-
-// Thrown if no curves that may be left out give a mesh.
-struct TooFewSamples {
-    Index asked;
-    Index reached;  // Vertices that may suffice.
-};
-
-// Intersecting pairs of faces, less those that the input has.
-Index num_more_crossings(const RemeshResult& result) {
-    const Index pairs = result.self_intersections.value_or(0);
-    return pairs - std::min(pairs, result.input_self_intersections);
-}
-
-// Whether the result does not reach a part of the input.
-bool has_lost_part(const RemeshResult& result) {
-    return result.verdict.largest_distance > result.verdict.spacing;
-}
-
-// Whether faces intersect, and most of these pairs do not follow from the input's.
-bool has_own_crossings(const RemeshResult& result) {
-    return result.new_self_intersections > 0 &&
-           2 * result.new_self_intersections >= *result.self_intersections;
-}
-
-// Whether so many faces intersect that repairs in places are in vain, as where few vertices lie on
-// the creases of one plane.
-bool is_crushed(const RemeshResult& result) {
-    return 4 * std::size_t{result.new_self_intersections} > result.mesh.triangles.size();
-}
-
-// Whether lengths in places are ours to choose.
-bool may_shorten(const RemeshOptions& options) {
-    const Sizing& sizing = options.sizing;
-    return !options.sites && (sizing.is_adaptive() || sizing.is_even()) &&
-           (std::holds_alternative<NumSamples>(sizing.count) ||
-            std::holds_alternative<NumFaces>(sizing.count) ||
-            std::holds_alternative<MeanEdge>(sizing.count));
-}
-
-// Which creases and seams a mesh is to have, in the order in which they are tried: the selected
-// ones; those that are close to others as well, without which walls between them may intersect; the
-// selected ones without shorter edges between them; none.
-enum class Choice { Selected, CloseToo, NoStrips, None };
-
-class MeshRun {
-    // Runs with shorter edges in places.
-    static constexpr int most_shortenings = 3;
-
-public:
-    // \param lengths  on the cleaned surface: how long edges are at most.
-    // \param bound    see mesh_with_curves.
-    MeshRun(const CleanedInput& cleaned, RemeshResult after_cleaning, const RemeshOptions& given,
-            std::span<const SizedPoint> lengths, const DistanceBound* bound)
-        : cleaned_(cleaned),
-          options_(given),
-          lengths_(lengths),
-          bound_(bound),
-          result_(std::move(after_cleaning)) {
-        find_lengths();
-        if (sizes_.num_samples != options_.num_samples) {
-            options_.num_samples = sizes_.num_samples;
-            find_lengths();
-            options_.num_samples = sizes_.num_samples;
-        }
-    }
-
-    RemeshResult run() {
-        MadeMesh made = find_mesh();
-        if (may_shorten(options_)) shorten_edges(std::move(made));
-        return std::move(result_);
-    }
-
-    // \throw TooFewSamples  no choice of curves gives a mesh.
-    MadeMesh find_mesh() {
-        const RemeshResult start = result_;
-        Index num_needed = 0, samples_for_all = 0;
-        std::optional<RemeshResult> best;
-        MadeMesh best_made;
-        for (const bool has_junctions : {true, false}) {
-            if (!has_junctions && (best || found_.junctions.empty())) break;
-            for (const Choice choice :
-                 {Choice::Selected, Choice::CloseToo, Choice::NoStrips, Choice::None}) {
-                if (!is_worth_trying(choice, best) || !choose(choice)) continue;
-                kept_.has_junctions = has_junctions;
-                RemeshResult tried = start;
-                tried.seconds = result_.seconds;
-                MadeMesh made = mesh_with_curves(cleaned_, found_, kept_, sizes_.field.get(),
-                                                 bound_, of_input_, {options_, tried});
-                result_.seconds = tried.seconds;
-                samples_for_all = std::max(samples_for_all, tried.features.samples_for_all);
-                tried.features.gave_up = choice == Choice::None;
-                if (!made.has_mesh) {
-                    num_needed = std::max(made.num_needed, options_.num_samples + 1);
-                } else if (!best || tried.new_self_intersections < best->new_self_intersections) {
-                    best = std::move(tried);
-                    best_made = std::move(made);
-                    best_kept_ = kept_;
-                }
-            }
-        }
-        if (!best) throw TooFewSamples{options_.num_samples, num_needed};
-        best->seconds = result_.seconds;
-        best->features.samples_for_all = samples_for_all;
-        result_ = *std::move(best);
-        return best_made;
-    }
-
-private:
-    void find_lengths() {
-        const double spacing = spacing_for(cleaned_, options_);
-        // A crease left out costs distance. With a mean edge given, shorter edges between close
-        // creases would make the others longer.
-        const bool refines = has_strips_ && may_shorten(options_) &&
-                             !std::holds_alternative<MeanEdge>(options_.sizing.count);
-        const CloseCreases close = bound_ != nullptr ? CloseCreases::Stay
-                                   : refines         ? CloseCreases::GoOrRefine
-                                                     : CloseCreases::Go;
-        found_ = find_curves(cleaned_, spacing, close, {options_, result_});
-        sizes_ = find_sizes(cleaned_, found_, spacing, {}, lengths_, {options_, result_});
-    }
-
-    // Other curves are for faces that still intersect, fewer ones only where there is no good mesh.
-    static bool is_worth_trying(Choice choice, const std::optional<RemeshResult>& best) {
-        switch (choice) {
-            case Choice::Selected:
-                return true;
-            case Choice::CloseToo:
-                return best && has_own_crossings(*best);
-            case Choice::NoStrips:
-            case Choice::None:
-                return !best || is_crushed(*best);
-        }
-        return false;
-    }
-
-    // Sets the curves that are kept.
-    // \return whether they differ from those of the choice before.
-    bool choose(Choice choice) {
-        const KeptCurves before = kept_;
-        kept_ = {true, !found_.is_seam.empty(), found_.is_crease};
-        switch (choice) {
-            case Choice::Selected:
-                return true;
-            case Choice::CloseToo:
-                for (Index e = 0; e < found_.is_close.size(); ++e) {
-                    if (found_.is_close[e] != 0) kept_.is_crease[e] = 1;
-                }
-                return kept_.is_crease != found_.is_crease;
-            case Choice::NoStrips:
-                if (found_.strips.empty()) return false;
-                has_strips_ = false;
-                find_lengths();
-                kept_.is_crease = found_.is_crease;
-                return true;
-            case Choice::None:
-                kept_.has_seams = false;
-                kept_.is_crease.assign(kept_.is_crease.size(), 0);
-                return before.has_seams || before.is_crease != kept_.is_crease;
-        }
-        return false;
-    }
-
-    // Runs again with shorter edges on narrow parts, if such a part was lost, and where faces still
-    // intersect. Keeps the best result.
-    void shorten_edges(MadeMesh made) {
-        // A rod that is narrower than the spacing gets shorter by some edges.
-        const std::vector<SurfacePoint> narrow =
-            has_lost_part(result_) ? std::move(made.narrow_points) : std::vector<SurfacePoint>();
-        double length = result_.verdict.spacing;
-        std::vector<SizedPoint> points;
-        for (int round = 0; round < most_shortenings; ++round) {
-            const bool crosses = has_own_crossings(result_) && !is_crushed(result_);
-            if (!crosses && (round > 0 || narrow.empty())) return;
-            length /= 2;
-            for (const SurfacePoint& p : made.crossing_corners) points.push_back({p, length});
-            made = run_shorter(narrow, points);
-        }
-    }
-
-    MadeMesh run_shorter(std::span<const SurfacePoint> narrow, std::span<const SizedPoint> points) {
-        RemeshResult again = result_;
-        // The number stays, whatever it follows from: a mean edge would make the others longer.
-        RemeshOptions options = options_;
-        options.sizing.count = NumSamples{};
-        const StageContext context{options, again};
-        const RunSizes sizes =
-            find_sizes(cleaned_, found_, spacing_for(cleaned_, options_), narrow, points, context);
-        MadeMesh made = mesh_with_curves(cleaned_, found_, best_kept_, sizes.field.get(), nullptr,
-                                         of_input_, context);
-        result_.seconds = again.seconds;
-        const Index crossings = num_more_crossings(again), before = num_more_crossings(result_);
-        const bool is_nearer = again.verdict.largest_distance < result_.verdict.largest_distance;
-        if (made.has_mesh && (crossings < before || (crossings == before && is_nearer))) {
-            again.features.gave_up = result_.features.gave_up;
-            again.features.samples_for_all = result_.features.samples_for_all;
-            result_ = std::move(again);
-        }
-        return made;
-    }
-
-    const CleanedInput& cleaned_;
-    RemeshOptions options_;
-    std::span<const SizedPoint> lengths_;
-    const DistanceBound* bound_;
-    RemeshResult result_;
-    FoundCurves found_;
-    KeptCurves kept_, best_kept_;  // At hand, and of the result.
-    RunSizes sizes_;
-    InputCrossings of_input_;
-    bool has_strips_ = true;
-};
 
 // \throw TooFewSamples  no mesh of this topology has as few vertices as are asked for.
 void require_least_samples(const Topology& topology, const RemeshOptions& options) {
@@ -263,7 +49,7 @@ EnoughSamples find_enough(const CleanedInput& cleaned, const RemeshResult& after
         const std::optional<CleanedInput> coarse =
             coarse_input(cleaned, spacing_for(cleaned, more), {more, result});
         try {
-            (void)MeshRun(coarse ? *coarse : cleaned, result, more, {}, nullptr).find_mesh();
+            require_mesh(coarse ? *coarse : cleaned, result, more);
             return {.count = reached, .is_tried = true};
         } catch (const TooFewSamples& failure) {
             reached = failure.reached > reached + 1 ? failure.reached : reached + reached / 4 + 1;
@@ -339,7 +125,7 @@ RemeshResult run_stages(const InputMesh& input, const RemeshOptions& given) {
         RemeshResult after_cleaning = result;
         const auto run = [&](const RemeshOptions& changed, std::span<const SizedPoint> lengths,
                              const DistanceBound* bound) {
-            RemeshResult made = MeshRun(used, after_cleaning, changed, lengths, bound).run();
+            RemeshResult made = run_after_cleaning(used, after_cleaning, changed, lengths, bound);
             after_cleaning.seconds = made.seconds;
             return made;
         };

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <tuple>
 
 #include "remesh/placement/spare_vertices.h"
 
@@ -24,14 +25,16 @@ constexpr std::size_t slides_beside = 12;
 // No triangle of an edit gets worse than this, unless it was: an angle of 10 degrees.
 constexpr double least_quality_left = 0.2;
 // Edits in all, and vertices added for each pair of faces and those that come of it.
-constexpr std::size_t most_edits = 300;
+constexpr std::size_t most_edits = 200;
 constexpr int most_added = 8;
 // By how many pairs a split may leave more.
-constexpr int most_growth = 2;
+constexpr int most_growth_of_split = 2;
+// Edits of two faces that are tried with the triangles around improved.
+constexpr std::size_t most_edits_tried = 4;
 // In mean edge lengths: shorter edges are not divided.
 constexpr double least_edge = 0.1;
 // What a pair less is worth: see ShapeGain.
-constexpr double worth_of_pair = 0.4;
+constexpr double worth_of_pair = 0.1;
 
 struct Edit {
     enum class Kind : std::uint8_t { Flip, ToSecond, ToFirst, Split };
@@ -42,6 +45,10 @@ struct Edit {
     // Of the number of vertices to spare.
     [[nodiscard]] int change() const {
         return kind == Kind::Flip ? 0 : kind == Kind::Split ? -1 : 1;
+    }
+    // Of the number of pairs.
+    [[nodiscard]] std::size_t most_growth() const {
+        return kind == Kind::Split ? most_growth_of_split : 0;
     }
 };
 
@@ -94,11 +101,10 @@ private:
                in_vain_.end();
     }
 
-    // \return what it changes in the number of vertices to spare; no_edit: there is none.
-    int edit_best(Index f, Index g, bool may_add) {
-        Edit best;
-        int least = most_growth + 1;
-        double best_quality = -1;
+    // The edits of the edges of two faces that leave fewest pairs before the triangles around are
+    // improved.
+    [[nodiscard]] std::vector<Edit> edits_at(Index f, Index g, bool may_add) {
+        std::vector<std::tuple<int, double, Edit>> all;  // More pairs, minus the quality.
         for (const Index face : {f, g}) {
             for (Index k = 0; k < 3; ++k) {
                 for (const auto kind : {Edit::Kind::Flip, Edit::Kind::ToSecond, Edit::Kind::ToFirst,
@@ -106,17 +112,40 @@ private:
                     const Edit edit{face, k, kind};
                     if (kind == Edit::Kind::Split && !may_add) continue;
                     const EditedMesh::Mark before = mesh_.mark();
-                    const bool is_done = apply(edit);
-                    const int growth = guard_.growth();
-                    const double quality = is_done ? steps_.worst_since(before) : 0;
-                    mesh_.take_back(before);
-                    if (!is_done || (growth >= 0 && kind != Edit::Kind::Split)) continue;
-                    if (growth < least || (growth == least && quality > best_quality)) {
-                        least = growth;
-                        best_quality = quality;
-                        best = edit;
+                    if (do_edit(edit) && guard_.adds_few_pairs(before, edit.most_growth())) {
+                        all.emplace_back(guard_.growth(), -steps_.worst_since(before), edit);
                     }
+                    mesh_.take_back(before);
                 }
+            }
+        }
+        std::ranges::stable_sort(all, {}, [](const auto& entry) {
+            return std::pair(std::get<0>(entry), std::get<1>(entry));
+        });
+        std::vector<Edit> edits;
+        for (const auto& [growth, quality, edit] :
+             std::span(all).first(std::min(all.size(), most_edits_tried))) {
+            edits.push_back(edit);
+        }
+        return edits;
+    }
+
+    // \return what it changes in the number of vertices to spare; no_edit: there is none.
+    int edit_best(Index f, Index g, bool may_add) {
+        Edit best;
+        int least = most_growth_of_split + 1;
+        double best_quality = -1;
+        for (const Edit& edit : edits_at(f, g, may_add)) {
+            const EditedMesh::Mark before = mesh_.mark();
+            const bool is_done = apply(edit);
+            const int growth = guard_.growth();
+            const double quality = is_done ? steps_.worst_since(before) : 0;
+            mesh_.take_back(before);
+            if (!is_done || (growth >= 0 && edit.kind != Edit::Kind::Split)) continue;
+            if (growth < least || (growth == least && quality > best_quality)) {
+                least = growth;
+                best_quality = quality;
+                best = edit;
             }
         }
         if (best.face == no_index) return no_edit;
@@ -139,8 +168,7 @@ private:
         steps_.allow_slides(slides_beside);
         steps_.relax(before);
         if (!keeps_quality(before)) return false;
-        return guard_.accepts(before, worth_of_pair,
-                              edit.kind == Edit::Kind::Split ? most_growth : 0);
+        return guard_.accepts(before, worth_of_pair, edit.most_growth());
     }
     bool do_edit(const Edit& edit) {
         const Triangle& t = mesh_.face(edit.face).corner;

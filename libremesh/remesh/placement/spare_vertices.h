@@ -31,6 +31,10 @@ public:
         const std::vector<Index> changed = mesh_.changed_since(mark);
         return distances_.accepts(changed, worth) && crossings_.accepts(changed, most);
     }
+    // Whether no more pairs of faces than `most` are added; see growth().
+    [[nodiscard]] bool adds_few_pairs(const EditedMesh::Mark& mark, std::size_t most) {
+        return crossings_.accepts(mesh_.changed_since(mark), most);
+    }
     // Also takes over the changes; they must not be taken back later.
     [[nodiscard]] bool accept(const EditedMesh::Mark& mark, double worth) {
         if (!accepts(mark, worth)) return false;
