@@ -337,10 +337,11 @@ TEST(RemeshReport, TextOfAGoodResultHasAVerdictOfThreeLines) {
     result.verdict.narrow = {.count = 7};
     result.verdict.min_angle = std::numbers::pi / 8;
     result.verdict.small_angle_share = 0.01;
-    EXPECT_NE(remesh::to_text(result).find(
-                  "\ntriangles: few narrow (an angle below 30 degrees), smallest angle 22.5 degrees "
-                  "(7 faces below 30); crossings not counted\n"),
-              std::string::npos);
+    EXPECT_NE(
+        remesh::to_text(result).find(
+            "\ntriangles: few narrow (an angle below 30 degrees), smallest angle 22.5 degrees "
+            "(7 faces below 30); crossings not counted\n"),
+        std::string::npos);
 }
 
 TEST(RemeshReport, DetailsTellTopologyTimeAndMemory) {

@@ -190,12 +190,10 @@ std::string describe_narrow(const NarrowFaces& narrow) {
 std::string describe_verdict(const RemeshResult& result) {
     const Verdict& verdict = result.verdict;
     constexpr double few = 0.01;
-    const std::string share = verdict.small_angle_share > few
-                                  ? fixed(100 * verdict.small_angle_share, 1) + " %"
-                                  : "few";
-    const std::string shape = verdict.small_angle_share > 0
-                                  ? share + " narrow (an angle below 30 degrees)"
-                                  : "even";
+    const std::string share =
+        verdict.small_angle_share > few ? fixed(100 * verdict.small_angle_share, 1) + " %" : "few";
+    const std::string shape =
+        verdict.small_angle_share > 0 ? share + " narrow (an angle below 30 degrees)" : "even";
     const std::string lost = describe_lost(verdict, result.features);
     return "triangles: " + shape + ", smallest angle " + fixed(verdict.min_angle * degrees, 1) +
            " degrees" + describe_narrow(verdict.narrow) + "; " + describe_crossings(result) +

@@ -69,21 +69,14 @@ TEST(CrossingPlaces, PairsFartherThanTheirLongestEdgeAreElsewhere) {
 // A prism over a triangle of this angle, in degrees: its two long sides meet at an edge.
 agvd::TriangleMesh wedge(double degrees) {
     const double y = std::tan(degrees * std::numbers::pi / 180);
-    return {{{0, 0, 0}, {1, 0, 0}, {1, y, 0}, {0, 0, 1}, {1, 0, 1}, {1, y, 1}},
-            {{0, 2, 1},
-             {3, 4, 5},
-             {0, 1, 4},
-             {0, 4, 3},
-             {0, 3, 5},
-             {0, 5, 2},
-             {1, 2, 5},
-             {1, 5, 4}}};
+    return {
+        {{0, 0, 0}, {1, 0, 0}, {1, y, 0}, {0, 0, 1}, {1, 0, 1}, {1, y, 1}},
+        {{0, 2, 1}, {3, 4, 5}, {0, 1, 4}, {0, 4, 3}, {0, 3, 5}, {0, 5, 2}, {1, 2, 5}, {1, 5, 4}}};
 }
 
 TEST(Crossings, FacesWithLessThanADegreeBetweenThemAreFolds) {
     EXPECT_TRUE(remesh::detail::find_folds(wedge(1.01).view()).empty());
-    EXPECT_EQ(remesh::detail::find_folds(wedge(0.99).view()),
-              (remesh::detail::FacePairs{{3, 4}}));
+    EXPECT_EQ(remesh::detail::find_folds(wedge(0.99).view()), (remesh::detail::FacePairs{{3, 4}}));
 }
 
 TEST(Crossings, FoldsOfTheInputAreNotNew) {
