@@ -99,6 +99,7 @@ private:
         // The test of an edge looks at all pairs of faces of its two ends.
         ticker_.tick(4 + ring.size() * ring.size() / 4);
         std::vector<std::pair<double, Index>> ends;  // By squared distance.
+        ends.reserve(ring.size());
         for (const Index w : ring) {
             ends.emplace_back((positions_[v] - positions_[w]).squaredNorm(), w);
         }

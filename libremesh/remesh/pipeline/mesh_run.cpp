@@ -5,7 +5,7 @@
 
 #include "remesh/pipeline/crossings.h"
 #include "remesh/pipeline/curves.h"
-#include "remesh/pipeline/run.h"
+#include "remesh/pipeline/mesh_with_curves.h"
 #include "remesh/pipeline/sizes.h"
 #include "remesh/pipeline/stage_context.h"
 

@@ -11,6 +11,7 @@
 #include "remesh/pipeline/coarse_input.h"
 #include "remesh/pipeline/meet_distance.h"
 #include "remesh/pipeline/mesh_run.h"
+#include "remesh/pipeline/mesh_with_curves.h"
 #include "remesh/pipeline/sample_count.h"
 #include "remesh/pipeline/stage_context.h"
 #include "remesh/sites/shares.h"
