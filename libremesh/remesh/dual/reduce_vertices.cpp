@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 #include <queue>
 
 #include "agvd/core/progress.h"
@@ -211,15 +210,10 @@ SimplifiedMesh simplify_patch(const Surface& surface, std::span<const Index> fac
         }
     }
     patch.triangles = mesh.triangles();
-    std::vector<Index> number(positions.size());
-    std::iota(number.begin(), number.end(), Index{0});
-    std::vector<SurfacePoint> left;
-    for (auto v = static_cast<Index>(points.size()); v < positions.size(); ++v) {
-        if (mesh.faces_at(v).empty()) continue;
-        number[v] = static_cast<Index>(points.size() + left.size());
-        left.push_back(patch.extra[v - points.size()]);
+    std::vector<SurfacePoint> left;  // All points are vertices.
+    for (const Index v : drop_unused(mesh.num_vertices(), patch.triangles)) {
+        if (v >= points.size()) left.push_back(patch.extra[v - points.size()]);
     }
-    patch.triangles = rename_vertices(patch.triangles, number);
     patch.extra = std::move(left);
     return patch;
 }

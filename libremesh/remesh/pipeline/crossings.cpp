@@ -21,10 +21,6 @@ using Corners = std::array<Vec3, 3>;
 
 Vec3 normal_of(const Corners& t) { return (t[1] - t[0]).cross(t[2] - t[0]); }
 
-double longest_edge_of(const Corners& t) {
-    return std::max({(t[1] - t[0]).norm(), (t[2] - t[1]).norm(), (t[0] - t[2]).norm()});
-}
-
 // The part of a triangle in the plane of another; empty if there is none or if it is all of it.
 std::vector<Vec3> segment_in_plane(const Corners& t, const Corners& plane) {
     const Vec3 normal = normal_of(plane);

@@ -18,20 +18,14 @@ namespace {
 // one plane or by rounding.
 constexpr int most_tries = 2;
 constexpr int most_partings = 2;
-// Faces for each bad one, or pair that intersects, at least: with fewer, as on meshes with spikes,
-// repairs would take long and gain little.
-constexpr std::size_t faces_per_bad = 4;
 // Around bad triangles: edits reach some edges far, and vertices to spare are found there.
 constexpr Index rings_of_places = 8;
 
-bool is_hopeless(std::size_t num_bad, const PlacedMesh& mesh) {
-    return faces_per_bad * num_bad > mesh.triangles.size();
-}
-
-// The pairs that do not follow from the input's, if these are no more.
+// The pairs that do not follow from the input's. None if most do, or if repairs are in vain.
 FacePairs pairs_to_part(const std::optional<CrossingFaces>& crossings, const PlacedMesh& mesh) {
-    if (!crossings || 2 * crossings->added.size() < crossings->all.size()) return {};
-    return is_hopeless(crossings->added.size(), mesh) ? FacePairs{} : crossings->added;
+    if (!crossings || !are_mostly_added(crossings->counts())) return {};
+    if (are_too_many(crossings->added.size(), mesh.triangles.size())) return {};
+    return crossings->added;
 }
 
 }  // namespace
@@ -165,10 +159,10 @@ void improve(const CurvedSurface& curved, CrossingFinder& finder, PlacedMesh& me
 
 void part_faces(const CurvedSurface& curved, CrossingFinder& finder, PlacedMesh& mesh,
                 std::optional<CrossingFaces>& crossings, const StageContext& context) {
-    const MeshCurves curves(*curved.whole, curved.cut(), curved.plan->network.network);
     for (int round = 0; round < most_partings; ++round) {
         const FacePairs pairs = pairs_to_part(crossings, mesh);
         if (pairs.empty()) return;
+        const MeshCurves curves(*curved.whole, curved.cut(), curved.plan->network.network);
         PlacedMesh parted = mesh;
         {
             const StageClock clock(Stage::Place, context.result);
@@ -193,7 +187,7 @@ bool free_creases(const CurvedSurface& curved, const std::optional<CrossingFaces
     for (Index f = 0; f < whole.triangles.size(); ++f) {
         if (is_flat(whole.positions, whole.triangles[f])) bad.push_back(f);
     }
-    if (bad.empty() || is_hopeless(bad.size(), mesh)) return false;
+    if (bad.empty() || are_too_many(bad.size(), mesh.triangles.size())) return false;
     std::vector<std::uint8_t> is_bad(mesh.points.size(), 0);
     for (const Index f : bad) {
         for (const Index v : mesh.triangles[f]) is_bad[v] = 1;

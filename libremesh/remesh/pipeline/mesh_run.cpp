@@ -23,16 +23,13 @@ bool has_lost_part(const RemeshResult& result) {
     return result.verdict.largest_distance > result.verdict.spacing;
 }
 
-// Whether faces intersect, and most of these pairs do not follow from the input's.
 bool has_own_crossings(const RemeshResult& result) {
-    return result.new_self_intersections > 0 &&
-           2 * result.new_self_intersections >= *result.self_intersections;
+    return are_mostly_added({result.self_intersections.value_or(0), result.new_self_intersections});
 }
 
-// Whether so many faces intersect that repairs in places are in vain, as where few vertices lie on
-// the creases of one plane.
+// As where few vertices lie on the creases of one plane.
 bool is_crushed(const RemeshResult& result) {
-    return 4 * std::size_t{result.new_self_intersections} > result.mesh.triangles.size();
+    return are_too_many(result.new_self_intersections, result.mesh.triangles.size());
 }
 
 // Whether lengths in places are ours to choose.
@@ -95,7 +92,8 @@ public:
                                                  bound_, of_input_, {options_, tried});
                 result_.seconds = tried.seconds;
                 samples_for_all = std::max(samples_for_all, tried.features.samples_for_all);
-                tried.features.gave_up = choice == Choice::None;
+                tried.features.gave_up =
+                    choice == Choice::None && kept_.is_crease != found_.is_crease;
                 if (!made.has_mesh) {
                     num_needed = std::max(made.num_needed, options_.num_samples + 1);
                 } else if (!best || is_worth_it(choice, tried, *best)) {

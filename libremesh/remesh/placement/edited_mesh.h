@@ -268,8 +268,7 @@ private:
         vertex.at = position(surface_.mesh.view(), vertex.point) + vertex.offset;
     }
     [[nodiscard]] double longest_edge_of(const Triangle& t) const {
-        return std::max({(at(t[1]) - at(t[0])).norm(), (at(t[2]) - at(t[1])).norm(),
-                         (at(t[0]) - at(t[2])).norm()});
+        return detail::longest_edge_of({at(t[0]), at(t[1]), at(t[2])});
     }
     [[nodiscard]] double quality_of(const Triangle& t) const {
         const auto& [a, b, c] = t;

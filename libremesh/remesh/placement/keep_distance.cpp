@@ -246,12 +246,7 @@ private:
     // Finds the farthest of the faces changed.
     // \return false if they may not stay, by their shape or intersections, or are beyond `most`.
     bool measure(const EditedMesh::Mark& before, double most) {
-        mesh_.changed_since(before, now_, qualities_);
-        double least = rule_.least_quality;
-        for (const double quality : qualities_) least = std::min(least, quality);
-        for (const Index f : now_) {
-            if (mesh_.face(f).quality < least) return false;
-        }
+        if (!steps_.keeps_quality(before, rule_.least_quality)) return false;
         const std::vector<Index> changed = mesh_.changed_since(before);
         farthest_ = bound_.measure(changed, most);
         return farthest_.second.distance <= most && crossings_.accepts(changed);
@@ -306,9 +301,8 @@ private:
     [[nodiscard]] bool keeps_edges(const EditedMesh::Mark& before) const {
         const std::vector<Index> changed = mesh_.changed_since(before);
         return std::ranges::all_of(changed, [&](Index f) {
-            const auto [a, b, c] = mesh_.corners_of(f);
             return !mesh_.face(f).is_there ||
-                   std::max({(a - b).norm(), (b - c).norm(), (c - a).norm()}) <= limit_.most_edge;
+                   longest_edge_of(mesh_.corners_of(f)) <= limit_.most_edge;
         });
     }
 
@@ -321,8 +315,6 @@ private:
     Rule rule_ = rules[0];
     std::size_t num_slides_ = 0;      // Beside each new vertex.
     std::pair<Index, Gap> farthest_;  // Found by measure().
-    std::vector<Index> now_;          // Scratch.
-    std::vector<double> qualities_;   // Scratch.
 };
 
 }  // namespace

@@ -1,7 +1,7 @@
 // Parts faces that intersect, one pair after the other: by the edit that leaves fewest pairs, a
-// flip, a collapse, or a split with the new vertex on the surface. Where none leaves fewer, the
-// longest edge of the two is split: the surface does not intersect itself, so small enough faces do
-// not either. Vertices are removed elsewhere before they are added here.
+// flip, a collapse, or a split with the new vertex on the surface. A split may leave some more: the
+// surface does not intersect itself, so small enough faces do not either. Vertices are removed
+// elsewhere before they are added here.
 #include "remesh/placement/placement.h"
 
 #include <algorithm>
@@ -167,7 +167,7 @@ private:
         if (!do_edit(edit)) return false;
         steps_.allow_slides(slides_beside);
         steps_.relax(before);
-        if (!keeps_quality(before)) return false;
+        if (!steps_.keeps_quality(before, least_quality_left)) return false;
         return guard_.accepts(before, worth_of_pair, edit.most_growth());
     }
     bool do_edit(const Edit& edit) {
@@ -187,12 +187,6 @@ private:
         const Index added = mesh_.split(edit.face, edit.k);
         return added != no_index && mesh_.put_offset(added, Vec3::Zero());
     }
-    [[nodiscard]] bool keeps_quality(const EditedMesh::Mark& before) {
-        mesh_.changed_since(before, now_, qualities_);
-        double least = least_quality_left;
-        for (const double quality : qualities_) least = std::min(least, quality);
-        return std::ranges::all_of(now_, [&](Index f) { return mesh_.face(f).quality >= least; });
-    }
 
     static constexpr int no_edit = 2;
 
@@ -202,8 +196,6 @@ private:
     SpareVertices spare_;
     std::size_t edits_left_ = most_edits;
     std::vector<std::pair<Index, Index>> in_vain_;  // Pairs that no edit parts.
-    std::vector<Index> now_;                        // Scratch.
-    std::vector<double> qualities_;                 // Scratch.
 };
 
 }  // namespace

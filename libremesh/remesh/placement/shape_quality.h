@@ -69,6 +69,10 @@ bool try_steps(std::span<const Vec3> directions, double length, const TryStep& t
     return is_better;
 }
 
+[[nodiscard]] inline double longest_edge_of(const std::array<Vec3, 3>& t) {
+    return std::max({(t[1] - t[0]).norm(), (t[2] - t[1]).norm(), (t[0] - t[2]).norm()});
+}
+
 //! Whether two triangles at an edge lie nearly on each other, with less than a degree between them.
 //! Others take them for triangles that intersect. One without area is no fold.
 //! \param a, b  their normals, of any length.

@@ -116,6 +116,14 @@ public:
         return worst;
     }
 
+    //! Whether none of the triangles touched since is below a quality, or the worst one before.
+    [[nodiscard]] bool keeps_quality(const EditedMesh::Mark& mark, double least) {
+        mesh_.changed_since(mark, changed_, before_);
+        for (const double quality : before_) least = std::min(least, quality);
+        return std::ranges::all_of(changed_,
+                                   [&](Index f) { return mesh_.face(f).quality >= least; });
+    }
+
     //! Takes a step that makes the worst triangle it touches better.
     //! \return false if there is none.
     bool improve(Index f) {

@@ -424,6 +424,8 @@ TEST(Features, ScansAreLeftAlone) {
 
 namespace {
 
+TriangleMesh part_of_data() { return remesh::read_mesh(files::find_mesh("data/part.off")).mesh; }
+
 class SharpPart : public testing::TestWithParam<const char*> {};
 
 }  // namespace
@@ -432,7 +434,7 @@ INSTANTIATE_TEST_SUITE_P(Features, SharpPart, testing::Values("data/part.off", "
 
 // Faces that intersect at first are parted.
 TEST(Features, CreasesStayWhereFacesIntersected) {
-    const TriangleMesh mesh = remesh::read_mesh(files::find_mesh("data/part.off")).mesh;
+    const TriangleMesh mesh = part_of_data();
     const RemeshResult result = remesh::remesh(mesh.view(), {.num_samples = 250});
     expect_sound(result, 250);
     EXPECT_FALSE(result.features.gave_up);
@@ -441,7 +443,7 @@ TEST(Features, CreasesStayWhereFacesIntersected) {
 
 // Without the creases that are close to others, faces of thin walls intersect.
 TEST(Features, CloseCreasesComeBackWhereFacesIntersect) {
-    const TriangleMesh mesh = remesh::read_mesh(files::find_mesh("data/part.off")).mesh;
+    const TriangleMesh mesh = part_of_data();
     const RemeshResult result = remesh::remesh(mesh.view(), {.num_samples = 120});
     if (!result.self_intersections) GTEST_SKIP() << "without CGAL";
     expect_sound(result, 120);
@@ -456,7 +458,7 @@ TEST(Features, CloseCreasesComeBackWhereFacesIntersect) {
 
 // A crease gives way where faces would intersect, and nowhere else.
 TEST(Features, CreasesGiveWayWhereFacesIntersect) {
-    const TriangleMesh mesh = remesh::read_mesh(files::find_mesh("data/part.off")).mesh;
+    const TriangleMesh mesh = part_of_data();
     const RemeshResult result = remesh::remesh(mesh.view(), {.num_samples = 180});
     if (!result.self_intersections) GTEST_SKIP() << "without CGAL";
     expect_sound(result, 180);
