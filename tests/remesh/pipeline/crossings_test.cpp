@@ -1,13 +1,20 @@
 // Self-intersections of the result, and which of them follow from the input's.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <utility>
 
+#include "agvd/mesh/surface_points.h"
 #include "remesh/meshfile/mesh_file.h"
 #include "remesh/pipeline/crossings.h"
+#include "remesh/pipeline/domain.h"
 #include "remesh/pipeline/remesh.h"
+#include "remesh/pipeline/stage_context.h"
+#include "remesh/placement/placement.h"
 #include "remesh/quality/evaluate.h"
 #include "support/files.h"
 #include "support/parts.h"
@@ -144,4 +151,52 @@ TEST(Crossings, FacesArePartedWhereTheInputHasNone) {
     const auto result = remesh::remesh(mesh.view(), {.num_samples = 220});
     EXPECT_EQ(result.self_intersections, 0u);
     EXPECT_EQ(result.mesh.positions.size(), 220u);
+}
+
+// Where faces still intersect after repair the run is made again with shorter edges there.
+TEST(Crossings, EdgesGetShorterWhereFacesCannotBeParted) {
+    if (!has_cgal()) GTEST_SKIP() << "without CGAL";
+    const agvd::TriangleMesh mesh = remesh::read_mesh(files::find_mesh("data/organic.ply")).mesh;
+    const auto result = remesh::remesh(mesh.view(), {.num_samples = 230});
+    EXPECT_EQ(result.self_intersections, 0u);
+    EXPECT_EQ(result.mesh.positions.size(), 230u);
+    EXPECT_GT(result.sizing.least_target, 0);
+    EXPECT_LT(result.sizing.least_target, 0.6 * result.sizing.largest_target);
+}
+
+// Two triangles at an edge of a flat square, one of them turned over the other.
+TEST(Crossings, FoldsThatTheInputDoesNotHaveCount) {
+    if (!has_cgal()) GTEST_SKIP() << "without CGAL";
+    const agvd::TriangleMesh square = shapes::grid(1);
+    const agvd::Surface surface = agvd::build_surface(square.view());
+    const remesh::detail::CurvedSurface curved{
+        .plan = std::make_unique<const remesh::detail::CurvePlan>(),
+        .whole = &surface,
+        .cleaned = &surface};
+    const auto num_pairs = [&](double degrees) {
+        remesh::PlacedMesh placed{{}, {}, square.triangles};
+        for (agvd::Index v = 0; v < 4; ++v) {
+            placed.points.push_back(agvd::point_at(surface, v));
+            placed.offsets.push_back(Vec3::Zero());
+        }
+        // The corner opposite to the common edge comes near the other one.
+        const auto& [t, u] = std::array{square.triangles[0], square.triangles[1]};
+        const auto apex = [](const agvd::Triangle& a, const agvd::Triangle& b) {
+            return *std::ranges::find_if(
+                a, [&](agvd::Index v) { return std::ranges::find(b, v) == b.end(); });
+        };
+        const Vec3 &from = square.positions[apex(t, u)], &to = square.positions[apex(u, t)];
+        const double height = (to - from).norm() / 2;
+        const Vec3 near = to + (from - to) * 0.1;
+        placed.offsets[apex(t, u)] = near - from;
+        placed.offsets[apex(t, u)].z() = 0.8 * height * std::tan(degrees * std::numbers::pi / 180);
+        const remesh::RemeshOptions options;
+        remesh::RemeshResult result;
+        remesh::detail::InputCrossings of_input;
+        const remesh::detail::StageContext context{options, result};
+        remesh::detail::CrossingFinder finder(curved, of_input, context);
+        return finder.find(placed)->size();
+    };
+    EXPECT_EQ(num_pairs(0.9), 1u);
+    EXPECT_EQ(num_pairs(1.1), 0u);
 }

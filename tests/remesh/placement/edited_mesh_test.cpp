@@ -53,6 +53,35 @@ TEST(EditedMesh, AFlipTakesTheOtherDiagonalOnce) {
     EXPECT_TRUE(is_like(flipped, mesh));
 }
 
+// The normal of a sliver tells nothing: without a bound collapses make slivers of 18 mean lengths.
+TEST(EditedMesh, CollapsesMakeNoLongSlivers) {
+    TriangleMesh strip = shapes::grid(12);
+    for (Vec3& p : strip.positions) p.y() *= 0.02;
+    const Sample sample(strip);
+    EditedMesh edited = sample.edited();
+    int num_collapses = 0;
+    for (bool is_changed = true; is_changed;) {
+        is_changed = false;
+        for (const Index f : edited.faces()) {
+            for (Index k = 0; k < 3 && edited.face(f).is_there; ++k) {
+                const Triangle& t = edited.face(f).corner;
+                const Index gone = t[k], into = t[(k + 1) % 3];
+                // Along the rows, which stay thin.
+                if (edited.at(gone).y() != edited.at(into).y()) continue;
+                if (!edited.collapse(gone, into)) continue;
+                is_changed = true;
+                ++num_collapses;
+            }
+        }
+    }
+    EXPECT_GT(num_collapses, 0);
+    double longest = 0;
+    for (const Index f : edited.faces()) {
+        longest = std::max(longest, remesh::detail::longest_edge_of(edited.corners_of(f)));
+    }
+    EXPECT_LE(longest, 2 * edited.mean_length());
+}
+
 TEST(EditedMesh, AVertexWhoseWalkIsCutOffStays) {
     const TriangleMesh mesh = shapes::sphere(0);
     const Sample sample(mesh);

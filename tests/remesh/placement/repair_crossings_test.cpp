@@ -1,6 +1,9 @@
 // Faces that intersect are parted, and the count and the topology stay.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "agvd/mesh/topology.h"
 #include "remesh/placement/crossing_guard.h"
 #include "remesh/placement/placement.h"
@@ -70,4 +73,18 @@ TEST(RepairCrossings, AMeshWithoutPairsStaysAsItIs) {
     const std::vector<Triangle> before = placed.placed.triangles;
     EXPECT_TRUE(repair_crossings(placed.curves(), placed.mobility, {}, placed.placed).empty());
     EXPECT_EQ(placed.placed.triangles, before);
+}
+
+// The corners of a face beside an edge are put so that it nearly lies on the face beyond.
+TEST(RepairCrossings, TheGuardKnowsFolds) {
+    for (const double degrees : {0.9, 1.1}) {
+        const double z = std::tan(degrees * std::numbers::pi / 180);
+        const TriangleMesh folded{{{0, -1, 0}, {0, 1, 0}, {2, 0, 0}, {1, 0, z}},
+                                  {{0, 2, 1}, {0, 1, 3}}};
+        MovableMesh placed(folded);
+        const remesh::detail::MeshCurves curves = placed.curves();
+        const remesh::detail::EditedMesh edited(curves, placed.placed, placed.mobility);
+        const remesh::detail::CrossingGuard guard(edited);
+        EXPECT_EQ(guard.face_through(0), degrees < 1 ? 1 : no_index) << degrees;
+    }
 }
