@@ -16,10 +16,10 @@
 namespace cli {
 namespace {
 
-constexpr std::array headings{heading::files,      heading::accuracy,   heading::count,
-                              heading::place,      heading::curves,     heading::regions,
-                              heading::attributes, heading::relaxation, heading::geodesics,
-                              heading::running};
+constexpr std::array headings{heading::files,     heading::accuracy,   heading::count,
+                              heading::place,     heading::promises,   heading::curves,
+                              heading::regions,   heading::attributes, heading::relaxation,
+                              heading::geodesics, heading::running};
 
 constexpr std::size_t text_column = 30;
 // If standard output is no terminal.

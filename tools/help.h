@@ -18,6 +18,7 @@ inline constexpr const char* files = "Input and output";
 inline constexpr const char* accuracy = "Accuracy";
 inline constexpr const char* count = "How many";
 inline constexpr const char* place = "Where";
+inline constexpr const char* promises = "Bounds";
 inline constexpr const char* curves = "Creases and boundary";
 inline constexpr const char* attributes = "Attributes";
 inline constexpr const char* regions = "Regions";

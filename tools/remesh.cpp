@@ -378,6 +378,7 @@ Input prepare(const Arguments& arguments, cli::Console& console) {
                                   .sizing = std::move(sizing),
                                   .vertex_count = arguments.vertex_count,
                                   .boundary = arguments.sampling.boundary,
+                                  .bounds = cli::bounds_for(arguments.sizing, input.mesh.view()),
                                   .drop_components = arguments.drop_components / 100,
                                   .init = arguments.sampling.init,
                                   .features = arguments.features,

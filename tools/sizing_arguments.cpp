@@ -187,6 +187,20 @@ void add_sizing_options(CLI::App& app, SizingArguments& arguments) {
         ->check(CLI::Validator(check_gradation, ""))
         ->type_name("G")
         ->default_str("1.3");
+    start_group(app, heading::promises);
+    app.add_option("--min-angle", arguments.min_angle,
+                   "No angle of a triangle is smaller, but for those that creases or corners of "
+                   "the input force, which are told; exit code 5 if that cannot be")
+        ->check(CLI::Range(0.0, 30.0).description(""))
+        ->type_name("DEG")
+        ->capture_default_str();
+    app.add_option("--max-angle", arguments.max_angle, "No angle is larger, but for the same ones")
+        ->check(CLI::Range(90.0, 180.0).description(""))
+        ->type_name("DEG")
+        ->capture_default_str();
+    add_length(app, "--longest-edge",
+               "No edge is longer; the result has as many more vertices as that takes",
+               arguments.longest_edge);
 }
 
 bool has_count(const SizingArguments& arguments) {
@@ -243,6 +257,13 @@ remesh::Sizing sizing_for(const SizingArguments& arguments, const std::filesyste
         sizing.count = remesh::CountOfLengths{};
     }
     return sizing;
+}
+
+remesh::ShapeBounds bounds_for(const SizingArguments& arguments, const agvd::MeshView& mesh) {
+    remesh::ShapeBounds bounds{.min_angle = arguments.min_angle, .max_angle = arguments.max_angle};
+    const double length = arguments.longest_edge ? length_of(*arguments.longest_edge, mesh) : 0;
+    if (length > 0) bounds.longest_edge = length;
+    return bounds;
 }
 
 }  // namespace cli

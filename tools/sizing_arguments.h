@@ -27,7 +27,8 @@ struct SizingArguments {
     bool is_adaptive = false;
     agvd::Index num_faces = 0;  //!< 0: not given.
     //! Mesh units, or percent of the diagonal.
-    std::optional<Amount> edge, max_distance, min_edge, max_edge;
+    std::optional<Amount> edge, max_distance, min_edge, max_edge, longest_edge;
+    double min_angle = 0, max_angle = 180;   //!< Degrees.
     std::string target_lengths, densities;   //!< Names of vertex properties; empty: none.
     std::vector<LabelLength> label_lengths;  //!< Empty: none.
     std::optional<double> gradation;
@@ -43,8 +44,8 @@ CLI::Option* add_length(CLI::App& app, const std::string& flag, const std::strin
 [[nodiscard]] double length_of(const Amount& length, const agvd::MeshView& mesh);
 
 //! Adds --adaptive, --sizing, --density, --edge-length-of, --faces, --edge-length, --max-distance,
-//! --min-edge,
-//! --max-edge and --gradation, after --samples and --sites.
+//! --min-edge, --max-edge, --gradation, --min-angle, --max-angle and --longest-edge, after
+//! --samples and --sites.
 void add_sizing_options(CLI::App& app, SizingArguments& arguments);
 
 //! Whether an option other than --sizing says how fine the result is.
@@ -60,5 +61,9 @@ void add_sizing_options(CLI::App& app, SizingArguments& arguments);
 [[nodiscard]] remesh::Sizing sizing_for(const SizingArguments& arguments,
                                         const std::filesystem::path& path,
                                         const remesh::MeshFile& mesh);
+
+//! Angles and edges of all triangles. Cost: O(#F) for the diagonal.
+[[nodiscard]] remesh::ShapeBounds bounds_for(const SizingArguments& arguments,
+                                             const agvd::MeshView& mesh);
 
 }  // namespace cli

@@ -73,6 +73,41 @@ TEST_F(Remesh, ADistanceIsKeptOrTheReasonTold) {
     EXPECT_EQ(bytes("old.off"), "old");
 }
 
+TEST_F(Remesh, BoundsAreKeptOrTheWorstTriangleIsNamed) {
+    const std::string in = put("in.off", shapes::sphere(4));
+    const auto outcome = remesh({in, at("out.off"), "-n", "200", "--longest-edge", "5%",
+                                 "--min-angle", "30", "--max-angle", "95", "--report", "-"});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    const auto report = nlohmann::json::parse(outcome.out);
+    const auto& bounds = report["options"]["bounds"];
+    const double length = bounds["longest_edge_mesh_units"];
+    EXPECT_NEAR(length, 0.05 * 2 * std::sqrt(3.), 1e-3);
+    EXPECT_EQ(bounds["min_angle_deg"], 30);
+    EXPECT_EQ(bounds["max_angle_deg"], 95);
+    EXPECT_TRUE(report["forced_faces"].empty());
+    EXPECT_GE(report["verdict"]["min_angle_deg"], 30);
+    EXPECT_GT(report["output_vertices"], 700);
+    EXPECT_LT(report["output_vertices"], 1000);
+    const remesh::MeshFile out = remesh::read_mesh(at("out.off"));
+    double longest = 0;
+    for (const agvd::Triangle& t : out.mesh.triangles) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            longest = std::max(
+                longest, (out.mesh.positions[t[k]] - out.mesh.positions[t[(k + 1) % 3]]).norm());
+        }
+    }
+    EXPECT_LE(longest, length);
+    EXPECT_GT(longest, 0.9 * length);
+    put("old.off", "old");
+    const auto refused =
+        remesh({in, at("old.off"), "-n", "200", "--relax", "0", "--min-angle", "30"});
+    EXPECT_EQ(refused.exit_code, 5) << refused.err;
+    EXPECT_NE(refused.err.find("the smallest angle asked for is 30, and "), std::string::npos);
+    EXPECT_EQ(bytes("old.off"), "old");
+    EXPECT_EQ(remesh({in, at("old.off"), "--min-angle", "31"}).exit_code, 2);
+    EXPECT_EQ(remesh({in, at("old.off"), "--max-angle", "80"}).exit_code, 2);
+}
+
 // Edges of .2 on one half of a plate, of .05 on the other.
 TEST_F(Remesh, PropertiesOfVerticesGiveLengthsAndDensities) {
     const agvd::TriangleMesh plate = shapes::grid(20);

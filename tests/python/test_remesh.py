@@ -67,6 +67,18 @@ def test_sizing_gives_lengths_and_number(sphere):
     assert len(bounded.V) == 400
 
 
+def test_bounds_of_all_triangles(organic):
+    V, F = organic
+    result = remesh.remesh(V, F, 1000, min_angle=25, max_angle=100, longest_edge="9%")
+    assert len(result.V) > 1000 and result.report["forced_faces"] == []
+    edges = result.V[result.F] - result.V[np.roll(result.F, -1, axis=1)]
+    longest = result.report["options"]["bounds"]["longest_edge_mesh_units"]
+    assert 0.9 * longest < np.linalg.norm(edges, axis=2).max() <= longest
+    assert result.report["verdict"]["min_angle_deg"] >= 25
+    with pytest.raises(remesh.ConstraintUnmet, match="the largest angle asked for is 90, and "):
+        remesh.remesh(V, F, 1000, relax=0, max_angle=90)
+
+
 def test_places_are_the_nearest_points(organic):
     V, F = organic
     result = remesh.remesh(V, F, 1000)
@@ -131,6 +143,8 @@ WRONG_OPTIONS = [
     (dict(edge_length="wide"), "edge_length is 'wide'"),
     (dict(edge_length=float("nan")), "edge_length is nan"),
     (dict(max_distance=-1), "max_distance is -1"),
+    (dict(min_angle=40), "min_angle is 40"),
+    (dict(longest_edge=0), "longest_edge is 0"),
     (dict(min_edge=1), "min_edge, max_edge and gradation bound edges that differ"),
     (dict(adaptive=True, gradation=0.5), "gradation is 0.5"),
     (dict(adaptive=True, sizing=np.ones(1026)), "several of adaptive, sizing, face_sizing and density"),

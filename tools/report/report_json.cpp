@@ -243,6 +243,26 @@ Json to_json(const AttributeReport& attributes) {
             {"map_path", text_or_null(attributes.map_path)}};
 }
 
+// The bounds, and the faces that the input forces beyond them.
+Json to_json(const ShapeBounds& bounds) {
+    return {{"min_angle_deg", bounds.min_angle},
+            {"max_angle_deg", bounds.max_angle},
+            {"longest_edge_mesh_units", bounds.longest_edge}};
+}
+
+Json to_json(const std::vector<ForcedFace>& forced, const TriangleMesh& mesh) {
+    Json faces = Json::array();
+    for (const auto& [face, least, most] : forced) {
+        const auto [a, b, c] = corners_of(mesh.view(), face);
+        const Vec3 at = (a + b + c) / 3;
+        faces.push_back({{"face", face},
+                         {"min_angle_deg", least},
+                         {"max_angle_deg", most},
+                         {"at", std::array{at.x(), at.y(), at.z()}}});
+    }
+    return faces;
+}
+
 // What the window engine takes if nothing is asked for; the others then have no bound.
 std::optional<double> max_error_of(const PropagationOptions& options) {
     if (options.max_error || options.engine != Engine::Window) return options.max_error;
@@ -255,6 +275,7 @@ Json to_json(const RemeshOptions& options, Index num_samples) {
     Json object;
     object["samples"] = num_samples;
     object["sizing"] = to_json(options.sizing);
+    object["bounds"] = to_json(options.bounds);
     object["topology"] = options.vertex_count == VertexCount::Exact ? "exact" : "add";
     object["boundary"] = options.boundary == Boundary::Keep ? "keep" : "free";
     object["keep_slits"] = options.cleaning.keep_slits;
@@ -325,6 +346,7 @@ std::string to_json(const RemeshResult& result, const RunInfo& info) {
     object["features"] = to_json(result.features);
     object["junctions"] = to_json(result.junctions);
     object["sizing"] = to_json(result.sizing);
+    object["forced_faces"] = to_json(result.forced, result.mesh);
     object["dual"] = to_json(result.dual);
     object["delaunay"] = to_json(result.delaunay, info.options.delaunay);
     object["unfitted_vertices"] = result.unfitted_vertices;

@@ -11,13 +11,23 @@
 #include "remesh/pipeline/improvable_mesh.h"
 #include "remesh/pipeline/near_mesh.h"
 #include "remesh/pipeline/place_sites.h"
+#include "remesh/pipeline/promises.h"
 #include "remesh/pipeline/stage_context.h"
 
 namespace remesh::detail {
 namespace {
 
+// Degrees. Triangles with other angles are worth some distance from the surface.
+constexpr double aimed_min_angle = 15, aimed_max_angle = 150;
 // Rounds in which creases give way.
 constexpr int most_freeings = 2;
+
+// The bounds, and those that no run promises.
+ShapeBounds with_aims(ShapeBounds bounds) {
+    bounds.min_angle = std::max(bounds.min_angle, aimed_min_angle);
+    bounds.max_angle = std::min(bounds.max_angle, aimed_max_angle);
+    return bounds;
+}
 
 void take_crossings(const CrossingFaces& crossings, BuiltMesh& built) {
     built.self_intersections = crossings.counts();
@@ -111,13 +121,22 @@ void finish_mesh(const CurvedSurface& curved, InputCrossings& of_input, const St
             repair();
         }
     }
-    if (crossings) take_crossings(*crossings, built);
-    if (context.result.tiles > 0) return;
-    if (curved.bound == nullptr || curved.has_junctions()) return;
-    built.proved_distance = bring_near(curved, built.mesh, context);
-    if (auto pairs = finder.find(built.mesh)) {
-        take_crossings(finder.tell_added(built.mesh, *std::move(pairs)), built);
+    const ShapeBounds& bounds = context.options.bounds;
+    if ((context.result.tiles == 0 || bounds.has_any()) && is_improvable(curved, context.options)) {
+        const ShapeBounds aims = with_aims(bounds);
+        improve(curved, finder, built.mesh, crossings, context, &aims);
     }
+    if (crossings) take_crossings(*crossings, built);
+    if (context.result.tiles == 0 && curved.bound != nullptr && !curved.has_junctions()) {
+        built.proved_distance = bring_near(curved, built.mesh, context);
+        if (auto pairs = finder.find(built.mesh)) {
+            take_crossings(finder.tell_added(built.mesh, *std::move(pairs)), built);
+        }
+    }
+    if (bounds.longest_edge < infinity) {
+        built.num_wanted = std::max(built.num_wanted, static_cast<Index>(built.mesh.points.size()));
+    }
+    built.forced = find_forced_faces(curved, built.mesh, bounds);
 }
 
 }  // namespace remesh::detail

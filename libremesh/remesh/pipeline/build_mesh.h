@@ -20,6 +20,7 @@ struct BuiltMesh {
     Index num_vertices = 0;        //!< To which the sites could be reduced.
     std::optional<CrossingCounts> self_intersections = {};  //!< Unset without CGAL.
     std::optional<double> proved_distance = {};  //!< See bring_near; unset: there is no bound.
+    std::vector<ForcedFace> forced = {};         //!< See RemeshResult.
     //! Corners of the faces that intersect, the input's not; on the cleaned surface.
     std::vector<SurfacePoint> crossing_corners = {};
 };
@@ -32,7 +33,7 @@ struct BuiltMesh {
                               const StageContext& context);
 
 //! Moves vertices of triangles that intersect back onto the surface, improves narrow triangles, and
-//! brings the mesh within the distance asked for, if that may be.
+//! brings the mesh within the bounds and the distance asked for, if that may be.
 //! \param of_input  searched if the mesh intersects itself.
 //! Cost: that of find_self_intersections, in a few rounds if there are any, improve and bring_near.
 void finish_mesh(const CurvedSurface& curved, InputCrossings& of_input, const StageContext& context,

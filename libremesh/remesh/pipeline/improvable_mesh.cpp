@@ -18,6 +18,9 @@ namespace {
 // one plane or by rounding.
 constexpr int most_tries = 2;
 constexpr int most_partings = 2;
+// Share of the triangles: more that exceed what nobody asked for are those of thin walls or shells
+// that intersect, and stay so.
+constexpr double most_beyond_aims = 0.01;
 // Around bad triangles: edits reach some edges far, and vertices to spare are found there.
 constexpr Index rings_of_places = 8;
 
@@ -84,7 +87,15 @@ void improve_in_places(const CurvedSurface& curved, std::span<const std::uint8_t
         part.hard.emplace_back(rank_of(vertices, from), rank_of(vertices, to));
     }
     std::vector<Mobility> mobility = find_mobility(curved, curves, part);
-    for (const auto& [from, to] : rim_of(part.triangles)) {
+    const auto number_all = [](std::span<const DirectedEdge> edges, std::span<const Index> number) {
+        std::vector<DirectedEdge> numbered;
+        for (const auto& [from, to] : edges) numbered.emplace_back(number[from], number[to]);
+        std::ranges::sort(numbered);
+        return numbered;
+    };
+    const std::vector<DirectedEdge> hard_before = number_all(part.hard, vertices);
+    const std::vector<DirectedEdge> rim = rim_of(part.triangles);
+    for (const auto& [from, to] : rim) {
         part.hard.emplace_back(from, to);
         if (ring[vertices[from]] == rings_of_places) mobility[from] = Mobility::Fixed;
     }
@@ -125,6 +136,18 @@ void improve_in_places(const CurvedSurface& curved, std::span<const std::uint8_t
     }
     for (const auto& [a, b, c] : part.triangles) all.push_back({place[a], place[b], place[c]});
     mesh.triangles = std::move(all);
+    const auto is_in = [](std::span<const DirectedEdge> sorted, const DirectedEdge& edge) {
+        return std::ranges::binary_search(sorted, edge) ||
+               std::ranges::binary_search(sorted, DirectedEdge(edge.second, edge.first));
+    };
+    std::erase_if(mesh.hard, [&](const DirectedEdge& edge) { return is_in(hard_before, edge); });
+    const std::vector<DirectedEdge> rim_before = number_all(rim, vertices);
+    const std::vector<DirectedEdge> rim_now = rim_of(mesh.triangles);
+    for (const DirectedEdge& edge : number_all(part.hard, place)) {
+        const bool is_of_part_only = is_in(rim_before, edge) && !is_in(hard_before, edge) &&
+                                     !std::ranges::binary_search(rim_now, edge);
+        if (!is_of_part_only) mesh.hard.push_back(edge);
+    }
 }
 
 bool is_improvable(const CurvedSurface& curved, const RemeshOptions& options) {
@@ -132,7 +155,8 @@ bool is_improvable(const CurvedSurface& curved, const RemeshOptions& options) {
 }
 
 void improve(const CurvedSurface& curved, CrossingFinder& finder, PlacedMesh& mesh,
-             std::optional<CrossingFaces>& crossings, const StageContext& context) {
+             std::optional<CrossingFaces>& crossings, const StageContext& context,
+             const ShapeBounds* bounds) {
     const MeshCurves curves(*curved.whole, curved.cut(), curved.plan->network.network);
     std::vector<Mobility> mobility = find_mobility(curved, curves, mesh);
     for (int round = 0; round < most_tries; ++round) {
@@ -140,8 +164,11 @@ void improve(const CurvedSurface& curved, CrossingFinder& finder, PlacedMesh& me
         std::vector<Index> numbers;
         {
             const StageClock clock(Stage::Place, context.result);
-            numbers = repair_shape(curves, mobility, improved,
-                                   progress_at(Stage::Place, context.options, 1));
+            const double most_share = context.options.bounds.has_any() ? 1 : most_beyond_aims;
+            const Progress progress = progress_at(Stage::Place, context.options, 1);
+            numbers = bounds != nullptr
+                          ? keep_bounds(curves, mobility, *bounds, most_share, improved, progress)
+                          : repair_shape(curves, mobility, improved, progress);
         }
         if (numbers.empty()) return;
         std::optional<FacePairs> pairs = finder.find(improved);

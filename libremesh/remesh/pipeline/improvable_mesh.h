@@ -21,12 +21,15 @@ struct StageContext;
 [[nodiscard]] std::vector<Mobility> find_mobility(const CurvedSurface& curved,
                                                   const MeshCurves& curves, const PlacedMesh& mesh);
 
-//! Improves narrow triangles (repair_shape). If more of the improved triangles intersect than
-//! before, fixes their corners and tries again, once. The mesh stays if none is better.
+//! Improves narrow triangles (repair_shape), or those that exceed bounds (keep_bounds). If more of
+//! the improved triangles intersect than before, fixes their corners and tries again, once. The
+//! mesh stays if none is better.
 //! \param crossings  of the mesh, then of the improved one; unset without CGAL.
+//! \param bounds     null: there are none.
 //! Cost: O(#surface), and that of repair_shape, twice at most.
 void improve(const CurvedSurface& curved, CrossingFinder& finder, PlacedMesh& mesh,
-             std::optional<CrossingFaces>& crossings, const StageContext& context);
+             std::optional<CrossingFaces>& crossings, const StageContext& context,
+             const ShapeBounds* bounds = nullptr);
 
 //! Parts faces that intersect where the input's do not (repair_crossings).
 //! \param crossings  as of improve().
@@ -43,7 +46,7 @@ void part_faces(const CurvedSurface& curved, CrossingFinder& finder, PlacedMesh&
 
 //! Improves the bad triangles of a mesh that is large, or a tile of one: only what lies within some
 //! rings of them is looked at and changed. Crossings are not searched. Vertices that are kept have
-//! their numbers still; `hard` is not kept up.
+//! their numbers still.
 //! \param stays  #V: 1 for vertices that do not move; or empty.
 //! Cost: O(#surface), and that of repair_shape there.
 void improve_in_places(const CurvedSurface& curved, std::span<const std::uint8_t> stays,

@@ -120,6 +120,7 @@ MadeMesh mesh_with_curves(const CleanedInput& cleaned, const FoundCurves& found,
     }
     const std::vector<SurfacePoint>& points = built.mesh.points;
     result.sizing = measure_edges(result.mesh.view(), points, options.num_samples, sizes);
+    result.forced = std::move(built.forced);
     result.sizing.largest_distance = built.proved_distance.value_or(0);
     const CleanedInput& finest = cleaned.finest();
     result.sites = to_original(cleaned.finer != nullptr ? to_finer(cleaned, points) : points,

@@ -27,6 +27,7 @@ std::optional<double> bring_near(const CurvedSurface& curved, PlacedMesh& mesh,
                         .may_leave_surface = options.fit.value_or(is_relaxed(options)),
                         .least_edge = options.sizing.min_edge,
                         .most_edge = options.sizing.max_edge,
+                        .bounds = options.bounds,
                         .num_threads = options.num_threads};
     limit.points.assign(bound.input.positions.begin(), bound.input.positions.end());
     const AreaSamples samples(bound.input);

@@ -18,6 +18,7 @@
 #include "remesh/clean/clean_input.h"
 #include "remesh/curves/find_creases.h"
 #include "remesh/dual/build_dual.h"
+#include "remesh/placement/shape_bounds.h"
 #include "remesh/quality/evaluate.h"
 #include "remesh/sites/sites.h"
 #include "remesh/sites/sizing.h"
@@ -57,6 +58,10 @@ struct RemeshOptions {
     //! Keep: boundary vertices lie on the input's boundary. Free: `fit` may move them off it, and
     //! given sites need not lie on it.
     Boundary boundary = Boundary::Keep;
+    //! Angles and edges of all triangles. With a longest edge the result has as many more vertices
+    //! as it needs. With given sites, relax_steps of 0 or junctions they are only checked. With a
+    //! region they are about the faces in it.
+    ShapeBounds bounds = {};
     double drop_components = 0;  //!< In [0, 1]: smaller components (share of the area) are dropped.
     Init init = Init::BlueNoise;  //!< How sites are sampled.
     //! Creases become chains of edges, and their corners become vertices. Given sites on a crease
@@ -166,6 +171,14 @@ struct SizingResult {
     double largest_distance = 0;
 };
 
+//! A triangle whose angles exceed RemeshOptions::bounds, as the input forces it: between curves
+//! that meet at an acute corner, or are closer than the edges.
+struct ForcedFace {
+    Index face = 0;        //!< Of the result.
+    double min_angle = 0;  //!< Degrees.
+    double max_angle = 0;  //!< Degrees.
+};
+
 //! What a run with RemeshOptions::region left as it was. Vertices and faces of the result that are
 //! not listed come after those that are. Empty: the whole mesh was remeshed.
 struct KeptPart {
@@ -200,6 +213,7 @@ struct RemeshResult {
     FeatureCounts features = {};              //!< What became of creases.
     JunctionCounts junctions = {};            //!< What became of junctions.
     SizingResult sizing = {};                 //!< How long the edges are.
+    std::vector<ForcedFace> forced = {};      //!< Ascending; all others keep the bounds.
     DualCounts dual = {};                     //!< Where triangles come from.
     DelaunayCounts delaunay = {};             //!< Edges that failed, were flipped, still fail.
     //! Intersecting pairs of faces of the result and, if that is not 0, of the cleaned input.
@@ -231,7 +245,7 @@ struct RemeshResult {
 //! \throw InvalidInput the mesh cannot be repaired (see clean_input), a given site does not
 //!        lie on it, or a feature edge is not one of its edges.
 //! \throw ConstraintUnmet  num_samples is too small for the topology; the text gives a number
-//!        that was tried and works.
+//!        that was tried and works. Or a bound is not kept; the text names the worst triangle.
 //! \throw Cancelled        the progress callback returned false.
 //! Cost: O(n log n) in practice, n = faces of the base + samples. With 2000 samples relaxation
 //! takes some 40 % of it, placement and improvement 30 %, propagation and diagram 15 to 20 %.

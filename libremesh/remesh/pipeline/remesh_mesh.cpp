@@ -69,6 +69,15 @@ void check_sizing(const Sizing& sizing, const MeshView& mesh) {
             "gradation is " + std::to_string(sizing.gradation) + "; use a number of 1 or more");
 }
 
+void check_bounds(const ShapeBounds& bounds) {
+    require(bounds.min_angle >= 0 && bounds.min_angle <= 30,
+            "min_angle is " + std::to_string(bounds.min_angle) + "; use 0 to 30 degrees");
+    require(bounds.max_angle >= 90 && bounds.max_angle <= 180,
+            "max_angle is " + std::to_string(bounds.max_angle) + "; use 90 to 180 degrees");
+    require(bounds.longest_edge > 0,
+            "longest_edge is " + std::to_string(bounds.longest_edge) + "; use a length above 0");
+}
+
 void check_options(const RemeshOptions& options, const MeshView& mesh) {
     require(options.num_samples >= 1, "num_samples is 0; use 1 or more");
     require(options.relax_steps >= 0,
@@ -91,6 +100,7 @@ void check_options(const RemeshOptions& options, const MeshView& mesh) {
                 (options.locked.empty() && options.locked_edges.empty() && !options.lock_boundary),
             "sites are given, and vertices or edges are locked; use one of them");
     check_sizing(options.sizing, mesh);
+    check_bounds(options.bounds);
     check_num_threads(options.num_threads);
 }
 
@@ -159,6 +169,7 @@ RemeshResult run(const detail::InputMesh& input, const RemeshOptions& options) {
     TriangleMesh normal = scaled(input.view, -exponent);
     RemeshOptions scaled_options = options;
     scale_lengths(scaled_options.sizing, -exponent);
+    scaled_options.bounds.longest_edge = std::ldexp(options.bounds.longest_edge, -exponent);
     scaled_options.cleaning.weld = std::ldexp(options.cleaning.weld, -exponent);
     RemeshResult result = detail::run_stages({normal.view(), &normal}, scaled_options);
     scale_back(result, exponent);

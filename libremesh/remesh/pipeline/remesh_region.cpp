@@ -136,6 +136,9 @@ RemeshResult remesh_region(const MeshView& mesh, const RemeshOptions& options) {
     result.sites = sites_of(region, glued, result.sites);
     result.mesh = std::move(glued.mesh);
     result.sizing.targets.clear();
+    for (ForcedFace& forced : result.forced) {
+        forced.face += static_cast<Index>(region.kept.size());
+    }
     result.kept = {std::move(glued.kept_vertices), region.kept,
                    static_cast<Index>(region.rim_edges.size())};
     count_crossings(mesh, region, options, result);

@@ -12,6 +12,7 @@
 #include "remesh/pipeline/meet_distance.h"
 #include "remesh/pipeline/mesh_run.h"
 #include "remesh/pipeline/mesh_with_curves.h"
+#include "remesh/pipeline/promises.h"
 #include "remesh/pipeline/sample_count.h"
 #include "remesh/pipeline/stage_context.h"
 #include "remesh/sites/shares.h"
@@ -117,6 +118,7 @@ RemeshResult run_stages(const InputMesh& input, const RemeshOptions& given) {
     if (!cleaned.locked.empty() && gives_num_samples(options.sizing)) {
         options.vertex_count = VertexCount::Add;
     }
+    options.sizing.max_edge = std::min(options.sizing.max_edge, most_mean_edge(options.bounds));
     try {
         options.num_samples = sample_count(cleaned, options);
         require_least_samples(cleaned.topology, options);
@@ -148,6 +150,7 @@ RemeshResult run_stages(const InputMesh& input, const RemeshOptions& given) {
         throw ConstraintUnmet(describe_too_few(failure, enough, cleaned, given) +
                               describe_gaps(cleaned));
     }
+    require_bounds(result, options.bounds);
     result.input_topology = std::move(cleaned.topology);
     return result;
 }

@@ -19,6 +19,8 @@ constexpr double most_samples = 8e8;
 constexpr double relaxed_excess = 1.003, unrelaxed_excess = 1.025;
 // Largest relative error of the mean edge that is not corrected, and largest correction.
 constexpr double near_enough = 0.008, most_correction = 1.5;
+// The longest edges of a relaxed result over the mean, but for some that are divided.
+constexpr double longest_over_mean = 1.3;
 
 // The boundary, but for locked edges, and the number of these.
 struct BoundarySize {
@@ -120,6 +122,8 @@ Index count_by_sizing(const CleanedInput& cleaned, const RemeshOptions& options)
 
 }  // namespace
 
+double most_mean_edge(const ShapeBounds& bounds) { return bounds.longest_edge / longest_over_mean; }
+
 Index count_for_area(double area, const CleanedInput& cleaned, double spacing) {
     // Vertices of locked edges on the boundary count half in the area.
     const double vertices =
@@ -128,8 +132,14 @@ Index count_for_area(double area, const CleanedInput& cleaned, double spacing) {
 }
 
 Index sample_count(const CleanedInput& cleaned, const RemeshOptions& options) {
-    if (options.sites || !gives_num_samples(options.sizing)) return options.num_samples;
-    const Index count = count_by_sizing(cleaned, options);
+    const bool is_given =
+        !gives_num_samples(options.sizing) && !(options.bounds.longest_edge < infinity);
+    if (options.sites || is_given) return options.num_samples;
+    Index count = count_by_sizing(cleaned, options);
+    if (options.bounds.longest_edge < infinity) {
+        count = std::max(count, to_count(vertices_for_edge(
+                                    most_mean_edge(options.bounds) / excess_of(options), cleaned)));
+    }
     return std::max(count, least_samples(cleaned, mean_spacing(cleaned.surface, count)));
 }
 

@@ -18,8 +18,12 @@ namespace remesh::detail {
 //! \throw InvalidOption  it is above 8e8. Cost: O(n).
 [[nodiscard]] Index count_for_area(double area, const CleanedInput& cleaned, double spacing);
 
+//! The mean edge of a result of which few edges are longer than the bound.
+[[nodiscard]] double most_mean_edge(const ShapeBounds& bounds);
+
 //! The number of samples by which the options' edge length, number of faces or target lengths come
-//! out; num_samples if they have none of these. Creases and junctions do not count yet.
+//! out; num_samples if they have none of these; and as many as a longest edge needs. Creases and
+//! junctions do not count yet.
 //! \throw InvalidOption  it is above 8e8. Cost: O(#F).
 [[nodiscard]] Index sample_count(const CleanedInput& cleaned, const RemeshOptions& options);
 

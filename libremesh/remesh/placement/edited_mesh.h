@@ -25,7 +25,8 @@ namespace remesh::detail {
 //! around it were. Edits that would break these rules change nothing.
 //!
 //! The label of an edge is its curve; no_index: it lies on none. The quality of a face is its
-//! shape_quality(); 1 less if the face points against the surface.
+//! shape_quality(), or how it keeps bounds (ShapeMeasure); 1 less if the face points against the
+//! surface.
 class EditedMesh : private FanMesh {
 public:
     using FanMesh::changed_since, FanMesh::face, FanMesh::Face, FanMesh::faces_at,
@@ -38,10 +39,12 @@ public:
 
     //! \param curves    outlives this.
     //! \param mobility  #V. Free ones lie on no curve.
-    EditedMesh(const MeshCurves& curves, const PlacedMesh& mesh, std::span<const Mobility> mobility)
+    EditedMesh(const MeshCurves& curves, const PlacedMesh& mesh, std::span<const Mobility> mobility,
+               const ShapeMeasure& shape = ShapeMeasure())
         : FanMesh(mesh.triangles, static_cast<Index>(mesh.points.size())),
           curves_(curves),
           surface_(curves.surface()),
+          shape_(shape),
           vertices_(mesh.points.size()) {
         for (Index v = 0; v < vertices_.size(); ++v) {
             vertices_[v].point = mesh.points[v];
@@ -87,6 +90,16 @@ public:
         }
         return result;
     }
+    //! The quality of a face, whatever side it points to.
+    [[nodiscard]] double shape_of(Index f) const {
+        const double quality = face(f).quality;
+        return quality < 0 ? quality + 1 : quality;
+    }
+    //! Of a triangle that points along the surface.
+    [[nodiscard]] double quality_of_shape(const std::array<Vec3, 3>& corners) const {
+        return shape_(corners[0], corners[1], corners[2]);
+    }
+    [[nodiscard]] bool has_bounds() const { return shape_.has_bounds(); }
     [[nodiscard]] Mobility mobility(Index v) const { return vertices_[v].mobility; }
     [[nodiscard]] double worst_at(Index v) const {
         double worst = 1;
@@ -250,10 +263,7 @@ private:
     [[nodiscard]] bool is_gentle(Index f, const Vec3& before, const Vec3& after) const {
         return is_sliver(f) || after.dot(before) > gentle_turn * after.norm() * before.norm();
     }
-    [[nodiscard]] bool is_sliver(Index f) const {
-        const double quality = face(f).quality;
-        return (quality < 0 ? quality + 1 : quality) < sliver_quality;
-    }
+    [[nodiscard]] bool is_sliver(Index f) const { return shape_of(f) < sliver_quality; }
 
     struct Vertex {
         SurfacePoint point;
@@ -274,7 +284,7 @@ private:
         const auto& [a, b, c] = t;
         const Vec3 facing = vertices_[a].facing + vertices_[b].facing + vertices_[c].facing;
         const bool is_turned = normal_of(t).dot(facing) < 0;
-        return shape_quality(at(a), at(b), at(c)) - (is_turned ? 1 : 0);
+        return shape_(at(a), at(b), at(c)) - (is_turned ? 1 : 0);
     }
     [[nodiscard]] Index worst_face_at(Index v) const {
         return *std::ranges::min_element(faces_at(v), {}, [&](Index f) { return face(f).quality; });
@@ -282,8 +292,8 @@ private:
     // Whether a face has a better shape with a corner at a position.
     [[nodiscard]] bool is_better(Index f, Index v, const Vec3& position, double than) const {
         const auto& [a, b, c] = face(f).corner;
-        return shape_quality(a == v ? position : at(a), b == v ? position : at(b),
-                             c == v ? position : at(c)) > than;
+        return shape_(a == v ? position : at(a), b == v ? position : at(b),
+                      c == v ? position : at(c)) > than;
     }
     [[nodiscard]] bool all_better(Index v, const Vec3& position, double than) const {
         return std::all_of(faces_at(v).begin(), faces_at(v).end(),
@@ -433,6 +443,7 @@ private:
 
     const MeshCurves& curves_;
     const Surface& surface_;
+    const ShapeMeasure shape_;
     double mean_length_ = 0;
     std::size_t num_crossings_ = 0;
     std::vector<Vertex> vertices_;  // By vertex.

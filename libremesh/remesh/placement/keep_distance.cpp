@@ -246,7 +246,8 @@ private:
     // Finds the farthest of the faces changed.
     // \return false if they may not stay, by their shape or intersections, or are beyond `most`.
     bool measure(const EditedMesh::Mark& before, double most) {
-        if (!steps_.keeps_quality(before, rule_.least_quality)) return false;
+        const double least = mesh_.has_bounds() ? low_quality : rule_.least_quality;
+        if (!steps_.keeps_quality(before, least)) return false;
         const std::vector<Index> changed = mesh_.changed_since(before);
         farthest_ = bound_.measure(changed, most);
         return farthest_.second.distance <= most && crossings_.accepts(changed);
@@ -324,7 +325,7 @@ std::optional<double> keep_distance(const MeshCurves& curves, std::span<const Mo
                                     const Progress& progress) {
     Poller poller(progress);
     Ticker ticker(poller);
-    EditedMesh edited(curves, mesh, mobility);
+    EditedMesh edited(curves, mesh, mobility, ShapeMeasure(limit.bounds));
     DistanceRepair repair(edited, limit, curves.surface().num_faces(), ticker);
     DistanceProof proof(edited, limit.input, limit.limit, limit.num_threads, poller);
     // What could not be repaired needs no proof.

@@ -17,6 +17,7 @@ struct DistanceLimit {
     bool may_leave_surface = true;  //!< Whether vertices may lie off the surface.
     double least_edge = 0;          //!< No edge is divided into shorter ones ...
     double most_edge = infinity;    //!< ... or gets longer.
+    ShapeBounds bounds = {};        //!< No triangle that keeps them is changed to exceed them.
     int num_threads = 1;            //!< >= 0; 0: all cores. The result is the same for any number.
 };
 

@@ -10,6 +10,7 @@
 #include "agvd/mesh/mesh.h"
 #include "remesh/curves/curve_sites.h"
 #include "remesh/curves/glue.h"
+#include "remesh/placement/shape_bounds.h"
 #include "remesh/sites/prepared_surface.h"
 #include "remesh/sites/sites.h"
 
@@ -105,6 +106,16 @@ class MeshCurves;
 std::vector<Index> repair_shape(const detail::MeshCurves& curves,
                                 std::span<const detail::Mobility> mobility, PlacedMesh& mesh,
                                 const Progress& progress = {}, std::span<const Index> faces = {});
+
+//! Edits triangles that exceed bounds as repair_shape() does, at more distance from the surface.
+//! With a longest edge it adds vertices, too.
+//! \param most_share  of the triangles: where more exceed the bounds the mesh stays.
+//! \throw Cancelled  the progress callback returned false; `mesh` is unchanged.
+//! \return as repair_shape(). Cost: that of repair_shape().
+std::vector<Index> keep_bounds(const detail::MeshCurves& curves,
+                               std::span<const detail::Mobility> mobility,
+                               const ShapeBounds& bounds, double most_share, PlacedMesh& mesh,
+                               const Progress& progress = {});
 
 //! Edits faces that intersect until they do not, with their number of vertices kept, as by
 //! repair_shape().

@@ -35,19 +35,27 @@ constexpr std::size_t most_trials = 4;
 // Of the slides, to add what vertices are left over.
 constexpr std::size_t share_of_balance = 8;
 constexpr int most_rounds_of_repair = 6;
+// With bounds these come first, as often as that helps, but not more often; then triangles beside
+// them that got narrow.
+constexpr int most_passes = 4;
+constexpr double narrow_within_bounds = detail::ShapeMeasure::within_bounds(goals[1]);
 
 class ShapeRepair {
 public:
     // \param num_faces  of the surface.
     // \param is_settled  by face: 1 for bad triangles that no edit helps, until one beside them
     //                    changes. A later goal that is higher does not help them either.
+    // \param may_add     vertices need not be removed elsewhere.
     ShapeRepair(EditedMesh& mesh, EditGuard& guard, Index num_faces, double goal,
-                std::vector<std::uint8_t>& is_settled, Ticker& ticker)
-        : mesh_(mesh),
+                std::vector<std::uint8_t>& is_settled, Ticker& ticker, bool may_add = false)
+        : may_add_(may_add),
+          mesh_(mesh),
           guard_(guard),
           is_settled_(is_settled),
           steps_(mesh, num_faces, goal, ticker),
-          spare_(mesh, steps_, guard, goal, ticker) {}
+          // Within bounds triangles elsewhere must not get narrow.
+          spare_(mesh, steps_, guard,
+                 mesh.has_bounds() ? std::max(goal, narrow_within_bounds) : goal, ticker) {}
 
     [[nodiscard]] double share_of_bad() const {
         return static_cast<double>(steps_.bad_faces().size()) / mesh_.num_faces();
@@ -92,7 +100,9 @@ private:
         const EditedMesh::Mark before = mesh_.mark();
         if (steps_.improve(f)) {
             steps_.relax(before);
-            if (!guard_.accept(before, steps_.gain_since(before).worth)) mesh_.take_back(before);
+            const ShapeGain gain = steps_.gain_since(before);
+            const bool is_gain = gain.score > 0 || !mesh_.has_bounds();
+            if (!is_gain || !guard_.accept(before, gain.worth)) mesh_.take_back(before);
         }
         if (steps_.is_bad(f)) try_edits(f);
         reopen_since(before);
@@ -143,13 +153,12 @@ private:
             most = score;
             best = edit;
         }
-        if (!(most > 0) || (best.change() < 0 && spare_.count() == 0 && !spare_.collapse_one())) {
-            return;
-        }
+        const bool is_free = best.change() >= 0 || spare_.count() > 0;
+        if (!(most > 0) || !(is_free || may_add_ || spare_.collapse_one())) return;
         const EditedMesh::Mark before = mesh_.mark();
         if (steps_.is_bad(f) && apply(best) > 0) {
             guard_.take_over();
-            spare_.add(best.change());
+            if (is_free || !may_add_) spare_.add(best.change());
         } else {
             mesh_.take_back(before);
         }
@@ -163,6 +172,7 @@ private:
         return gain.score > 0 && guard_.accepts(before, gain.worth) ? gain.score : 0;
     }
 
+    const bool may_add_;
     EditedMesh& mesh_;
     EditGuard& guard_;
     std::vector<std::uint8_t>& is_settled_;
@@ -199,6 +209,44 @@ std::vector<Index> repair_shape(const detail::MeshCurves& curves,
             edited.take_back(before);
             break;  // The guards know the state that was taken back.
         }
+    }
+    if (edited.mark().faces > start.faces) mesh = edited.result(numbers);
+    return numbers;
+}
+
+std::vector<Index> keep_bounds(const detail::MeshCurves& curves, std::span<const Mobility> mobility,
+                               const ShapeBounds& bounds, double most_share, PlacedMesh& mesh,
+                               const Progress& progress) {
+    Poller poller(progress);
+    Ticker ticker(poller);
+    std::vector<Index> numbers;
+    EditedMesh edited(curves, mesh, mobility, detail::ShapeMeasure(bounds));
+    const auto num_beyond = [&] {
+        return std::ranges::count_if(
+            edited.faces(), [&](Index f) { return edited.shape_of(f) < detail::low_quality; });
+    };
+    const auto at_start = static_cast<double>(num_beyond());
+    if (at_start == 0 || at_start > most_share * edited.num_faces()) return numbers;
+    const EditedMesh::Mark start = edited.mark();
+    EditGuard guard(edited, curves.whole(), {});
+    guard.open_budget();
+    // The guards know a state that is taken back: nothing can be done after that.
+    bool is_over = false;
+    const auto run = [&](double goal, std::vector<std::uint8_t> is_settled) {
+        const EditedMesh::Mark before = edited.mark();
+        ShapeRepair repair(edited, guard, curves.surface().num_faces(), goal, is_settled, ticker,
+                           bounds.longest_edge < infinity);
+        is_over = !repair.run();
+        if (is_over) edited.take_back(before);
+        return edited.mark().faces > before.faces;
+    };
+    for (int pass = 0; pass < most_passes && num_beyond() > 0; ++pass) {
+        if (!run(detail::low_quality, {})) break;
+    }
+    if (!is_over && edited.mark().faces > start.faces) {
+        std::vector<std::uint8_t> is_settled(edited.num_faces(), 1);
+        for (const Index f : edited.changed_since(start)) is_settled[f] = 0;
+        (void)run(narrow_within_bounds, std::move(is_settled));
     }
     if (edited.mark().faces > start.faces) mesh = edited.result(numbers);
     return numbers;

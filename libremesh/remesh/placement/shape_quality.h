@@ -8,8 +8,9 @@
 #include <span>
 #include <vector>
 
+#include "agvd/core/portable_math.h"
 #include "agvd/mesh/mesh.h"
-#include "remesh/names.h"
+#include "remesh/placement/shape_bounds.h"
 
 namespace remesh::detail {
 
@@ -35,6 +36,56 @@ inline constexpr double sine_weight = low_quality / 0.597;
     return std::min({2 * std::numbers::sqrt3 * doubled_area / ((ab + bc + ca) * longest),
                      sine_weight * sine, 2 * (1 + cosine)});
 }
+
+//! The shape_quality() of a triangle; with bounds, where these come first: below `low_quality` if a
+//! bound is exceeded, by how much, and above it by the quality.
+class ShapeMeasure {
+public:
+    //! \param bounds  their angles are kept with some room for the rounding of files.
+    explicit ShapeMeasure(const ShapeBounds& bounds = {})
+        : has_bounds_(bounds.has_any()),
+          least_angle_(bounds.min_angle > 0 ? (bounds.min_angle + room) * degree : 0),
+          least_rest_(bounds.max_angle < 180 ? (180 - bounds.max_angle + room) * degree : 0),
+          longest_((1 - relative_room) * bounds.longest_edge) {}
+
+    [[nodiscard]] bool has_bounds() const { return has_bounds_; }
+    [[nodiscard]] double operator()(const Vec3& a, const Vec3& b, const Vec3& c) const {
+        const double quality = shape_quality(a, b, c);
+        if (!has_bounds_ || !(quality > 0)) return quality;
+        const double kept = kept_share({a, b, c});
+        return kept < 1 ? low_quality * kept : within_bounds(quality);
+    }
+    //! What a shape_quality() within the bounds counts as.
+    [[nodiscard]] static constexpr double within_bounds(double quality) {
+        return low_quality + (1 - low_quality) * quality;
+    }
+    //! The inverse of within_bounds().
+    [[nodiscard]] static constexpr double shape_within_bounds(double quality) {
+        return (quality - low_quality) / (1 - low_quality);
+    }
+
+private:
+    static constexpr double room = 1e-4, relative_room = 1e-5;  // Degrees, and of the length.
+
+    // 1 or more if all bounds are kept.
+    [[nodiscard]] double kept_share(const std::array<Vec3, 3>& corners) const {
+        double smallest = std::numbers::pi, largest = 0, longest = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vec3 u = corners[(k + 1) % 3] - corners[k], v = corners[(k + 2) % 3] - corners[k];
+            const double angle = portable::atan2(u.cross(v).norm(), u.dot(v));
+            smallest = std::min(smallest, angle);
+            largest = std::max(largest, angle);
+            longest = std::max(longest, u.norm());
+        }
+        double share = longest_ / longest;
+        if (least_angle_ > 0) share = std::min(share, smallest / least_angle_);
+        if (least_rest_ > 0) share = std::min(share, (std::numbers::pi - largest) / least_rest_);
+        return share;
+    }
+
+    bool has_bounds_;
+    double least_angle_, least_rest_, longest_;  // Radians, and mesh units.
+};
 
 //! Appends eight unit vectors orthogonal to `normal`, which is not zero.
 inline void add_directions(const Vec3& normal, std::vector<Vec3>& directions) {

@@ -39,7 +39,8 @@ struct ShapeGain {
     double worth = 0;
     //! Above 0 if the triangles are better in the order of their quality, up to the wanted one: the
     //! worst first, and the next ones where that has hardly changed. A chain of equal triangles
-    //! gets better one by one that way, and two slivers may become one.
+    //! gets better one by one that way, and two slivers may become one. With bounds no more
+    //! triangles may exceed them than before.
     double score = 0;
 };
 
@@ -72,9 +73,7 @@ public:
     //! Whether a face is there, below the wanted quality, and has a vertex that may move.
     [[nodiscard]] bool is_bad(Index f) const {
         const EditedMesh::Face& face = mesh_.face(f);
-        // A well-shaped face that points against the surface is none.
-        const double shape = face.quality < 0 ? face.quality + 1 : face.quality;
-        return face.is_there && shape < wanted_ &&
+        return face.is_there && mesh_.shape_of(f) < wanted_ &&
                std::any_of(face.corner.begin(), face.corner.end(),
                            [&](Index v) { return mesh_.mobility(v) != Mobility::Fixed; });
     }
@@ -86,9 +85,9 @@ public:
         mesh_.changed_since(mark, changed_, before_);
         ShapeGain gain;
         now_.clear();
-        for (const double quality : before_) gain.worth += harm_of(quality);
+        for (const double quality : before_) gain.worth += harm(quality);
         for (const Index f : changed_) now_.push_back(mesh_.face(f).quality);
-        for (const double quality : now_) gain.worth -= harm_of(quality);
+        for (const double quality : now_) gain.worth -= harm(quality);
         const auto sort = [&](std::vector<double>& qualities, std::size_t count) {
             for (double& quality : qualities) quality = std::min(quality, wanted_);
             qualities.resize(count, wanted_);
@@ -97,11 +96,15 @@ public:
         const std::size_t count = std::max({before_.size(), now_.size(), std::size_t{1}});
         sort(before_, count);
         sort(now_, count);
-        gain.worth = std::max(gain.worth, harm_of(before_[0]) - harm_of(now_[0]));
+        gain.worth = std::max(gain.worth, harm(before_[0]) - harm(now_[0]));
         gain.worst = now_[0] - before_[0];
+        const auto num_bad = [&](std::span<const double> sorted) {
+            return std::ranges::lower_bound(sorted, wanted_) - sorted.begin();
+        };
+        if (mesh_.has_bounds() && num_bad(now_) > num_bad(before_)) return gain;
         for (std::size_t rank = 0; rank < count; ++rank) {
             const double change = now_[rank] - before_[rank];
-            if (std::abs(change) < least_gain) continue;
+            if (std::abs(change) < least_gain()) continue;
             gain.score =
                 now_[0] < wanted_ ? change / static_cast<double>(1 + rank) : all_good + gain.worth;
             break;
@@ -171,9 +174,16 @@ public:
     bool move_to_mean(Index v) { return mesh_.move(v, ways_of(v).to_mean, 0); }
 
 private:
-    static constexpr double least_step_gain = 1e-3;
-    // Of an edit.
-    static constexpr double least_gain = 0.02;
+    // Of a step and of an edit. Where bounds count, the last bit may keep them.
+    [[nodiscard]] double least_step_gain() const { return mesh_.has_bounds() ? 1e-7 : 1e-3; }
+    [[nodiscard]] double least_gain() const { return mesh_.has_bounds() ? 1e-7 : 0.02; }
+    // A bound that is exceeded is as bad as an angle of 14 degrees.
+    [[nodiscard]] double harm(double quality) const {
+        constexpr double harm_of_breach = 0.1;
+        if (!mesh_.has_bounds()) return harm_of(quality);
+        return quality < low_quality ? harm_of_breach + harm_of(quality)
+                                     : harm_of(ShapeMeasure::shape_within_bounds(quality));
+    }
     // The least score of edits that leave no bad triangle.
     static constexpr double all_good = 100;
     // A slide takes some 16 steps of an edge's length at most; where its walks cross more edges
@@ -231,7 +241,7 @@ private:
     bool try_flip(Index f, Index k) {
         const EditedMesh::Mark before = mesh_.mark();
         if (!mesh_.flip(f, k)) return false;
-        if (gain_since(before).worst > least_step_gain) return true;
+        if (gain_since(before).worst > least_step_gain()) return true;
         mesh_.take_back(before);
         return false;
     }
@@ -245,7 +255,7 @@ private:
         const auto move = [&](const Vec3& step) {
             if (num_more() >= most_more) return false;
             const std::size_t before = mesh_.num_crossings();
-            const bool helps = mesh_.move(v, step, least_step_gain);
+            const bool helps = mesh_.move(v, step, least_step_gain());
             ticker_.tick(mesh_.faces_at(v).size() + mesh_.num_crossings() - before);
             return helps;
         };

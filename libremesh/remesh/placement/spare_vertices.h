@@ -163,7 +163,7 @@ private:
                     at[k] = is_moved ? point : mesh_.at(t[k]);
                 }
                 if (num_moved == 1) {
-                    worst = std::min(worst, shape_quality(at[0], at[1], at[2]));
+                    worst = std::min(worst, mesh_.quality_of_shape(at));
                 }
             }
         }

@@ -122,6 +122,13 @@ void set_lengths(const Request& request, Options& given, const MeshFile& input,
     if (gradation) options.sizing.gradation = *gradation;
 }
 
+void set_bounds(Options& given, const MeshFile& input, remesh::ShapeBounds& bounds) {
+    bounds.min_angle = given.number("minAngle").value_or(bounds.min_angle);
+    bounds.max_angle = given.number("maxAngle").value_or(bounds.max_angle);
+    bounds.longest_edge =
+        given.length("longestEdge", input.mesh.view()).value_or(bounds.longest_edge);
+}
+
 // Of arrays with two vertices for each edge.
 void append_edges(std::span<const Index> ends, std::vector<std::array<Index, 2>>& edges) {
     for (std::size_t i = 0; i + 1 < ends.size(); i += 2) edges.push_back({ends[i], ends[i + 1]});
@@ -226,6 +233,7 @@ RemeshOptions options_of(const Request& request, Options& given, const MeshFile&
     const std::size_t num_vertices = set_kept(request, given, input, options);
     set_count(request, given, input, num_vertices, options);
     set_lengths(request, given, input, options);
+    set_bounds(given, input, options.bounds);
     set_features(request, given, input, options);
     set_method(given, options);
     set_cleaning(given, input, options);

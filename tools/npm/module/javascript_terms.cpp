@@ -35,6 +35,9 @@ constexpr cli::Term terms[] = {
     {"lock_boundary", "lockBoundary"},
     {"min_edge", "minEdge"},
     {"max_edge", "maxEdge"},
+    {"min_angle", "minAngle"},
+    {"max_angle", "maxAngle"},
+    {"longest_edge", "longestEdge"},
 };
 
 }  // namespace

@@ -31,6 +31,12 @@ export interface RemeshOptions {
   maxEdge?: Length;
   /** Over a distance d edges grow by at most d times its logarithm: 1.3. */
   gradation?: number;
+  /** Degrees, up to 30: no angle is smaller, but for those that creases of the input force. */
+  minAngle?: number;
+  /** Degrees, 90 and more: likewise, no angle is larger. */
+  maxAngle?: number;
+  /** No edge is longer; the result has as many more vertices as that takes. */
+  longestEdge?: Length;
   /** Creases that become chains of edges: "auto", "off", or all above an angle in degrees. */
   features?: "auto" | "off" | number;
   /** Edges that are creases whatever their angle: two vertices each. */

@@ -42,6 +42,13 @@ void add_sizing(OptionsClass& options, const char* name, Value Sizing::*field) {
         [=](RemeshOptions& self, Value value) { self.sizing.*field = std::move(value); });
 }
 
+// Adds a property for a bound of all triangles.
+void add_bound(OptionsClass& options, const char* name, double remesh::ShapeBounds::*bound) {
+    options.def_property(
+        name, [=](const RemeshOptions& self) { return self.bounds.*bound; },
+        [=](RemeshOptions& self, double value) { self.bounds.*bound = value; });
+}
+
 // Adds a method that sets what gives the number of vertices.
 template <typename Value, typename Count>
 void add_count(OptionsClass& options, const char* name, Count (*count_of)(Value)) {
@@ -218,6 +225,9 @@ void bind_remesh(py::module_& module) {
     add_sizing(options, "min_edge", &Sizing::min_edge);
     add_sizing(options, "max_edge", &Sizing::max_edge);
     add_sizing(options, "gradation", &Sizing::gradation);
+    add_bound(options, "min_angle", &remesh::ShapeBounds::min_angle);
+    add_bound(options, "max_angle", &remesh::ShapeBounds::max_angle);
+    add_bound(options, "longest_edge", &remesh::ShapeBounds::longest_edge);
     options.def("set_adaptive",
                 [](RemeshOptions& self) { self.sizing.edges = remesh::AdaptiveEdges{}; });
     add_count(

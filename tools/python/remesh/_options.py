@@ -85,6 +85,17 @@ def set_sizing(options: _remesh.Options, mesh: _kinds.Given, *, has_count: bool,
         options.gradation = _arrays.number(gradation, "gradation")
 
 
+def set_bounds(options: _remesh.Options, mesh: _kinds.Given, min_angle: Any, max_angle: Any,
+               longest_edge: Any) -> None:
+    """Says what no triangle exceeds."""
+    if min_angle is not None:
+        options.min_angle = _arrays.number(min_angle, "min_angle")
+    if max_angle is not None:
+        options.max_angle = _arrays.number(max_angle, "max_angle")
+    if longest_edge is not None:
+        options.longest_edge = length(mesh, longest_edge, "longest_edge")
+
+
 def _at_vertices(mesh: _kinds.Given, given: Any, name: str) -> _arrays.Floats:
     """Numbers for the vertices: an array, a function of the positions, a name of the mesh, or one
     number for all."""

@@ -51,6 +51,9 @@ class Options:
     steiner_points: int
     min_edge: float
     max_edge: float
+    min_angle: float
+    max_angle: float
+    longest_edge: float
     gradation: float
     def __init__(self) -> None: ...
     def set_sites(self, faces: _Indices, barycentric: _Floats) -> None: ...

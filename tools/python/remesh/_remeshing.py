@@ -99,6 +99,9 @@ def remesh(
     min_edge: Any = None,
     max_edge: Any = None,
     gradation: Any = None,
+    min_angle: Any = None,
+    max_angle: Any = None,
+    longest_edge: Any = None,
     features: Any = "auto",
     feature_edges: Any = None,
     face_labels: Any = None,
@@ -155,6 +158,13 @@ def remesh(
       as ``np.where(labels == 3, 0.05, 0.2)``.
     - ``density``: likewise, vertices per area in any unit.
     - ``min_edge``, ``max_edge``, ``gradation`` (1.3): bounds of edges that differ.
+
+    Bounds of all triangles; ConstraintUnmet where they cannot be kept:
+
+    - ``min_angle`` (up to 30) and ``max_angle`` (90 and more): degrees. The report lists the
+      triangles that creases or corners of the input force beyond them.
+    - ``longest_edge``: mesh units or percent of the diagonal. The result has as many more vertices
+      as that takes.
 
     What is kept:
 
@@ -239,6 +249,7 @@ def remesh(
     _options.set_sizing(options, mesh, has_count=has_count, adaptive=adaptive, sizing=sizing,
                         face_sizing=face_sizing, density=density, max_distance=max_distance,
                         min_edge=min_edge, max_edge=max_edge, gradation=gradation)
+    _options.set_bounds(options, mesh, min_angle, max_angle, longest_edge)
     _options.set_features(options, mesh, features, feature_edges, face_labels)
     _options.set_sites(options, mesh, sites, keep_sites)
     options.junctions = junctions
