@@ -48,14 +48,16 @@ std::string describe_crossings(const remesh::RemeshResult& result, const std::st
     const std::string text = "the result has " + std::to_string(*result.self_intersections) +
                              " pairs of intersecting faces, the input has " +
                              std::to_string(in_input);
-    if (in_input == 0) return text + "; use " + more;
+    const agvd::Vec3& near = result.crossing_near;
+    const std::string where = ", one near " + agvd::number_text(near.x()) + ' ' +
+                              agvd::number_text(near.y()) + ' ' + agvd::number_text(near.z());
+    if (in_input == 0) return text + (fresh > 0 ? where : "") + "; use " + more;
     if (fresh == 0) {
         return text + "; they are where the input intersects itself, and " + more +
                " give more; repair the input";
     }
-    return text + "; " + std::to_string(fresh) +
-           " are not where the input intersects itself: for these use " + more +
-           ", for the others repair the input";
+    return text + "; " + std::to_string(fresh) + " are not where the input intersects itself" +
+           where + ": for these use " + more + ", for the others repair the input";
 }
 
 // \throw agvd::ConstraintUnmet  with --strict.

@@ -25,6 +25,8 @@ remesh::RemeshResult example_result() {
     result.self_intersections = 17;
     result.input_self_intersections = 16;
     result.new_self_intersections = 3;
+    result.crossing_near = {4, 5, 6};
+    result.forced = {{.face = 0, .min_angle = 7, .max_angle = 160}};
     result.features = {.curves = 21,
                        .nodes = 22,
                        .vertices = 23,
@@ -143,6 +145,10 @@ TEST(RemeshReport, GivesEveryFieldOfTheResult) {
     EXPECT_EQ(report["input_self_intersecting_pairs"], 16);
     EXPECT_EQ(report["self_intersecting_pairs"], 17);
     EXPECT_EQ(report["new_self_intersecting_pairs"], 3);
+    EXPECT_EQ(report["new_self_intersecting_near"], json({4.0, 5.0, 6.0}));
+    EXPECT_EQ(report["forced_faces"][0]["min_angle_deg"], 7);
+    EXPECT_EQ(report["forced_faces"][0]["max_angle_deg"], 160);
+    EXPECT_EQ(report["forced_faces"][0]["at"].size(), 3u);
     EXPECT_EQ(report["features"], json({{"curves", 21},
                                         {"nodes", 22},
                                         {"vertices", 23},

@@ -30,6 +30,16 @@ TEST(Shortfalls, CrossingsAreWarnedOfAndRefusedIfStrict) {
               Warnings{"the result has 3 pairs of intersecting faces, the input has 0; use more "
                        "--samples"});
     EXPECT_NE(refusal_of(result).find("3 pairs"), std::string::npos) << refusal_of(result);
+    result.new_self_intersections = 2;
+    result.crossing_near = {1, 2.5, -3};
+    EXPECT_EQ(cli::shortfalls_of(result, {}, false),
+              Warnings{"the result has 3 pairs of intersecting faces, the input has 0, one near 1 "
+                       "2.5 -3; use more --samples"});
+    result.input_self_intersections = 1;
+    EXPECT_EQ(cli::shortfalls_of(result, {}, false),
+              Warnings{"the result has 3 pairs of intersecting faces, the input has 1; 2 are not "
+                       "where the input intersects itself, one near 1 2.5 -3: for these use more "
+                       "--samples, for the others repair the input"});
     result.input_self_intersections = 3;
     EXPECT_EQ(cli::shortfalls_of(result, {}, true), Warnings());
 }

@@ -363,6 +363,9 @@ std::string to_json(const RemeshResult& result, const RunInfo& info) {
         result.self_intersections.value_or(0) > 0 ? Json(result.input_self_intersections) : Json();
     object["new_self_intersecting_pairs"] =
         result.self_intersections ? Json(result.new_self_intersections) : Json();
+    const Vec3& near = result.crossing_near;
+    object["new_self_intersecting_near"] =
+        result.new_self_intersections > 0 ? Json(std::array{near.x(), near.y(), near.z()}) : Json();
     object["certified_error"] = result.certified_error;
     object["coarse_faces"] = result.coarse_faces;
     object["tiles"] = result.tiles;

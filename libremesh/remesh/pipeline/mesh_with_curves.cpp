@@ -128,6 +128,10 @@ MadeMesh mesh_with_curves(const CleanedInput& cleaned, const FoundCurves& found,
     if (const auto& crossings = built.self_intersections) {
         result.self_intersections = crossings->all;
         result.new_self_intersections = crossings->added;
+        if (!built.crossing_corners.empty()) {
+            result.crossing_near =
+                position(cleaned.surface.mesh.view(), built.crossing_corners.front());
+        }
     }
     return {.has_mesh = true,
             .narrow_points = std::move(narrow_points),

@@ -224,7 +224,8 @@ struct RemeshResult {
     //! than their longest edge. Others follow from the input; more samples give more of these. 0 if
     //! the input has as many pairs as the result. With a region: those above their number.
     Index new_self_intersections = 0;
-    Verdict verdict = {};  //!< What the result is too coarse to show.
+    Vec3 crossing_near = Vec3::Zero();  //!< Where one of them is, if there are any.
+    Verdict verdict = {};               //!< What the result is too coarse to show.
     //! Of the last propagation: see Propagation. Infinity: nothing is certified.
     double certified_error = std::numeric_limits<double>::infinity();
     //! Faces of the coarse surface that stood for the input (docs/algorithm/input.md); 0: none did.

@@ -133,7 +133,7 @@ void scale_back(RemeshResult& result, int exponent) {
         *length = std::ldexp(*length, exponent);
     }
     for (double& target : result.sizing.targets) target = std::ldexp(target, exponent);
-    for (auto* place : {&verdict.farthest, &result.features.freed_near}) {
+    for (auto* place : {&verdict.farthest, &result.features.freed_near, &result.crossing_near}) {
         for (double& coordinate : *place) coordinate = std::ldexp(coordinate, exponent);
     }
     for (ComponentTopology& component : result.input_topology.components) {

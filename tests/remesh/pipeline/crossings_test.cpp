@@ -133,6 +133,7 @@ TEST(Crossings, ThatTheInputDoesNotHaveAreNew) {
     const agvd::TriangleMesh shells = shapes::join(shapes::sphere(2), inner);
     const auto result = remesh::remesh(shells.view(), {.num_samples = 20});
     EXPECT_EQ(result.new_self_intersections, result.self_intersections);
+    EXPECT_NEAR(result.crossing_near.norm(), 1, 0.15);
     EXPECT_GT(result.new_self_intersections, 0u);
     // Far away two more spheres cross.
     const agvd::TriangleMesh far = shapes::moved(shapes::sphere(2), Vec3(9, 0, 0));

@@ -67,6 +67,34 @@ TEST(KeepBounds, AnglesComeWithinAndOthersStayInShape) {
     EXPECT_EQ(num_tried, 4);
 }
 
+// Slivers whose corners stay cannot be repaired. What is tried there makes no others.
+TEST(KeepBounds, WhatCannotBeKeptSpreadsNot) {
+    const auto count = [](const TriangleMesh& mesh, double least_angle) {
+        int found = 0;
+        for (Index f = 0; f < mesh.triangles.size(); ++f) {
+            const auto angles = remesh::measure_face(corners_of(mesh.view(), f)).angle;
+            found += std::ranges::min(angles) < least_angle * degree ? 1 : 0;
+        }
+        return found;
+    };
+    int num_tried = 0;
+    for (const std::uint64_t seed : {1, 2, 3, 4}) {
+        MovableMesh start(shapes::jitter(shapes::sphere(3), 0.07, seed));
+        for (Index v = 0; v < start.mobility.size(); ++v) {
+            if (start.surface.mesh.positions[v].z() > 0.3 && v % 3 != 0) {
+                start.mobility[v] = remesh::detail::Mobility::Fixed;
+            }
+        }
+        TriangleMesh mesh;
+        const TriangleMesh& before = start.surface.mesh;
+        EXPECT_TRUE(keep(start, {.min_angle = 20, .max_angle = 120}, 1, mesh));
+        EXPECT_LT(count(mesh, 20), count(before, 20)) << seed;
+        EXPECT_LE(count(mesh, 29), count(before, 29)) << seed;
+        num_tried += count(mesh, 20) > 0 ? 1 : 0;
+    }
+    EXPECT_GE(num_tried, 3);
+}
+
 TEST(KeepBounds, ALongestEdgeAddsVertices) {
     const MovableMesh start(shapes::sphere(3));
     const double longest = shape_of(start.surface.mesh).longest_edge;
