@@ -1,6 +1,7 @@
 #include "agvd/propagation/shape_source.h"
 
 #include <algorithm>
+#include <map>
 #include <string>
 #include <utility>
 
@@ -66,7 +67,8 @@ ShapeSource shape_source(const Surface& surface, const SiteShape& shape) {
     }
     source.sides = distinct(std::move(source.sides));
     source.vertices = distinct(std::move(source.vertices));
-    source.own_sides = source.sides;
+    source.own_sides = source.sector_sides = source.sides;
+    source.own_vertices = source.vertices;
     return source;
 }
 
@@ -75,6 +77,50 @@ std::vector<ShapeSource> sources_of(const Surface& surface, std::span<const Site
     sources.reserve(shapes.size());
     for (const SiteShape& shape : shapes) sources.push_back(shape_source(surface, shape));
     return sources;
+}
+
+void leave_own(const Surface& surface, std::span<const SiteShape> shapes,
+               std::vector<ShapeSource>& sources) {
+    using Owner = std::pair<double, Index>;  // Its start, and its number.
+    std::map<Index, Owner> of_side, of_vertex, of_face;
+    const auto claim = [](std::map<Index, Owner>& owners, const std::vector<Index>& elements,
+                          const Owner& owner) {
+        for (const Index element : elements) {
+            Owner& best = owners.try_emplace(element, owner).first->second;
+            best = std::min(best, owner);
+        }
+    };
+    for (Index i = 0; i < sources.size(); ++i) {
+        const Owner owner(sources[i].start, i);
+        claim(of_side, sources[i].sides, owner);
+        claim(of_vertex, sources[i].vertices, owner);
+        claim(of_face, shapes[i].faces, owner);
+        sources[i].own_sides.clear();
+        sources[i].own_vertices.clear();
+        sources[i].sector_sides.clear();
+    }
+    for (const auto& [vertex, owner] : of_vertex) {
+        sources[owner.second].own_vertices.push_back(vertex);
+    }
+    const auto is_in_region = [&](Index side, double start) {
+        const auto region = of_face.find(Surface::face(side));
+        return region != of_face.end() && region->second.first <= start;
+    };
+    for (const auto& [side, owner] : of_side) {
+        if (is_in_region(side, owner.first)) continue;
+        sources[owner.second].own_sides.push_back(side);
+        // Those with a start let paths through.
+        if (owner.first > 0) continue;
+        for (const Index vertex : {surface.tail(side), surface.head(side)}) {
+            sources[of_vertex.at(vertex).second].sector_sides.push_back(side);
+        }
+    }
+    for (ShapeSource& source : sources) {
+        std::vector<Index>& sides = source.sector_sides;
+        const std::vector<Index>& more = source.start > 0 ? source.sides : source.own_sides;
+        sides.insert(sides.end(), more.begin(), more.end());
+        sides = distinct(std::move(sides));
+    }
 }
 
 std::vector<Index> all_edges_of(const Surface& surface, const SiteShape& shape) {
