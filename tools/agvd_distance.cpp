@@ -138,7 +138,7 @@ void run_distance(const DistanceArguments& arguments, Console& console) {
         return stages_of_query(num_faces, "write");
     });
     const agvd::Surface& surface = input.surface;
-    const GivenSites sites = sites_on(input, arguments, console);
+    const agvd::SurfaceSites sites = sites_on(input, arguments, console);
     const double max_error = arguments.propagation.max_error.value_or(0);
     const int threads = arguments.common.threads;
     if (arguments.nearest > 1) {

@@ -63,7 +63,7 @@ void run_isolines(const IsolineArguments& arguments, Console& console) {
     const OpenedInput input = open_input(arguments, console, [](std::size_t num_faces) {
         return stages_of_query(num_faces, "isolines");
     });
-    const GivenSites sites = sites_on(input, arguments, console);
+    const agvd::SurfaceSites sites = sites_on(input, arguments, console);
     const agvd::Propagation propagation = propagate_everywhere(input, arguments, sites, console);
     const std::vector<double> levels = arguments.levels.empty()
                                            ? agvd::levels_every(propagation, arguments.step)

@@ -43,7 +43,7 @@ void check(const PathArguments& arguments) {
 
 std::vector<agvd::SitePath> paths_to_sites(const PathArguments& arguments, const OpenedInput& input,
                                            Console& console) {
-    const GivenSites sites = sites_on(input, arguments, console);
+    const agvd::SurfaceSites sites = sites_on(input, arguments, console);
     const std::vector<agvd::SurfacePoint> targets = points_on(input, arguments.targets, console);
     const agvd::Propagation propagation = propagate_everywhere(input, arguments, sites, console);
     return agvd::paths_to_sites(

@@ -1,5 +1,7 @@
 #include "given_surface.h"
 
+#include <utility>
+
 #include "agvd/mesh/cut_surface.h"
 #include "remesh/clean/carry.h"
 
@@ -29,7 +31,8 @@ GivenSurface::GivenSurface(const agvd::MeshView& mesh, const remesh::CleanOption
       surface_(agvd::build_surface(clean_.mesh.view(), cleaning.num_threads, cleaning.progress)) {
     if (barriers.empty()) return;
     const std::vector<std::uint8_t> is_cut = remesh::carry_edges(barriers, mesh_, clean_, surface_);
-    surface_ = agvd::cut_along(surface_, is_cut, cleaning.num_threads, cleaning.progress).surface;
+    whole_ = std::move(surface_);
+    surface_ = agvd::cut_along(*whole_, is_cut, cleaning.num_threads, cleaning.progress).surface;
 }
 
 GivenSurface::GivenSurface(const agvd::MeshView& mesh, std::span<const double> side_length,
@@ -42,9 +45,12 @@ std::vector<SurfacePoint> GivenSurface::to_surface(const std::vector<SurfacePoin
     return remesh::to_cleaned(points, mesh_, clean_);
 }
 
-std::vector<agvd::SiteShape> GivenSurface::to_surface(
-    const std::vector<remesh::GivenShape>& shapes) const {
-    return carry_shapes(shapes, mesh_, clean_, surface_);
+agvd::SurfaceSites GivenSurface::to_surface(const std::vector<SurfacePoint>& points,
+                                            const agvd::SitePoints& roles,
+                                            const std::vector<remesh::GivenShape>& shapes) const {
+    agvd::SurfaceSites sites{to_surface(points), roles,
+                             carry_shapes(shapes, mesh_, clean_, surface_)};
+    return whole_ ? agvd::on_all_sides(*whole_, surface_, std::move(sites)) : sites;
 }
 
 std::vector<SurfacePoint> GivenSurface::to_given(const std::vector<SurfacePoint>& points) const {

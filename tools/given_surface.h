@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 
 #include "agvd/mesh/mesh.h"
@@ -40,8 +41,9 @@ public:
     [[nodiscard]] const agvd::Surface& surface() const { return surface_; }
     [[nodiscard]] std::vector<agvd::SurfacePoint> to_surface(
         const std::vector<agvd::SurfacePoint>& points) const;
-    //! \throw as remesh::carry_shapes.
-    [[nodiscard]] std::vector<agvd::SiteShape> to_surface(
+    //! Those on barriers count on all sides. \throw as remesh::carry_shapes.
+    [[nodiscard]] agvd::SurfaceSites to_surface(
+        const std::vector<agvd::SurfacePoint>& points, const agvd::SitePoints& roles,
         const std::vector<remesh::GivenShape>& shapes) const;
     [[nodiscard]] std::vector<agvd::SurfacePoint> to_given(
         const std::vector<agvd::SurfacePoint>& points) const;
@@ -60,6 +62,7 @@ private:
     agvd::MeshView mesh_;
     remesh::CleanResult clean_;
     agvd::Surface surface_;
+    std::optional<agvd::Surface> whole_;  // Without barriers, if there are any.
 };
 
 }  // namespace cli

@@ -24,7 +24,8 @@ void cut_along_barriers(const DiagramArguments& arguments, Console& console, Ope
     const std::vector<std::uint8_t> is_cut = naming_file(arguments.barriers, [&] {
         return remesh::carry_edges(edges, input.file.mesh.view(), input.clean, input.surface);
     });
-    input.surface = agvd::cut_along(input.surface, is_cut, arguments.common.threads,
+    input.whole = std::move(input.surface);
+    input.surface = agvd::cut_along(*input.whole, is_cut, arguments.common.threads,
                                     console.progress_of("clean"))
                         .surface;
 }
@@ -72,7 +73,8 @@ void add_barriers(CLI::App& app, DiagramArguments& arguments) {
     start_group(app, heading::geodesics);
     app.add_option("--barriers", arguments.barriers,
                    "Edges that no path crosses: lines of two vertices, counted from 0. The mesh is "
-                   "cut along them: their vertices come once for each side")
+                   "cut along them: their vertices come once for each side, and sites "
+                   "on them count on both")
         ->type_name("FILE");
 }
 
@@ -131,8 +133,9 @@ OpenedInput open_input(const DiagramArguments& arguments, Console& console,
     return input;
 }
 
-GivenSites sites_on(const OpenedInput& input, const DiagramArguments& arguments, Console& console) {
-    GivenSites sites;
+agvd::SurfaceSites sites_on(const OpenedInput& input, const DiagramArguments& arguments,
+                            Console& console) {
+    agvd::SurfaceSites sites;
     if (arguments.sites.empty()) {
         sites.points = sample(arguments, input.surface, console);
     } else {
@@ -148,11 +151,17 @@ GivenSites sites_on(const OpenedInput& input, const DiagramArguments& arguments,
     if (slit > remesh::mean_spacing(input.surface, sites.points.size() + sites.shapes.size())) {
         console.warn(welded_slit_text(slit));
     }
+    if (!input.whole) return sites;
+    const std::size_t num_points = sites.points.size();
+    sites = agvd::on_all_sides(*input.whole, input.surface, std::move(sites));
+    if (sites.points.size() > num_points) {
+        console.info("sites on barriers count on both sides of these");
+    }
     return sites;
 }
 
 agvd::Propagation propagate_everywhere(const OpenedInput& input, const DiagramArguments& arguments,
-                                       const GivenSites& sites, Console& console) {
+                                       const agvd::SurfaceSites& sites, Console& console) {
     agvd::PropagationOptions propagating = arguments.propagation;
     propagating.points = sites.roles;
     propagating.shapes = sites.shapes;

@@ -5,6 +5,7 @@
 #include <functional>
 #include <initializer_list>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -68,7 +69,8 @@ void check_outputs(const QueryArguments& arguments,
 struct OpenedInput {
     remesh::MeshFile file;
     remesh::CleanResult clean;
-    agvd::Surface surface;  //!< Of clean.mesh, cut along the barriers.
+    agvd::Surface surface;                    //!< Of clean.mesh, cut along the barriers.
+    std::optional<agvd::Surface> whole = {};  //!< Without barriers, if there are any.
 };
 
 //! Adds --barriers.
@@ -85,21 +87,15 @@ void add_edge_lengths(CLI::App& app, DiagramArguments& arguments);
     const DiagramArguments& arguments, Console& console,
     const std::function<std::vector<ExpectedStage>(std::size_t num_faces)>& stages);
 
-//! Points on the cleaned mesh, and what they stand for; lines and regions on it.
-struct GivenSites {
-    std::vector<agvd::SurfacePoint> points;
-    agvd::SitePoints roles;
-    std::vector<agvd::SiteShape> shapes;
-};
-
-//! The sites of --sites, or sampled ones.
-[[nodiscard]] GivenSites sites_on(const OpenedInput& input, const DiagramArguments& arguments,
-                                  Console& console);
+//! The sites of --sites, or sampled ones; those on barriers on all sides.
+[[nodiscard]] agvd::SurfaceSites sites_on(const OpenedInput& input,
+                                          const DiagramArguments& arguments, Console& console);
 
 //! Distances with relays in all faces; tells the engine and its error.
 [[nodiscard]] agvd::Propagation propagate_everywhere(const OpenedInput& input,
                                                      const DiagramArguments& arguments,
-                                                     const GivenSites& sites, Console& console);
+                                                     const agvd::SurfaceSites& sites,
+                                                     Console& console);
 
 //! The points of a file, on the cleaned mesh.
 [[nodiscard]] std::vector<agvd::SurfacePoint> points_on(const OpenedInput& input,

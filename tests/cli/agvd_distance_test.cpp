@@ -182,6 +182,12 @@ TEST_F(AgvdDistance, NoPathCrossesABarrier) {
         EXPECT_NEAR(column("c.ply", 1)[41 * 20 + 25], 1.67630546, 1e-2);
         EXPECT_EQ(run(AGVD_PROGRAM, {"compare", at("c.agvd"), "exact", "-q"}).exit_code, 0);
     }
+    const auto on_it =
+        distance({in, "--sites", put("on", "v 840\n"), "--barriers", barriers, "--targets",
+                  put("both", "p 1 1.1 0\np 1 .9 0\n"), "-o", at("t.csv")});
+    ASSERT_EQ(on_it.exit_code, 0) << on_it.err;
+    EXPECT_NE(on_it.err.find("sites on barriers count on both sides"), std::string::npos);
+    EXPECT_EQ(bytes("t.csv"), "site,distance\n0,0.10000000000000009\n0,0.099999999999999978\n");
     const auto wrong = distance(
         {in, "--sites", sites, "--barriers", put("wrong", "0 100\n"), "-o", at("no.ply"), "-q"});
     EXPECT_EQ(wrong.exit_code, 4);

@@ -131,6 +131,45 @@ std::vector<Index> all_edges_of(const Surface& surface, const SiteShape& shape) 
     return distinct(std::move(edges));
 }
 
+SurfaceSites on_all_sides(const Surface& whole, const Surface& opened, SurfaceSites sites) {
+    auto& [points, roles, shapes] = sites;
+    const std::size_t num_given = points.size();
+    std::vector<Index> site;
+    std::vector<double> start;
+    for (Index i = 0; i < num_given; ++i) {
+        site.push_back(roles.site_of(i));
+        start.push_back(start_of(roles.start, i));
+    }
+    const auto add_others = [&](const SurfacePoint& given, Index of_site, double from) {
+        const SurfacePoint point = snapped(whole, given);
+        std::vector<SurfacePoint> views{point};
+        for_each_view(whole, point, [&](const SurfacePoint& view) { views.push_back(view); });
+        for (const Index i : distinct_points(opened, views)) {
+            if (i == 0) continue;
+            points.push_back(views[i]);
+            site.push_back(of_site);
+            start.push_back(from);
+        }
+    };
+    for (std::size_t i = 0; i < num_given; ++i)
+        add_others(SurfacePoint(points[i]), site[i], start[i]);
+    for (SiteShape& shape : shapes) {
+        std::vector<Index> edges = shape.edges;
+        for (const Index edge : shape.edges) {
+            const Index h = opened.edge_half[edge];
+            if (whole.twin[h] != no_index) edges.push_back(opened.edge[whole.twin[h]]);
+            add_others(point_on(h, 0), shape.site, shape.start);
+            add_others(point_on(Surface::next(h), 0), shape.site, shape.start);
+        }
+        shape.edges = distinct(std::move(edges));
+    }
+    if (points.size() == num_given) return sites;
+    roles.site = std::move(site);
+    const auto is_zero = [](double from) { return from == 0; };
+    if (!std::all_of(start.begin(), start.end(), is_zero)) roles.start = std::move(start);
+    return sites;
+}
+
 void check_shapes(const Surface& surface, const std::vector<SiteShape>& shapes) {
     for (std::size_t i = 0; i < shapes.size(); ++i) {
         check_range(shapes[i].edges, surface.num_edges(), i, "edge");

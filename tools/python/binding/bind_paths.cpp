@@ -46,7 +46,7 @@ py::dict run_paths_to_sites(const Doubles& positions, const Indices& triangles,
         const cli::GivenSurface given =
             cli::given_surface(mesh, as_surface, num_threads, progress.of("clean"));
         const agvd::Surface& surface = given.surface();
-        const GivenSites::OnSurface on_surface = sites.on(given);
+        const agvd::SurfaceSites on_surface = sites.on(given);
         const agvd::Propagation propagation = sites.propagate_everywhere(
             surface, on_surface, max_error, num_threads, progress.of("propagate"));
         DrawnPaths drawn;

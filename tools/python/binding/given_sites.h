@@ -13,22 +13,18 @@ struct GivenSites {
     agvd::SitePoints roles;
 
     //! What they are on a surface.
-    struct OnSurface {
-        std::vector<agvd::SurfacePoint> points;
-        std::vector<agvd::SiteShape> shapes;
-    };
     //! \throw as GivenSurface::to_surface.
-    [[nodiscard]] OnSurface on(const cli::GivenSurface& given) const {
-        return {given.to_surface(on_mesh.points), given.to_surface(on_mesh.shapes)};
+    [[nodiscard]] agvd::SurfaceSites on(const cli::GivenSurface& given) const {
+        return given.to_surface(on_mesh.points, roles, on_mesh.shapes);
     }
     //! Propagation with relays in all faces.
     //! \throw as agvd::propagate.
-    [[nodiscard]] agvd::Propagation propagate_everywhere(const agvd::Surface& surface,
-                                                         const OnSurface& sites, double max_error,
-                                                         int num_threads,
-                                                         const agvd::Progress& progress) const {
+    [[nodiscard]] static agvd::Propagation propagate_everywhere(const agvd::Surface& surface,
+                                                                const agvd::SurfaceSites& sites,
+                                                                double max_error, int num_threads,
+                                                                const agvd::Progress& progress) {
         return agvd::propagate(surface, sites.points,
-                               {.points = roles,
+                               {.points = sites.roles,
                                 .shapes = sites.shapes,
                                 .max_error = max_error,
                                 .relay_faces = agvd::all_faces(surface),

@@ -128,7 +128,7 @@ def voronoi(V: Any, F: Any = None, sites: Any = None, max_error: float | None = 
     regions: sites that are regions, at distance 0 inside: of each its faces. Their numbers follow.
     groups and weights may go on with those of the lines and of the regions.
     barriers: edges that no path crosses (m x 2 vertices). The mesh is cut along them; of a vertex
-    on them the nearest side counts, and a site there is on the side of its face.
+    on them the nearest side counts, and sites on them count on both sides.
     edge_lengths: in place of those between the positions, which then are for drawing only (#F x 3
     numbers: of the side from corner k of a face to corner k + 1). The mesh is not cleaned: what
     cleaning repairs is an error. Not together with barriers; sites are vertices, or faces and
