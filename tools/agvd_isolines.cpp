@@ -19,10 +19,10 @@ constexpr const char* isolines_footer =
     "to 1e-9 of it, if the distances are exact. A level that meets the distance of a\n"
     "vertex is raised by 2e-10 of it.\n\n"
     "Output (.gz behind the extension: compressed):\n"
-    "  .vtp   VTK PolyData for ParaView: a polyline for each line, a closed one ends\n"
-    "         with its first point; cell data level\n"
-    "  .obj   v and l lines; before each l a comment with the level\n"
-    "  .ply   the vertices, and edges with vertex1, vertex2, line and level\n\n";
+    "  .vtp   VTK PolyData for ParaView: a polyline for each line, a closed one comes\n"
+    "         back to its first point; cell data line (its number) and level\n"
+    "  .obj   v and l lines; before each l a comment with these values\n"
+    "  .ply   the vertices with these values, and faces of two vertices\n\n";
 
 // Share of the bounding box's diagonal.
 constexpr double default_tolerance = 1e-4;

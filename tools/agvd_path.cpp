@@ -22,10 +22,11 @@ constexpr const char* path_footer =
     "a line, or at the rim of a region. Each piece of a path lies in one face of the\n"
     "cleaned mesh.\n\n"
     "Output (.gz behind the extension: compressed):\n"
-    "  .vtp   VTK PolyData for ParaView: a polyline for each path; cell data\n"
-    "         length, site (of --targets; -1: no site reaches the point)\n"
+    "  .vtp   VTK PolyData for ParaView: a polyline for each path; cell data line,\n"
+    "         the number of its point or pair, length and site (of --targets)\n"
     "  .obj   v and l lines; before each l a comment with these values\n"
-    "  .ply   the vertices, and edges with vertex1, vertex2, line and these values\n\n";
+    "  .ply   the vertices with these values, and faces of two vertices\n"
+    "A point that no site reaches has no path; the numbers of others stay.\n\n";
 
 struct PathArguments : QueryArguments {
     fs::path targets, pairs;  // One of them is empty.
