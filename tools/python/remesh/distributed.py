@@ -59,8 +59,9 @@ def remesh_file(file: Path, out: Path, n: int = 2000, *, folder: Path | None = N
                 retries: int = 3, progress: Progress | None = None) -> None:
     """Splits a file, meshes its tiles by workers, joins them, and writes the result.
 
-    folder: for the tiles, which stay there; None: a temporary one, which only workers of this
-    machine see. The other options are those of tiles.split() and mesh().
+    out: the result; the extension gives the format. folder: for the tiles, which stay there; None: a
+    temporary one, which only workers of this machine see. n, tile, seed and relax are those of
+    tiles.split(), client and retries those of mesh().
     """
     with tempfile.TemporaryDirectory() as temporary:
         used = temporary if folder is None else folder

@@ -13,6 +13,7 @@ from typing import Union
 from numpy import int32
 
 from . import _arrays, _remesh
+from ._arguments import checked
 from ._mesh import Mesh
 from ._stages import Progress
 
@@ -49,11 +50,13 @@ class Plan:
         return len(self.vertices)
 
 
+@checked
 def split(file: Path, folder: Path, n: int = 2000, *, tile: int = 10000, seed: int = 1,
           relax: int = 60, threads: int = 0, progress: Progress | None = None) -> Plan:
     """Cuts a file into tiles of at most ``tile`` vertices (500 or more), for a result of ``n``
     vertices in all.
 
+    relax: steps of relaxation on each of two levels.
     file: binary PLY with triangles, or binary STL; it is read twice and need not fit into memory.
     folder: is made if it does not exist. A plan that is there is kept if the file and the options
     are the same.
@@ -64,14 +67,16 @@ def split(file: Path, folder: Path, n: int = 2000, *, tile: int = 10000, seed: i
         _arrays.whole(relax, "relax", 0, 1_000_000), _threads(threads), progress))
 
 
+@checked
 def plan(folder: Path) -> Plan:
     """The plan of a folder that a file was split into."""
     return Plan(**_remesh.read_tile_plan(os.fspath(folder)))
 
 
+@checked
 def mesh(folder: Path, tiles: Iterable[int] | None = None, *, threads: int = 0,
          progress: Progress | None = None) -> tuple[int, int]:
-    """Makes the meshes of tiles (None: of all), as many side by side as there are threads.
+    """Makes the meshes of tiles of a folder (None: of all), as many side by side as there are threads.
 
     Returns how many were made, and how many were there before.
     """
@@ -81,6 +86,7 @@ def mesh(folder: Path, tiles: Iterable[int] | None = None, *, threads: int = 0,
                               _threads(threads), progress)
 
 
+@checked
 def join(folder: Path, *, threads: int = 0, progress: Progress | None = None) -> Mesh:
     """Joins the meshes of all tiles.
 
