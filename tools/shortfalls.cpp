@@ -119,6 +119,12 @@ std::string coarseness_text(const remesh::RemeshResult& result) {
     return enough == 0 ? text : text + " (about " + std::to_string(enough) + " would do)";
 }
 
+std::string creases_of_tiles_text(double length) {
+    return "the mesh has creases of length " + agvd::number_text(length) +
+           " in mesh units, which tiles do not keep: they come out cut off; remesh it in one piece "
+           "if memory suffices";
+}
+
 std::string welded_slit_text(double length) {
     return "a slit of length " + agvd::number_text(length) +
            " in mesh units was welded, as its two sides lie at one place; use --keep-slits to "

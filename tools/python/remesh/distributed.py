@@ -11,12 +11,14 @@ from __future__ import annotations
 import argparse
 import importlib
 import os
+import sys
 import tempfile
 from contextlib import ExitStack
 from typing import Any
 
 from . import tiles
 from ._files import write
+from ._remesh import Error
 from ._stages import Progress
 from .tiles import Path
 
@@ -85,9 +87,15 @@ def _main() -> None:
     parser.add_argument("--folder", help="for the tiles, which stay there")
     parser.add_argument("--scheduler", help="address; without it workers of this machine are used")
     given = parser.parse_args()
-    remesh_file(given.file, given.out, given.samples, folder=given.folder, client=given.scheduler,
-                tile=given.tile, seed=given.seed,
-                progress=lambda share, _: print(f"{100 * share:.0f} % of the tiles", flush=True))
+    try:
+        remesh_file(given.file, given.out, given.samples, folder=given.folder,
+                    client=given.scheduler, tile=given.tile, seed=given.seed,
+                    progress=lambda share, _: print(f"{100 * share:.0f} % of the tiles", flush=True))
+    except ModuleNotFoundError as error:
+        sys.exit(f"remesh.distributed: error: {error}; install dask.distributed (Debian: "
+                 "python3-distributed)")
+    except Error as error:
+        sys.exit(f"remesh.distributed: error: {error}")
 
 
 if __name__ == "__main__":
