@@ -64,10 +64,13 @@ void run_isolines(const IsolineArguments& arguments, Console& console) {
         return stages_of_query(num_faces, "isolines");
     });
     const agvd::SurfaceSites sites = sites_on(input, arguments, console);
-    const agvd::Propagation propagation = propagate_everywhere(input, arguments, sites, console);
+    agvd::Propagation propagation = propagate_on(input, arguments, sites, {}, console);
     const std::vector<double> levels = arguments.levels.empty()
                                            ? agvd::levels_every(propagation, arguments.step)
                                            : arguments.levels;
+    propagation = propagate_on(input, arguments, sites,
+                               agvd::faces_at_levels(input.surface, propagation, levels), console);
+    console.info(remesh::to_text(arguments.propagation.engine, propagation.certified_error));
     const agvd::Isolines isolines = agvd::build_isolines(
         input.surface, propagation, levels,
         {.num_threads = arguments.common.threads, .progress = console.progress_of("isolines")});

@@ -46,7 +46,9 @@ std::vector<agvd::SitePath> paths_to_sites(const PathArguments& arguments, const
                                            Console& console) {
     const agvd::SurfaceSites sites = sites_on(input, arguments, console);
     const std::vector<agvd::SurfacePoint> targets = points_on(input, arguments.targets, console);
-    const agvd::Propagation propagation = propagate_everywhere(input, arguments, sites, console);
+    const agvd::Propagation propagation =
+        propagate_on(input, arguments, sites, agvd::all_faces(input.surface), console);
+    console.info(remesh::to_text(arguments.propagation.engine, propagation.certified_error));
     return agvd::paths_to_sites(
         input.surface, sites.points, propagation, targets,
         {.num_threads = arguments.common.threads, .progress = console.progress_of("paths")});

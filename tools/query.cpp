@@ -160,19 +160,18 @@ agvd::SurfaceSites sites_on(const OpenedInput& input, const DiagramArguments& ar
     return sites;
 }
 
-agvd::Propagation propagate_everywhere(const OpenedInput& input, const DiagramArguments& arguments,
-                                       const agvd::SurfaceSites& sites, Console& console) {
+agvd::Propagation propagate_on(const OpenedInput& input, const DiagramArguments& arguments,
+                               const agvd::SurfaceSites& sites,
+                               std::vector<agvd::Index> relay_faces, Console& console) {
     agvd::PropagationOptions propagating = arguments.propagation;
     propagating.points = sites.roles;
     propagating.shapes = sites.shapes;
-    propagating.relay_faces = agvd::all_faces(input.surface);
+    propagating.relay_faces = std::move(relay_faces);
     propagating.num_threads = arguments.common.threads;
     propagating.progress = console.progress_of("propagate");
-    agvd::Propagation propagation = naming_file(
+    return naming_file(
         arguments.input, [&] { return agvd::propagate(input.surface, sites.points, propagating); },
         arguments.sites);
-    console.info(remesh::to_text(propagating.engine, propagation.certified_error));
-    return propagation;
 }
 
 std::vector<SurfacePoint> points_on(const OpenedInput& input, const fs::path& path,

@@ -91,11 +91,12 @@ void add_edge_lengths(CLI::App& app, DiagramArguments& arguments);
 [[nodiscard]] agvd::SurfaceSites sites_on(const OpenedInput& input,
                                           const DiagramArguments& arguments, Console& console);
 
-//! Distances with relays in all faces; tells the engine and its error.
-[[nodiscard]] agvd::Propagation propagate_everywhere(const OpenedInput& input,
-                                                     const DiagramArguments& arguments,
-                                                     const agvd::SurfaceSites& sites,
-                                                     Console& console);
+//! Distances with relays in some faces.
+[[nodiscard]] agvd::Propagation propagate_on(const OpenedInput& input,
+                                             const DiagramArguments& arguments,
+                                             const agvd::SurfaceSites& sites,
+                                             std::vector<agvd::Index> relay_faces,
+                                             Console& console);
 
 //! The points of a file, on the cleaned mesh.
 [[nodiscard]] std::vector<agvd::SurfacePoint> points_on(const OpenedInput& input,

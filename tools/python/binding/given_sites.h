@@ -17,17 +17,18 @@ struct GivenSites {
     [[nodiscard]] agvd::SurfaceSites on(const cli::GivenSurface& given) const {
         return given.to_surface(on_mesh.points, roles, on_mesh.shapes);
     }
-    //! Propagation with relays in all faces.
+    //! Propagation with relays in some faces.
     //! \throw as agvd::propagate.
-    [[nodiscard]] static agvd::Propagation propagate_everywhere(const agvd::Surface& surface,
-                                                                const agvd::SurfaceSites& sites,
-                                                                double max_error, int num_threads,
-                                                                const agvd::Progress& progress) {
+    [[nodiscard]] static agvd::Propagation propagate_on(const agvd::Surface& surface,
+                                                        const agvd::SurfaceSites& sites,
+                                                        std::vector<agvd::Index> relay_faces,
+                                                        double max_error, int num_threads,
+                                                        const agvd::Progress& progress) {
         return agvd::propagate(surface, sites.points,
                                {.points = sites.roles,
                                 .shapes = sites.shapes,
                                 .max_error = max_error,
-                                .relay_faces = agvd::all_faces(surface),
+                                .relay_faces = std::move(relay_faces),
                                 .num_threads = num_threads,
                                 .progress = progress});
     }
