@@ -11,10 +11,10 @@ using Names = std::pair<std::string_view, std::string_view>;
 
 // Those that texts of errors name and a command line can cause.
 constexpr std::array names{
-    Names{"densities", "--density"},    Names{"drop_components", "--drop-components"},
-    Names{"max_edge", "--max-edge"},    Names{"max_error", "--max-error"},
-    Names{"min_edge", "--min-edge"},    Names{"num_samples", "--samples"},
-    Names{"target_lengths", "--sizing"}};
+    Names{"VertexDensities", "--density"}, Names{"drop_components", "--drop-components"},
+    Names{"max_edge", "--max-edge"},       Names{"max_error", "--max-error"},
+    Names{"min_edge", "--min-edge"},       Names{"num_samples", "--samples"},
+    Names{"VertexLengths", "--sizing"}};
 
 }  // namespace
 

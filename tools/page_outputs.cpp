@@ -1,6 +1,7 @@
 #include "page_outputs.h"
 
 #include <CLI/CLI.hpp>
+#include <string_view>
 
 #include "page/viewer.h"
 #include "picture.h"

@@ -37,7 +37,8 @@ void check_elements(const MeshView& mesh, Ticker& ticker) {
         for (const Index v : t) {
             if (v >= mesh.positions.size()) {
                 throw InvalidInput("face " + std::to_string(f) + " names vertex " +
-                                   std::to_string(v) + ", but the mesh has only " +
+                                   (v == no_index ? "-1" : std::to_string(v)) +
+                                   ", but the mesh has only " +
                                    std::to_string(mesh.positions.size()) +
                                    " vertices, counted from 0; correct or delete the face");
             }
