@@ -110,7 +110,7 @@ Query add_isolines(CLI::App& app) {
                      "0.0001 of the bounding box's diagonal")
         ->check(length)
         ->type_name("D");
-    add_outputs(*command, arguments->outputs)->required();
+    add_outputs(*command, *arguments)->required();
     command->footer(std::string(isolines_footer) + exit_code_help);
     return make_query(command, arguments, run_isolines);
 }

@@ -130,7 +130,7 @@ Query add_path(CLI::App& app) {
         ->excludes(command->get_option("--sites"))
         ->excludes(command->get_option("--samples"))
         ->type_name("FILE");
-    add_outputs(*command, arguments->outputs)->required();
+    add_outputs(*command, *arguments)->required();
     command->footer(std::string(path_footer) + exit_code_help);
     return make_query(command, arguments, run_path);
 }

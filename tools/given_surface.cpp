@@ -24,6 +24,24 @@ std::vector<agvd::SiteShape> carry_shapes(std::span<const remesh::GivenShape> sh
     return carried;
 }
 
+std::vector<Index> vertices_of_least(const agvd::MeshView& mesh, const remesh::CleanedView& clean,
+                                     const agvd::Surface& surface, std::span<const double> value) {
+    std::vector<Index> result(mesh.positions.size(), agvd::no_index);
+    const auto& there = surface.mesh.positions;
+    const std::span<const agvd::Vec3> here = clean.welded(mesh).positions;
+    for (Index f = 0; f < surface.num_faces(); ++f) {
+        const Index origin = clean.face_origin.empty() ? f : clean.face_origin[f];
+        for (const Index given : mesh.triangles[origin]) {
+            for (const Index cleaned : surface.mesh.triangles[f]) {
+                if (there[cleaned] != here[given]) continue;
+                Index& best = result[given];
+                if (best == agvd::no_index || value[cleaned] < value[best]) best = cleaned;
+            }
+        }
+    }
+    return result;
+}
+
 GivenSurface::GivenSurface(const agvd::MeshView& mesh, const remesh::CleanOptions& cleaning,
                            std::span<const std::array<Index, 2>> barriers)
     : mesh_(mesh),
@@ -56,26 +74,6 @@ agvd::SurfaceSites GivenSurface::to_surface(const std::vector<SurfacePoint>& poi
 std::vector<SurfacePoint> GivenSurface::to_given(const std::vector<SurfacePoint>& points) const {
     if (surface_.has_own_lengths) return points;
     return remesh::to_original(points, mesh_, clean_);
-}
-
-std::vector<Index> GivenSurface::vertices_of_least(std::span<const double> value) const {
-    std::vector<Index> result(mesh_.positions.size(), agvd::no_index);
-    if (surface_.has_own_lengths) {
-        for (const agvd::Triangle& t : mesh_.triangles) {
-            for (const Index v : t) result[v] = v;
-        }
-        return result;
-    }
-    for (std::size_t f = 0; f < clean_.mesh.triangles.size(); ++f) {
-        for (const Index given : mesh_.triangles[clean_.face_origin[f]]) {
-            for (const Index cleaned : surface_.mesh.triangles[f]) {
-                if (surface_.mesh.positions[cleaned] != mesh_.positions[given]) continue;
-                Index& best = result[given];
-                if (best == agvd::no_index || value[cleaned] < value[best]) best = cleaned;
-            }
-        }
-    }
-    return result;
 }
 
 }  // namespace cli

@@ -21,6 +21,16 @@ namespace cli {
                                                         const remesh::CleanedView& clean,
                                                         const agvd::Surface& surface);
 
+//! For each vertex of a mesh the vertex of its surface at its place: of several the one with the
+//! least value. no_index: it is in no face of the surface.
+//! \param clean    of the mesh; without face_origin the surface is that of the mesh itself.
+//! \param surface  of clean.mesh; it may have been cut along edges.
+//! \param value    by vertex of the surface.
+[[nodiscard]] std::vector<agvd::Index> vertices_of_least(const agvd::MeshView& mesh,
+                                                         const remesh::CleanedView& clean,
+                                                         const agvd::Surface& surface,
+                                                         std::span<const double> value);
+
 //! What all stages but remesh() work on. Points are carried between the caller's faces and those of
 //! the surface.
 class GivenSurface {
@@ -53,10 +63,10 @@ public:
         return clean_.face_origin.empty() ? face : clean_.face_origin[face];
     }
 
-    //! For each of the caller's vertices the vertex of the surface at its place: of several the one
-    //! with the least value. no_index: it is in no face of the surface.
-    //! \param value  by vertex of the surface.
-    [[nodiscard]] std::vector<agvd::Index> vertices_of_least(std::span<const double> value) const;
+    //! Of the caller's vertices: see above.
+    [[nodiscard]] std::vector<agvd::Index> vertices_of_least(std::span<const double> value) const {
+        return cli::vertices_of_least(mesh_, clean_, surface_, value);
+    }
 
 private:
     agvd::MeshView mesh_;

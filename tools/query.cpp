@@ -88,10 +88,12 @@ void add_edge_lengths(CLI::App& app, DiagramArguments& arguments) {
         ->type_name("FILE");
 }
 
-CLI::Option* add_outputs(CLI::App& app, std::vector<fs::path>& outputs) {
+CLI::Option* add_outputs(CLI::App& app, QueryArguments& arguments) {
     start_group(app, heading::files);
+    app.add_flag("--ascii", arguments.ascii, "Write .ply as text, for programs that read no other");
     return app
-        .add_option("-o,--output", outputs, "File to write; repeat the option to write more files")
+        .add_option("-o,--output", arguments.outputs,
+                    "File to write; repeat the option to write more files")
         ->type_name("FILE")
         ->allow_extra_args(false);
 }
@@ -181,13 +183,22 @@ std::vector<SurfacePoint> points_on(const OpenedInput& input, const fs::path& pa
     return naming_file(path, [&] { return on_surface(input, given); });
 }
 
+void write_files(const QueryArguments& arguments, std::vector<remesh::FileContent> files,
+                 const agvd::Progress& progress) {
+    for (remesh::FileContent& file : files) {
+        if (!arguments.ascii || file.path.extension() != ".ply") continue;
+        file.bytes = remesh::ply_as_text(std::move(file.bytes));
+    }
+    remesh::write_files_atomically(files, progress);
+}
+
 void write_lines(const QueryArguments& arguments, const remesh::Lines& lines, Console& console) {
     const agvd::Progress writing = console.progress_of("write");
     std::vector<remesh::FileContent> files;
     for (const fs::path& output : arguments.outputs) {
         files.push_back({output, remesh::format_lines(output, lines, writing)});
     }
-    remesh::write_files_atomically(files, writing);
+    write_files(arguments, std::move(files), writing);
 }
 
 }  // namespace cli

@@ -14,6 +14,7 @@
 #include "agvd/propagation/propagate.h"
 #include "arguments.h"
 #include "expected_stages.h"
+#include "remesh/meshfile/atomic_file.h"
 #include "remesh/meshfile/lines_file.h"
 
 namespace cli {
@@ -21,6 +22,7 @@ namespace cli {
 //! Options that every subcommand with a mesh has.
 struct QueryArguments : DiagramArguments {
     std::vector<std::filesystem::path> outputs;
+    bool ascii = false;  //!< PLY is written as text.
 };
 
 //! A subcommand. Its arguments live as long as `run`.
@@ -55,8 +57,8 @@ template <typename Arguments>
 //! \return what is wrong; an empty text: nothing.
 [[nodiscard]] std::string check_length(const char* name, const std::string& text);
 
-//! Adds -o, which may be repeated. \return it, for those that require it.
-CLI::Option* add_outputs(CLI::App& app, std::vector<std::filesystem::path>& outputs);
+//! Adds -o, which may be repeated, and --ascii. \return the first, for those that require it.
+CLI::Option* add_outputs(CLI::App& app, QueryArguments& arguments);
 
 //! Checks -o before the long work.
 //! \param inputs  files besides IN that must not be overwritten; may be empty paths.
@@ -102,6 +104,10 @@ void add_edge_lengths(CLI::App& app, DiagramArguments& arguments);
 [[nodiscard]] std::vector<agvd::SurfacePoint> points_on(const OpenedInput& input,
                                                         const std::filesystem::path& path,
                                                         Console& console);
+
+//! Writes all files, or none; PLY as --ascii asks for.
+void write_files(const QueryArguments& arguments, std::vector<remesh::FileContent> files,
+                 const agvd::Progress& progress);
 
 //! Writes the lines to all outputs, or to none.
 void write_lines(const QueryArguments& arguments, const remesh::Lines& lines, Console& console);
