@@ -141,8 +141,7 @@ agvd::SurfaceSites sites_on(const OpenedInput& input, const DiagramArguments& ar
     if (arguments.sites.empty()) {
         sites.points = sample(arguments, input.surface, console);
     } else {
-        const agvd::MeshView mesh = input.file.mesh.view();
-        remesh::SitesFile given = read_given_sites(arguments, mesh, console);
+        remesh::SitesFile given = read_given_sites(arguments, input.file, console);
         sites.points = naming_file(arguments.sites, [&] { return on_surface(input, given.sites); });
         sites.roles = std::move(given.points);
         sites.shapes = naming_file(arguments.sites, [&] {
@@ -178,8 +177,7 @@ agvd::Propagation propagate_on(const OpenedInput& input, const DiagramArguments&
 
 std::vector<SurfacePoint> points_on(const OpenedInput& input, const fs::path& path,
                                     Console& console) {
-    const agvd::MeshView mesh = input.file.mesh.view();
-    const std::vector<SurfacePoint> given = read_points(path, mesh, console);
+    const std::vector<SurfacePoint> given = read_points(path, input.file, console);
     return naming_file(path, [&] { return on_surface(input, given); });
 }
 
