@@ -200,7 +200,7 @@ void run_diagram(const DiagramRun& arguments, Console& console) {
                              picture_of_diagram(arguments.picture, page, cells, arguments.view)});
         }
     }
-    remesh::write_files_atomically(files, writing);
+    write_files(arguments, std::move(files), writing);
     console.info(remesh::to_text(propagating.engine, based.certified_error));
     console.info(std::to_string(diagram.num_sites) + " sites, " +
                  std::to_string(diagram.vertices.size()) + " Voronoi vertices, " +
@@ -217,7 +217,7 @@ Query add_diagram(CLI::App& app, const std::string& command_line) {
     add_diagram_options(*command, *arguments);
     add_barriers(*command, *arguments);
     add_edge_lengths(*command, *arguments);
-    add_outputs(*command, arguments->outputs);
+    add_outputs(*command, *arguments);
     command
         ->add_option("--cells", arguments->cells,
                      "Also write the mesh cut along the bisectors: triangles with the property "

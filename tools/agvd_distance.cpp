@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "agvd/paths/distances.h"
+#include "given_surface.h"
 #include "help.h"
 #include "mesh_paths.h"
 #include "query.h"
@@ -27,9 +28,10 @@ constexpr const char* distance_footer =
     "of the mesh, `r FACE FACE ...` a region, at its start (or 0) inside; `site` and\n"
     "`start` may stand behind these, too.\n\n"
     "Output (.gz behind the extension: compressed):\n"
-    "  .ply, .vtp, .vtk   the cleaned mesh with the vertex properties site (-1: none)\n"
-    "         and distance (infinity: not reached); with --nearest also site_2,\n"
-    "         distance_2 and so on of the second nearest site\n"
+    "  .ply, .vtp, .vtk   the mesh of IN, its polygons as triangles, with the vertex\n"
+    "         properties site (-1: none) and distance (infinity: not reached), as of\n"
+    "         vertices in no face; with --nearest also site_2, distance_2 and so on of\n"
+    "         the second nearest site. Of a vertex on barriers the nearest side counts\n"
     "  .csv   with --targets: a line SITE,DISTANCE for each of them, behind a header\n\n";
 
 struct DistanceArguments : QueryArguments {
@@ -67,7 +69,7 @@ std::string to_table(const agvd::Distances& distances) {
     return table.str();
 }
 
-// The columns of sites and distances of the vertices, the nearest first.
+// The columns of sites and distances of the surface's vertices, the nearest first.
 std::vector<remesh::Attribute> columns(agvd::Index num_vertices, agvd::Index k) {
     std::vector<remesh::Attribute> result;
     for (agvd::Index i = 1; i <= k; ++i) {
@@ -116,17 +118,28 @@ void write(const DistanceArguments& arguments,
            const std::function<std::string(const fs::path&)>& format, Console& console) {
     std::vector<remesh::FileContent> files;
     for (const fs::path& output : arguments.outputs) files.push_back({output, format(output)});
-    remesh::write_files_atomically(files, console.progress_of("write"));
+    write_files(arguments, std::move(files), console.progress_of("write"));
 }
 
-void write_mesh(const DistanceArguments& arguments, const agvd::Surface& surface,
+// The mesh as it was given; a vertex at which nothing is left has no site.
+void write_mesh(const DistanceArguments& arguments, const OpenedInput& input,
                 std::vector<remesh::Attribute> columns, Console& console) {
+    const agvd::MeshView mesh = input.file.mesh.view();
+    const std::vector<agvd::Index> places =
+        vertices_of_least(mesh, input.clean, input.surface, columns[1].values);
+    for (remesh::Attribute& column : columns) {
+        std::vector<double> values(places.size(),
+                                   column.type == remesh::NumberType::Int32 ? -1 : agvd::infinity);
+        for (std::size_t v = 0; v < places.size(); ++v) {
+            if (places[v] != agvd::no_index) values[v] = column.values[places[v]];
+        }
+        column.values = std::move(values);
+    }
     const remesh::MeshAttributes attributes{.of_vertices = std::move(columns)};
     write(
         arguments,
         [&](const fs::path& output) {
-            return remesh::format_mesh({output}, surface.mesh.view(), attributes,
-                                       console.progress_of("write"));
+            return remesh::format_mesh({output}, mesh, attributes, console.progress_of("write"));
         },
         console);
 }
@@ -138,7 +151,7 @@ void run_distance(const DistanceArguments& arguments, Console& console) {
         return stages_of_query(num_faces, "write");
     });
     const agvd::Surface& surface = input.surface;
-    const GivenSites sites = sites_on(input, arguments, console);
+    const agvd::SurfaceSites sites = sites_on(input, arguments, console);
     const double max_error = arguments.propagation.max_error.value_or(0);
     const int threads = arguments.common.threads;
     if (arguments.nearest > 1) {
@@ -150,7 +163,7 @@ void run_distance(const DistanceArguments& arguments, Console& console) {
                                    .num_threads = threads,
                                    .progress = console.progress_of("propagate")});
         console.info(remesh::to_text(agvd::Engine::Window, ranks.certified_error));
-        return write_mesh(arguments, surface, columns_of(surface, ranks), console);
+        return write_mesh(arguments, input, columns_of(surface, ranks), console);
     }
     std::vector<agvd::SurfacePoint> targets;
     if (!arguments.targets.empty()) targets = points_on(input, arguments.targets, console);
@@ -166,7 +179,7 @@ void run_distance(const DistanceArguments& arguments, Console& console) {
     console.info(std::to_string(distances.vertices.size()) + " of " +
                  std::to_string(surface.num_vertices()) + " vertices reached");
     if (arguments.targets.empty()) {
-        return write_mesh(arguments, surface, columns_of(surface, distances), console);
+        return write_mesh(arguments, input, columns_of(surface, distances), console);
     }
     write(
         arguments, [&](const fs::path&) { return to_table(distances); }, console);
@@ -182,7 +195,8 @@ Query add_distance(CLI::App& app) {
     add_barriers(*command, *arguments);
     add_edge_lengths(*command, *arguments);
     start_group(*command, heading::count);
-    add_count(*command, "--nearest", "Number of sites of each vertex, the nearest first",
+    add_count(*command, "--nearest",
+              "Number of sites of each vertex, the nearest first. Not with --targets, --radius",
               arguments->nearest)
         ->type_name("K")
         ->default_str("1");
@@ -197,7 +211,7 @@ Query add_distance(CLI::App& app) {
         ->check(CLI::Validator([](const std::string& text) { return check_length("radius", text); },
                                ""))
         ->type_name("R");
-    add_outputs(*command, arguments->outputs)->required();
+    add_outputs(*command, *arguments)->required();
     command->footer(std::string(distance_footer) + exit_code_help);
     return make_query(command, arguments, run_distance);
 }

@@ -19,10 +19,10 @@ constexpr const char* isolines_footer =
     "to 1e-9 of it, if the distances are exact. A level that meets the distance of a\n"
     "vertex is raised by 2e-10 of it.\n\n"
     "Output (.gz behind the extension: compressed):\n"
-    "  .vtp   VTK PolyData for ParaView: a polyline for each line, a closed one ends\n"
-    "         with its first point; cell data level\n"
-    "  .obj   v and l lines; before each l a comment with the level\n"
-    "  .ply   the vertices, and edges with vertex1, vertex2, line and level\n\n";
+    "  .vtp   VTK PolyData for ParaView: a polyline for each line, a closed one comes\n"
+    "         back to its first point; cell data line (its number) and level\n"
+    "  .obj   v and l lines; before each l a comment with these values\n"
+    "  .ply   the vertices with these values, and faces of two vertices\n\n";
 
 // Share of the bounding box's diagonal.
 constexpr double default_tolerance = 1e-4;
@@ -63,11 +63,14 @@ void run_isolines(const IsolineArguments& arguments, Console& console) {
     const OpenedInput input = open_input(arguments, console, [](std::size_t num_faces) {
         return stages_of_query(num_faces, "isolines");
     });
-    const GivenSites sites = sites_on(input, arguments, console);
-    const agvd::Propagation propagation = propagate_everywhere(input, arguments, sites, console);
+    const agvd::SurfaceSites sites = sites_on(input, arguments, console);
+    agvd::Propagation propagation = propagate_on(input, arguments, sites, {}, console);
     const std::vector<double> levels = arguments.levels.empty()
                                            ? agvd::levels_every(propagation, arguments.step)
                                            : arguments.levels;
+    propagation = propagate_on(input, arguments, sites,
+                               agvd::faces_at_levels(input.surface, propagation, levels), console);
+    console.info(remesh::to_text(arguments.propagation.engine, propagation.certified_error));
     const agvd::Isolines isolines = agvd::build_isolines(
         input.surface, propagation, levels,
         {.num_threads = arguments.common.threads, .progress = console.progress_of("isolines")});
@@ -107,7 +110,7 @@ Query add_isolines(CLI::App& app) {
                      "0.0001 of the bounding box's diagonal")
         ->check(length)
         ->type_name("D");
-    add_outputs(*command, arguments->outputs)->required();
+    add_outputs(*command, *arguments)->required();
     command->footer(std::string(isolines_footer) + exit_code_help);
     return make_query(command, arguments, run_isolines);
 }

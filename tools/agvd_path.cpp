@@ -22,10 +22,11 @@ constexpr const char* path_footer =
     "a line, or at the rim of a region. Each piece of a path lies in one face of the\n"
     "cleaned mesh.\n\n"
     "Output (.gz behind the extension: compressed):\n"
-    "  .vtp   VTK PolyData for ParaView: a polyline for each path; cell data\n"
-    "         length, site (of --targets; -1: no site reaches the point)\n"
+    "  .vtp   VTK PolyData for ParaView: a polyline for each path; cell data line,\n"
+    "         the number of its point or pair, length and site (of --targets)\n"
     "  .obj   v and l lines; before each l a comment with these values\n"
-    "  .ply   the vertices, and edges with vertex1, vertex2, line and these values\n\n";
+    "  .ply   the vertices with these values, and faces of two vertices\n"
+    "A point that no site reaches has no path; the numbers of others stay.\n\n";
 
 struct PathArguments : QueryArguments {
     fs::path targets, pairs;  // One of them is empty.
@@ -43,9 +44,11 @@ void check(const PathArguments& arguments) {
 
 std::vector<agvd::SitePath> paths_to_sites(const PathArguments& arguments, const OpenedInput& input,
                                            Console& console) {
-    const GivenSites sites = sites_on(input, arguments, console);
+    const agvd::SurfaceSites sites = sites_on(input, arguments, console);
     const std::vector<agvd::SurfacePoint> targets = points_on(input, arguments.targets, console);
-    const agvd::Propagation propagation = propagate_everywhere(input, arguments, sites, console);
+    const agvd::Propagation propagation =
+        propagate_on(input, arguments, sites, agvd::all_faces(input.surface), console);
+    console.info(remesh::to_text(arguments.propagation.engine, propagation.certified_error));
     return agvd::paths_to_sites(
         input.surface, sites.points, propagation, targets,
         {.num_threads = arguments.common.threads, .progress = console.progress_of("paths")});
@@ -127,7 +130,7 @@ Query add_path(CLI::App& app) {
         ->excludes(command->get_option("--sites"))
         ->excludes(command->get_option("--samples"))
         ->type_name("FILE");
-    add_outputs(*command, arguments->outputs)->required();
+    add_outputs(*command, *arguments)->required();
     command->footer(std::string(path_footer) + exit_code_help);
     return make_query(command, arguments, run_path);
 }

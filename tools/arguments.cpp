@@ -288,9 +288,11 @@ remesh::MeshFile read_input(const DiagramArguments& arguments, Console& console,
     return file;
 }
 
-remesh::SitesFile read_given_sites(const DiagramArguments& arguments, const agvd::MeshView& mesh,
+remesh::SitesFile read_given_sites(const DiagramArguments& arguments, const remesh::MeshFile& mesh,
                                    Console& console) {
-    remesh::SitesFile file = remesh::read_sites(arguments.sites, mesh, console.progress_of("read"));
+    remesh::SitesFile file =
+        remesh::read_sites(arguments.sites, mesh.mesh.view(), console.progress_of("read"),
+                           remesh::Repeats::Told, mesh.face_polygon);
     for (const std::string& warning : file.warnings) console.warn(warning);
     return file;
 }
@@ -309,9 +311,9 @@ void require_plain_points(const std::filesystem::path& path, const agvd::SitePoi
 }
 
 std::vector<agvd::SurfacePoint> read_points(const std::filesystem::path& path,
-                                            const agvd::MeshView& mesh, Console& console) {
-    remesh::SitesFile file =
-        remesh::read_sites(path, mesh, console.progress_of("read"), remesh::Repeats::Allowed);
+                                            const remesh::MeshFile& mesh, Console& console) {
+    remesh::SitesFile file = remesh::read_sites(path, mesh.mesh.view(), console.progress_of("read"),
+                                                remesh::Repeats::Allowed, mesh.face_polygon);
     for (const std::string& warning : file.warnings) console.warn(warning);
     require_plain_points(path, file.points, file.shapes.size(), "targets are");
     return std::move(file.sites);

@@ -119,7 +119,7 @@ enum class WithAttributes { No, Yes };
 
 //! Reads --sites: points of the mesh as it was read. Its warnings are told.
 [[nodiscard]] remesh::SitesFile read_given_sites(const DiagramArguments& arguments,
-                                                 const agvd::MeshView& mesh, Console& console);
+                                                 const remesh::MeshFile& mesh, Console& console);
 
 //! For what takes points only.
 //! \param num_shapes  lines and regions among the sites.
@@ -131,7 +131,7 @@ void require_plain_points(const std::filesystem::path& path, const agvd::SitePoi
 
 //! Reads points of the mesh as it was read: a file of sites in which places may repeat.
 [[nodiscard]] std::vector<agvd::SurfacePoint> read_points(const std::filesystem::path& path,
-                                                          const agvd::MeshView& mesh,
+                                                          const remesh::MeshFile& mesh,
                                                           Console& console);
 
 //! "FILE: N vertices, M faces", for the log.

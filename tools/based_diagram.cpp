@@ -59,11 +59,15 @@ BasedDiagram based_diagram(const agvd::Surface& surface,
     const std::vector<agvd::SurfacePoint> on_base = base.to_intrinsic(sites);
     options.progress = progress_of("propagate");
     const agvd::Progress drawing = progress_of("diagram");
-    agvd::TracedDiagram traced = agvd::trace_diagram(
-        base.surface(), on_base, options,
-        {.chord = chord, .num_threads = options.num_threads, .progress = drawing});
-    return {agvd::diagram_on_input(base, std::move(traced.diagram), drawing),
-            traced.certified_error};
+    agvd::DiagramOptions drawn{
+        .chord = chord, .num_threads = options.num_threads, .progress = drawing};
+    // Where they cross edges of the input arcs are on the bisectors, chords are not.
+    if (options.max_error == 0.0 && !chord) drawn.chord = longest_edge(surface, sites.size()) / 100;
+    agvd::TracedDiagram traced = agvd::trace_diagram(base.surface(), on_base, options, drawn);
+    agvd::Diagram diagram = agvd::diagram_on_input(base, std::move(traced.diagram), drawing);
+    if (!chord) diagram.arcs = {};
+    if (!chord) diagram.edge_arcs = {};
+    return {std::move(diagram), traced.certified_error};
 }
 
 }  // namespace cli

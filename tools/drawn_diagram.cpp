@@ -58,6 +58,15 @@ DrawnArcs draw_arcs(const agvd::Surface& surface, const agvd::Diagram& diagram,
     return drawn;
 }
 
+// The points on the surface; the options get the rest.
+std::vector<agvd::SurfacePoint> place_sites(const GivenSurface& given, const DrawnSites& sites,
+                                            agvd::PropagationOptions& options) {
+    agvd::SurfaceSites placed = given.to_surface(sites.points, options.points, sites.shapes);
+    options.points = std::move(placed.roles);
+    options.shapes = std::move(placed.shapes);
+    return std::move(placed.points);
+}
+
 }  // namespace
 
 GivenSurface given_surface(const agvd::MeshView& mesh, const SurfaceOptions& as_surface,
@@ -75,9 +84,8 @@ DrawnDiagram draw_diagram(const agvd::MeshView& mesh, const DrawnSites& given_si
     const GivenSurface given =
         given_surface(mesh, as_surface, given_options.num_threads, progress_of("clean"));
     const agvd::Surface& surface = given.surface();
-    const std::vector<agvd::SurfacePoint> sites = given.to_surface(given_sites.points);
     agvd::PropagationOptions options = given_options;
-    options.shapes = given.to_surface(given_sites.shapes);
+    const std::vector<agvd::SurfacePoint> sites = place_sites(given, given_sites, options);
     BasedDiagram based = based_diagram(surface, sites, options, progress_of, chord);
     DrawnDiagram drawn;
     drawn.diagram = std::move(based.diagram);
@@ -87,7 +95,7 @@ DrawnDiagram draw_diagram(const agvd::MeshView& mesh, const DrawnSites& given_si
     drawn.dual = remesh::build_dual(drawn.diagram);
     drawn.lines = draw(drawn.diagram, surface.mesh.view());
     drawn.arcs = draw_arcs(surface, drawn.diagram, drawn.lines);
-    for (const agvd::SurfacePoint& site : sites) {
+    for (const agvd::SurfacePoint& site : std::span(sites).first(given_sites.points.size())) {
         drawn.site_positions.push_back(agvd::position(surface.mesh.view(), site));
     }
     const std::vector<Index> places = given.vertices_of_least(drawn.diagram.nearest_distance);
@@ -101,10 +109,9 @@ agvd::CutCells cut_cells(const agvd::MeshView& mesh, const DrawnSites& sites,
                          const StageProgress& progress_of) {
     const GivenSurface given =
         given_surface(mesh, as_surface, options.num_threads, progress_of("clean"));
-    options.shapes = given.to_surface(sites.shapes);
+    const std::vector<agvd::SurfacePoint> points = place_sites(given, sites, options);
     const agvd::Diagram diagram =
-        based_diagram(given.surface(), given.to_surface(sites.points), options, progress_of)
-            .diagram;
+        based_diagram(given.surface(), points, options, progress_of).diagram;
     agvd::CutCells cells = agvd::cut_cells(given.surface(), diagram, progress_of("diagram"));
     for (Index& face : cells.face_origin) face = given.face_of(face);
     return cells;
@@ -116,11 +123,10 @@ std::vector<double> vertex_distances(const agvd::MeshView& mesh, const DrawnSite
                                      const StageProgress& progress_of) {
     const GivenSurface given =
         given_surface(mesh, as_surface, options.num_threads, progress_of("clean"));
-    const std::vector<agvd::SurfacePoint> sites = given.to_surface(given_sites.points);
+    const std::vector<agvd::SurfacePoint> sites = place_sites(given, given_sites, options);
     const auto of_given = [&](const std::vector<double>& distances) {
         return carry(given.vertices_of_least(distances), distances, agvd::infinity);
     };
-    options.shapes = given.to_surface(given_sites.shapes);
     if (!options.shapes.empty()) {  // They consist of edges and faces of the surface.
         options.progress = progress_of("propagate");
         return of_given(agvd::propagate(given.surface(), sites, options).vertex_distance);

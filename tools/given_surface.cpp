@@ -1,5 +1,7 @@
 #include "given_surface.h"
 
+#include <utility>
+
 #include "agvd/mesh/cut_surface.h"
 #include "remesh/clean/carry.h"
 
@@ -22,6 +24,24 @@ std::vector<agvd::SiteShape> carry_shapes(std::span<const remesh::GivenShape> sh
     return carried;
 }
 
+std::vector<Index> vertices_of_least(const agvd::MeshView& mesh, const remesh::CleanedView& clean,
+                                     const agvd::Surface& surface, std::span<const double> value) {
+    std::vector<Index> result(mesh.positions.size(), agvd::no_index);
+    const auto& there = surface.mesh.positions;
+    const std::span<const agvd::Vec3> here = clean.welded(mesh).positions;
+    for (Index f = 0; f < surface.num_faces(); ++f) {
+        const Index origin = clean.face_origin.empty() ? f : clean.face_origin[f];
+        for (const Index given : mesh.triangles[origin]) {
+            for (const Index cleaned : surface.mesh.triangles[f]) {
+                if (there[cleaned] != here[given]) continue;
+                Index& best = result[given];
+                if (best == agvd::no_index || value[cleaned] < value[best]) best = cleaned;
+            }
+        }
+    }
+    return result;
+}
+
 GivenSurface::GivenSurface(const agvd::MeshView& mesh, const remesh::CleanOptions& cleaning,
                            std::span<const std::array<Index, 2>> barriers)
     : mesh_(mesh),
@@ -29,7 +49,8 @@ GivenSurface::GivenSurface(const agvd::MeshView& mesh, const remesh::CleanOption
       surface_(agvd::build_surface(clean_.mesh.view(), cleaning.num_threads, cleaning.progress)) {
     if (barriers.empty()) return;
     const std::vector<std::uint8_t> is_cut = remesh::carry_edges(barriers, mesh_, clean_, surface_);
-    surface_ = agvd::cut_along(surface_, is_cut, cleaning.num_threads, cleaning.progress).surface;
+    whole_ = std::move(surface_);
+    surface_ = agvd::cut_along(*whole_, is_cut, cleaning.num_threads, cleaning.progress).surface;
 }
 
 GivenSurface::GivenSurface(const agvd::MeshView& mesh, std::span<const double> side_length,
@@ -42,34 +63,17 @@ std::vector<SurfacePoint> GivenSurface::to_surface(const std::vector<SurfacePoin
     return remesh::to_cleaned(points, mesh_, clean_);
 }
 
-std::vector<agvd::SiteShape> GivenSurface::to_surface(
-    const std::vector<remesh::GivenShape>& shapes) const {
-    return carry_shapes(shapes, mesh_, clean_, surface_);
+agvd::SurfaceSites GivenSurface::to_surface(const std::vector<SurfacePoint>& points,
+                                            const agvd::SitePoints& roles,
+                                            const std::vector<remesh::GivenShape>& shapes) const {
+    agvd::SurfaceSites sites{to_surface(points), roles,
+                             carry_shapes(shapes, mesh_, clean_, surface_)};
+    return whole_ ? agvd::on_all_sides(*whole_, surface_, std::move(sites)) : sites;
 }
 
 std::vector<SurfacePoint> GivenSurface::to_given(const std::vector<SurfacePoint>& points) const {
     if (surface_.has_own_lengths) return points;
     return remesh::to_original(points, mesh_, clean_);
-}
-
-std::vector<Index> GivenSurface::vertices_of_least(std::span<const double> value) const {
-    std::vector<Index> result(mesh_.positions.size(), agvd::no_index);
-    if (surface_.has_own_lengths) {
-        for (const agvd::Triangle& t : mesh_.triangles) {
-            for (const Index v : t) result[v] = v;
-        }
-        return result;
-    }
-    for (std::size_t f = 0; f < clean_.mesh.triangles.size(); ++f) {
-        for (const Index given : mesh_.triangles[clean_.face_origin[f]]) {
-            for (const Index cleaned : surface_.mesh.triangles[f]) {
-                if (surface_.mesh.positions[cleaned] != mesh_.positions[given]) continue;
-                Index& best = result[given];
-                if (best == agvd::no_index || value[cleaned] < value[best]) best = cleaned;
-            }
-        }
-    }
-    return result;
 }
 
 }  // namespace cli

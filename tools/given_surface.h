@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 
 #include "agvd/mesh/mesh.h"
@@ -19,6 +20,16 @@ namespace cli {
                                                         const agvd::MeshView& mesh,
                                                         const remesh::CleanedView& clean,
                                                         const agvd::Surface& surface);
+
+//! For each vertex of a mesh the vertex of its surface at its place: of several the one with the
+//! least value. no_index: it is in no face of the surface.
+//! \param clean    of the mesh; without face_origin the surface is that of the mesh itself.
+//! \param surface  of clean.mesh; it may have been cut along edges.
+//! \param value    by vertex of the surface.
+[[nodiscard]] std::vector<agvd::Index> vertices_of_least(const agvd::MeshView& mesh,
+                                                         const remesh::CleanedView& clean,
+                                                         const agvd::Surface& surface,
+                                                         std::span<const double> value);
 
 //! What all stages but remesh() work on. Points are carried between the caller's faces and those of
 //! the surface.
@@ -40,8 +51,9 @@ public:
     [[nodiscard]] const agvd::Surface& surface() const { return surface_; }
     [[nodiscard]] std::vector<agvd::SurfacePoint> to_surface(
         const std::vector<agvd::SurfacePoint>& points) const;
-    //! \throw as remesh::carry_shapes.
-    [[nodiscard]] std::vector<agvd::SiteShape> to_surface(
+    //! Those on barriers count on all sides. \throw as remesh::carry_shapes.
+    [[nodiscard]] agvd::SurfaceSites to_surface(
+        const std::vector<agvd::SurfacePoint>& points, const agvd::SitePoints& roles,
         const std::vector<remesh::GivenShape>& shapes) const;
     [[nodiscard]] std::vector<agvd::SurfacePoint> to_given(
         const std::vector<agvd::SurfacePoint>& points) const;
@@ -51,15 +63,16 @@ public:
         return clean_.face_origin.empty() ? face : clean_.face_origin[face];
     }
 
-    //! For each of the caller's vertices the vertex of the surface at its place: of several the one
-    //! with the least value. no_index: it is in no face of the surface.
-    //! \param value  by vertex of the surface.
-    [[nodiscard]] std::vector<agvd::Index> vertices_of_least(std::span<const double> value) const;
+    //! Of the caller's vertices: see above.
+    [[nodiscard]] std::vector<agvd::Index> vertices_of_least(std::span<const double> value) const {
+        return cli::vertices_of_least(mesh_, clean_, surface_, value);
+    }
 
 private:
     agvd::MeshView mesh_;
     remesh::CleanResult clean_;
     agvd::Surface surface_;
+    std::optional<agvd::Surface> whole_;  // Without barriers, if there are any.
 };
 
 }  // namespace cli

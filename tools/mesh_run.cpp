@@ -17,6 +17,10 @@ void write(const MeshRun& run, const Products& products, Console& console) {
     }
     remesh::write_files_atomically(products.files, console.progress_of("write"));
     console.info(products.text);
+    for (const remesh::FileContent& file : products.files) {
+        const std::string path = file.path.string();
+        if (products.text.find(path) == std::string::npos) console.info("written: " + path);
+    }
 }
 
 std::string report_without_result(const MeshRun& run, const Failure& failure,

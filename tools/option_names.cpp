@@ -10,12 +10,16 @@ namespace {
 using Names = std::pair<std::string_view, std::string_view>;
 
 // Those that texts of errors name and a command line can cause.
-constexpr std::array names{
-    Names{"densities", "--density"},         Names{"drop_components", "--drop-components"},
-    Names{"longest_edge", "--longest-edge"}, Names{"max_angle", "--max-angle"},
-    Names{"max_edge", "--max-edge"},         Names{"max_error", "--max-error"},
-    Names{"min_angle", "--min-angle"},       Names{"min_edge", "--min-edge"},
-    Names{"num_samples", "--samples"},       Names{"target_lengths", "--sizing"}};
+constexpr std::array names{Names{"VertexDensities", "--density"},
+                           Names{"VertexLengths", "--sizing"},
+                           Names{"drop_components", "--drop-components"},
+                           Names{"longest_edge", "--longest-edge"},
+                           Names{"max_angle", "--max-angle"},
+                           Names{"max_edge", "--max-edge"},
+                           Names{"max_error", "--max-error"},
+                           Names{"min_angle", "--min-angle"},
+                           Names{"min_edge", "--min-edge"},
+                           Names{"num_samples", "--samples"}};
 
 }  // namespace
 

@@ -1,6 +1,7 @@
 #include "page_outputs.h"
 
 #include <CLI/CLI.hpp>
+#include <string_view>
 
 #include "page/viewer.h"
 #include "picture.h"
@@ -23,6 +24,13 @@ bool wants_pages(const PageArguments& arguments) {
 }
 
 void check_page_option(const char* option, const std::filesystem::path& path) {
+    const std::string extension = path.extension().string();
+    if (std::string_view(option) == "--html" && !extension.empty() && extension != ".html" &&
+        extension != ".htm") {
+        throw agvd::InvalidOption(path.string() + ": " + option +
+                                  " writes a page of HTML; name it .html, which a browser prints "
+                                  "as PDF");
+    }
     if (path != "-") return;
     throw agvd::InvalidOption(std::string(option) +
                               " does not write to the standard output; name a file");

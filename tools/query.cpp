@@ -24,7 +24,8 @@ void cut_along_barriers(const DiagramArguments& arguments, Console& console, Ope
     const std::vector<std::uint8_t> is_cut = naming_file(arguments.barriers, [&] {
         return remesh::carry_edges(edges, input.file.mesh.view(), input.clean, input.surface);
     });
-    input.surface = agvd::cut_along(input.surface, is_cut, arguments.common.threads,
+    input.whole = std::move(input.surface);
+    input.surface = agvd::cut_along(*input.whole, is_cut, arguments.common.threads,
                                     console.progress_of("clean"))
                         .surface;
 }
@@ -72,7 +73,8 @@ void add_barriers(CLI::App& app, DiagramArguments& arguments) {
     start_group(app, heading::geodesics);
     app.add_option("--barriers", arguments.barriers,
                    "Edges that no path crosses: lines of two vertices, counted from 0. The mesh is "
-                   "cut along them: their vertices come once for each side")
+                   "cut along them: their vertices come once for each side, and sites "
+                   "on them count on both")
         ->type_name("FILE");
 }
 
@@ -86,10 +88,12 @@ void add_edge_lengths(CLI::App& app, DiagramArguments& arguments) {
         ->type_name("FILE");
 }
 
-CLI::Option* add_outputs(CLI::App& app, std::vector<fs::path>& outputs) {
+CLI::Option* add_outputs(CLI::App& app, QueryArguments& arguments) {
     start_group(app, heading::files);
+    app.add_flag("--ascii", arguments.ascii, "Write .ply as text, for programs that read no other");
     return app
-        .add_option("-o,--output", outputs, "File to write; repeat the option to write more files")
+        .add_option("-o,--output", arguments.outputs,
+                    "File to write; repeat the option to write more files")
         ->type_name("FILE")
         ->allow_extra_args(false);
 }
@@ -131,13 +135,13 @@ OpenedInput open_input(const DiagramArguments& arguments, Console& console,
     return input;
 }
 
-GivenSites sites_on(const OpenedInput& input, const DiagramArguments& arguments, Console& console) {
-    GivenSites sites;
+agvd::SurfaceSites sites_on(const OpenedInput& input, const DiagramArguments& arguments,
+                            Console& console) {
+    agvd::SurfaceSites sites;
     if (arguments.sites.empty()) {
         sites.points = sample(arguments, input.surface, console);
     } else {
-        const agvd::MeshView mesh = input.file.mesh.view();
-        remesh::SitesFile given = read_given_sites(arguments, mesh, console);
+        remesh::SitesFile given = read_given_sites(arguments, input.file, console);
         sites.points = naming_file(arguments.sites, [&] { return on_surface(input, given.sites); });
         sites.roles = std::move(given.points);
         sites.shapes = naming_file(arguments.sites, [&] {
@@ -148,29 +152,42 @@ GivenSites sites_on(const OpenedInput& input, const DiagramArguments& arguments,
     if (slit > remesh::mean_spacing(input.surface, sites.points.size() + sites.shapes.size())) {
         console.warn(welded_slit_text(slit));
     }
+    if (!input.whole) return sites;
+    const std::size_t num_points = sites.points.size();
+    sites = agvd::on_all_sides(*input.whole, input.surface, std::move(sites));
+    if (sites.points.size() > num_points) {
+        console.info("sites on barriers count on both sides of these");
+    }
     return sites;
 }
 
-agvd::Propagation propagate_everywhere(const OpenedInput& input, const DiagramArguments& arguments,
-                                       const GivenSites& sites, Console& console) {
+agvd::Propagation propagate_on(const OpenedInput& input, const DiagramArguments& arguments,
+                               const agvd::SurfaceSites& sites,
+                               std::vector<agvd::Index> relay_faces, Console& console) {
     agvd::PropagationOptions propagating = arguments.propagation;
     propagating.points = sites.roles;
     propagating.shapes = sites.shapes;
-    propagating.relay_faces = agvd::all_faces(input.surface);
+    propagating.relay_faces = std::move(relay_faces);
     propagating.num_threads = arguments.common.threads;
     propagating.progress = console.progress_of("propagate");
-    agvd::Propagation propagation = naming_file(
+    return naming_file(
         arguments.input, [&] { return agvd::propagate(input.surface, sites.points, propagating); },
         arguments.sites);
-    console.info(remesh::to_text(propagating.engine, propagation.certified_error));
-    return propagation;
 }
 
 std::vector<SurfacePoint> points_on(const OpenedInput& input, const fs::path& path,
                                     Console& console) {
-    const agvd::MeshView mesh = input.file.mesh.view();
-    const std::vector<SurfacePoint> given = read_points(path, mesh, console);
+    const std::vector<SurfacePoint> given = read_points(path, input.file, console);
     return naming_file(path, [&] { return on_surface(input, given); });
+}
+
+void write_files(const QueryArguments& arguments, std::vector<remesh::FileContent> files,
+                 const agvd::Progress& progress) {
+    for (remesh::FileContent& file : files) {
+        if (!arguments.ascii || file.path.extension() != ".ply") continue;
+        file.bytes = remesh::ply_as_text(std::move(file.bytes));
+    }
+    remesh::write_files_atomically(files, progress);
 }
 
 void write_lines(const QueryArguments& arguments, const remesh::Lines& lines, Console& console) {
@@ -179,7 +196,7 @@ void write_lines(const QueryArguments& arguments, const remesh::Lines& lines, Co
     for (const fs::path& output : arguments.outputs) {
         files.push_back({output, remesh::format_lines(output, lines, writing)});
     }
-    remesh::write_files_atomically(files, writing);
+    write_files(arguments, std::move(files), writing);
 }
 
 }  // namespace cli

@@ -5,6 +5,7 @@
 #include <functional>
 #include <initializer_list>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "agvd/propagation/propagate.h"
 #include "arguments.h"
 #include "expected_stages.h"
+#include "remesh/meshfile/atomic_file.h"
 #include "remesh/meshfile/lines_file.h"
 
 namespace cli {
@@ -20,6 +22,7 @@ namespace cli {
 //! Options that every subcommand with a mesh has.
 struct QueryArguments : DiagramArguments {
     std::vector<std::filesystem::path> outputs;
+    bool ascii = false;  //!< PLY is written as text.
 };
 
 //! A subcommand. Its arguments live as long as `run`.
@@ -54,8 +57,8 @@ template <typename Arguments>
 //! \return what is wrong; an empty text: nothing.
 [[nodiscard]] std::string check_length(const char* name, const std::string& text);
 
-//! Adds -o, which may be repeated. \return it, for those that require it.
-CLI::Option* add_outputs(CLI::App& app, std::vector<std::filesystem::path>& outputs);
+//! Adds -o, which may be repeated, and --ascii. \return the first, for those that require it.
+CLI::Option* add_outputs(CLI::App& app, QueryArguments& arguments);
 
 //! Checks -o before the long work.
 //! \param inputs  files besides IN that must not be overwritten; may be empty paths.
@@ -68,7 +71,8 @@ void check_outputs(const QueryArguments& arguments,
 struct OpenedInput {
     remesh::MeshFile file;
     remesh::CleanResult clean;
-    agvd::Surface surface;  //!< Of clean.mesh, cut along the barriers.
+    agvd::Surface surface;                    //!< Of clean.mesh, cut along the barriers.
+    std::optional<agvd::Surface> whole = {};  //!< Without barriers, if there are any.
 };
 
 //! Adds --barriers.
@@ -85,26 +89,25 @@ void add_edge_lengths(CLI::App& app, DiagramArguments& arguments);
     const DiagramArguments& arguments, Console& console,
     const std::function<std::vector<ExpectedStage>(std::size_t num_faces)>& stages);
 
-//! Points on the cleaned mesh, and what they stand for; lines and regions on it.
-struct GivenSites {
-    std::vector<agvd::SurfacePoint> points;
-    agvd::SitePoints roles;
-    std::vector<agvd::SiteShape> shapes;
-};
+//! The sites of --sites, or sampled ones; those on barriers on all sides.
+[[nodiscard]] agvd::SurfaceSites sites_on(const OpenedInput& input,
+                                          const DiagramArguments& arguments, Console& console);
 
-//! The sites of --sites, or sampled ones.
-[[nodiscard]] GivenSites sites_on(const OpenedInput& input, const DiagramArguments& arguments,
-                                  Console& console);
-
-//! Distances with relays in all faces; tells the engine and its error.
-[[nodiscard]] agvd::Propagation propagate_everywhere(const OpenedInput& input,
-                                                     const DiagramArguments& arguments,
-                                                     const GivenSites& sites, Console& console);
+//! Distances with relays in some faces.
+[[nodiscard]] agvd::Propagation propagate_on(const OpenedInput& input,
+                                             const DiagramArguments& arguments,
+                                             const agvd::SurfaceSites& sites,
+                                             std::vector<agvd::Index> relay_faces,
+                                             Console& console);
 
 //! The points of a file, on the cleaned mesh.
 [[nodiscard]] std::vector<agvd::SurfacePoint> points_on(const OpenedInput& input,
                                                         const std::filesystem::path& path,
                                                         Console& console);
+
+//! Writes all files, or none; PLY as --ascii asks for.
+void write_files(const QueryArguments& arguments, std::vector<remesh::FileContent> files,
+                 const agvd::Progress& progress);
 
 //! Writes the lines to all outputs, or to none.
 void write_lines(const QueryArguments& arguments, const remesh::Lines& lines, Console& console);

@@ -357,7 +357,9 @@ Input prepare(const Arguments& arguments, cli::Console& console) {
         cli::select_attributes(arguments.attributes, arguments.input,
                                {arguments.output, arguments.to}, input.attributes, console);
     const bool needs_map = cli::needs_map(arguments.attributes, input.attributes);
-    if (!needs_map) std::vector<agvd::Index>().swap(input.face_polygon);  // Not used any more.
+    if (!needs_map && arguments.sites.empty()) {
+        std::vector<agvd::Index>().swap(input.face_polygon);  // Not used any more.
+    }
     console.info(cli::describe(arguments.input, input.mesh.view()));
     // Otherwise memory that half a stage has freed between its results would stay in use. Less than
     // a small run takes in all is kept: each page that comes back is cleared anew, a fifth of the
@@ -401,7 +403,7 @@ Input prepare(const Arguments& arguments, cli::Console& console) {
         options.cleaning.weld = cli::length_of(*arguments.weld, input.mesh.view());
     }
     if (!arguments.sites.empty()) {
-        remesh::SitesFile given = cli::read_given_sites(arguments, input.mesh.view(), console);
+        remesh::SitesFile given = cli::read_given_sites(arguments, input, console);
         cli::require_plain_points(arguments.sites, given.points, given.shapes.size(),
                                   "vertices are made of");
         options.sites = std::move(given.sites);

@@ -159,6 +159,7 @@ void run_split(const SplitArguments& arguments, cli::Console& console) {
         remesh::split_into_tiles(arguments.input, arguments.folder, options);
     console.info(std::to_string(plan.num_faces) + " faces in " + std::to_string(plan.num_tiles()) +
                  " tiles, with " + std::to_string(plan.num_sites) + " vertices on their borders");
+    if (plan.crease_length > 0) console.warn(cli::creases_of_tiles_text(plan.crease_length));
 }
 
 void run_mesh(const MeshArguments& arguments, cli::Console& console) {

@@ -12,26 +12,6 @@ namespace {
 
 using Warnings = std::vector<std::string>;
 
-// What the result is too coarse to show, and how many samples would do; empty: nothing.
-std::string describe_coarseness(const remesh::RemeshResult& result) {
-    const remesh::FeatureCounts& creases = result.features;
-    const remesh::Verdict& verdict = result.verdict;
-    std::string text;
-    agvd::Index enough = 0;  // 0: not known.
-    const auto add = [&](bool is_so, const char* what, agvd::Index samples) {
-        if (!is_so) return;
-        text += (text.empty() ? "" : ", ") + std::string(what);
-        enough = std::max(enough, samples);
-    };
-    add(creases.close_length > 0, "close creases", 0);
-    add(creases.dropped_length > 0, "creases", creases.samples_for_all);
-    add(verdict.thin_walls > 0, "walls", verdict.samples_for_walls);
-    add(verdict.small_components > 0, "components", verdict.samples_for_components);
-    if (text.empty()) return text;
-    text = "the result is too coarse for some " + text + "; use more --samples";
-    return enough == 0 ? text : text + " (about " + std::to_string(enough) + " would do)";
-}
-
 // What makes the edges of the result shorter.
 std::string finer(const remesh::RemeshOptions& options) {
     const auto& count = options.sizing.count;
@@ -66,7 +46,7 @@ void judge(const remesh::RemeshResult& result, const std::string& more, bool str
     const auto refuse = [](const std::string& text) {
         throw agvd::ConstraintUnmet(text + ", or leave out --strict");
     };
-    if (const std::string text = describe_coarseness(result); strict && !text.empty()) refuse(text);
+    if (const std::string text = coarseness_text(result); strict && !text.empty()) refuse(text);
     const auto tell = [&](const std::string& text) {
         if (strict) refuse(text);
         warnings.push_back(text);
@@ -121,6 +101,31 @@ double spacing_of(const remesh::RemeshResult& result) {
 }
 
 }  // namespace
+
+std::string coarseness_text(const remesh::RemeshResult& result) {
+    const remesh::FeatureCounts& creases = result.features;
+    const remesh::Verdict& verdict = result.verdict;
+    std::string text;
+    agvd::Index enough = 0;  // 0: not known.
+    const auto add = [&](bool is_so, const char* what, agvd::Index samples) {
+        if (!is_so) return;
+        text += (text.empty() ? "" : ", ") + std::string(what);
+        enough = std::max(enough, samples);
+    };
+    add(creases.close_length > 0, "close creases", 0);
+    add(creases.dropped_length > 0, "creases", creases.samples_for_all);
+    add(verdict.thin_walls > 0, "walls", verdict.samples_for_walls);
+    add(verdict.small_components > 0, "components", verdict.samples_for_components);
+    if (text.empty()) return text;
+    text = "the result is too coarse for some " + text + "; use more --samples";
+    return enough == 0 ? text : text + " (about " + std::to_string(enough) + " would do)";
+}
+
+std::string creases_of_tiles_text(double length) {
+    return "the mesh has creases of length " + agvd::number_text(length) +
+           " in mesh units, which tiles do not keep: they come out cut off; remesh it in one piece "
+           "if memory suffices";
+}
 
 std::string welded_slit_text(double length) {
     return "a slit of length " + agvd::number_text(length) +

@@ -10,6 +10,12 @@
 
 namespace cli {
 
+//! What the result is too coarse to show, and how many samples would do; empty: nothing.
+[[nodiscard]] std::string coarseness_text(const remesh::RemeshResult& result);
+
+//! A warning of creases of that length, in mesh units, which tiles do not keep.
+[[nodiscard]] std::string creases_of_tiles_text(double length);
+
 //! A warning of a slit of that length, in mesh units.
 [[nodiscard]] std::string welded_slit_text(double length);
 

@@ -172,7 +172,7 @@ TEST_F(AgvdDistance, NoPathCrossesABarrier) {
     ASSERT_EQ(
         distance({in, "--sites", sites, "--barriers", barriers, "-o", at("d.ply"), "-q"}).exit_code,
         0);
-    EXPECT_EQ(column("d.ply", 1).size(), mesh.positions.size() + 31);
+    EXPECT_EQ(column("d.ply", 1).size(), mesh.positions.size());
     EXPECT_NEAR(column("d.ply", 1)[41 * 20 + 25], 1.67630546, 1e-8);
     for (const char* engine : {"window", "steiner"}) {
         const auto diagram =
@@ -182,6 +182,12 @@ TEST_F(AgvdDistance, NoPathCrossesABarrier) {
         EXPECT_NEAR(column("c.ply", 1)[41 * 20 + 25], 1.67630546, 1e-2);
         EXPECT_EQ(run(AGVD_PROGRAM, {"compare", at("c.agvd"), "exact", "-q"}).exit_code, 0);
     }
+    const auto on_it =
+        distance({in, "--sites", put("on", "v 840\n"), "--barriers", barriers, "--targets",
+                  put("both", "p 1 1.1 0\np 1 .9 0\n"), "-o", at("t.csv")});
+    ASSERT_EQ(on_it.exit_code, 0) << on_it.err;
+    EXPECT_NE(on_it.err.find("sites on barriers count on both sides"), std::string::npos);
+    EXPECT_EQ(bytes("t.csv"), "site,distance\n0,0.10000000000000009\n0,0.099999999999999978\n");
     const auto wrong = distance(
         {in, "--sites", sites, "--barriers", put("wrong", "0 100\n"), "-o", at("no.ply"), "-q"});
     EXPECT_EQ(wrong.exit_code, 4);
@@ -189,6 +195,19 @@ TEST_F(AgvdDistance, NoPathCrossesABarrier) {
     EXPECT_EQ(
         distance({in, "--sites", sites, "--barriers", at("none"), "-o", at("no.ply")}).exit_code,
         3);
+}
+
+// Vertex 1 is in no face, 3 is at the place of 0, and the last face has no area.
+TEST_F(AgvdDistance, KeepsTheNumbersOfTheInput) {
+    const std::string in =
+        put("in.off",
+            agvd::TriangleMesh{
+                {{0, 0, 0}, {9, 9, 9}, {1, 0, 0}, {0, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, 0, 0}},
+                {{0, 2, 4}, {3, 4, 5}, {0, 3, 6}}});
+    ASSERT_EQ(distance({in, "--sites", put("s", "v 2\n"), "-o", at("d.ply"), "-q"}).exit_code, 0);
+    const double inf = agvd::infinity;
+    EXPECT_EQ(column("d.ply", 0), (std::vector<double>{0, -1, 0, 0, 0, 0, -1}));
+    EXPECT_EQ(column("d.ply", 1), (std::vector<double>{1, inf, 0, 1, std::sqrt(2), 2, inf}));
 }
 
 TEST_F(AgvdDistance, OfTargetsIsATable) {

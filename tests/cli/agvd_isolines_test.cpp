@@ -84,7 +84,7 @@ TEST_F(AgvdIsolines, ComeAtEachMultiple) {
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_NE(outcome.err.find(" at 7 levels"), std::string::npos) << outcome.err;
     const std::string text = bytes("l.obj");
-    for (const char* level : {"# level 0.1\n", "# level 0.5\n", "# level 0.7"}) {
+    for (const char* level : {" level 0.1\n", " level 0.5\n", " level 0.7"}) {
         EXPECT_NE(text.find(level), std::string::npos) << level;
     }
 }

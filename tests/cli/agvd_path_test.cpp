@@ -79,10 +79,11 @@ TEST_F(AgvdPath, WarnsOfTargetsThatNoSiteReaches) {
     const std::string in =
         put("two.off", shapes::join(shapes::grid(2), shapes::moved(shapes::grid(2), {3, 0, 0})));
     const auto outcome = path({in, "--sites", put("s", "v 0\n"), "--targets",
-                               put("t", "v 4\nv 12\n"), "-o", at("p.obj"), "-q"});
+                               put("t", "v 12\nv 4\n"), "-o", at("p.obj"), "-q"});
     EXPECT_EQ(outcome.exit_code, 0);
     EXPECT_NE(outcome.err.find("no site reaches 1 targets"), std::string::npos) << outcome.err;
     EXPECT_EQ(numbers(bytes("p.obj"), "length").size(), 1u);
+    EXPECT_EQ(numbers(bytes("p.obj"), "line"), std::vector<double>{1});
 }
 
 TEST_F(AgvdPath, RefusesWhatItCannotDoAndWritesNothing) {

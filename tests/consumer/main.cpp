@@ -1,4 +1,4 @@
-#include <remesh/pipeline/remesh.h>
+#include <remesh/remesh.h>
 
 #include <cstdio>
 

@@ -270,6 +270,8 @@ def test_no_path_crosses_a_barrier():
     assert far[row[16]] == pytest.approx(0.25)  # The near side.
     assert remesh.geodesic_distance(V, F, [source], 0, barriers=slit,
                                     targets=[target]) == pytest.approx(around, abs=1e-12)
+    on_slit = remesh.geodesic_distance(V, F, [row[16]], 0, barriers=slit)
+    assert on_slit[[source, target]] == pytest.approx([0.25, 0.25])  # Both sides.
     diagram = remesh.voronoi(V, F, [source, target], barriers=slit)
     assert diagram.cell_area.sum() == pytest.approx(4)
     with pytest.raises(remesh.InvalidInput, match="barriers"):

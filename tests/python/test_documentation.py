@@ -123,3 +123,14 @@ def test_errors_have_one_base():
                  "OutOfMemory", "FileError"):
         error = getattr(remesh, name)
         assert issubclass(error, remesh.Error) and error.__module__ == "remesh" and error.__doc__
+
+
+def test_every_argument_is_named():
+    functions = [(name, getattr(remesh, name)) for name in remesh.__all__]
+    functions += [(f"tiles.{name}", getattr(remesh.tiles, name)) for name in ("split", "mesh", "join")]
+    for name, function in functions:
+        if not inspect.isfunction(function):
+            continue
+        text = function.__doc__ + remesh.__doc__
+        for parameter in inspect.signature(function).parameters:
+            assert re.search(rf"\b{parameter}\b", text), f"{name}: {parameter}"

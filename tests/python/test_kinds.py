@@ -193,3 +193,43 @@ def test_trimesh():
     mesh = trimesh.creation.icosphere()
     result = remesh.remesh(mesh, 500)
     assert type(result.mesh) is type(mesh) and len(result.mesh.vertices) == 500
+
+
+def test_results_go_back_in(tmp_path):
+    V, F = remesh.examples.sphere(3)
+    result = remesh.remesh(V, F, 100, transfer={"height": V[:, 2]})
+    for again in (result, result.mesh, (result.V, result.F)):
+        assert len(remesh.remesh(again, 80).V) == 80
+    remesh.write(tmp_path / "a.ply", result)
+    back = remesh.read(tmp_path / "a.ply")
+    assert np.array_equal(back.vertex_data["height"], result.vertex_data["height"])
+    own = remesh.remesh(back, 90)
+    remesh.write(tmp_path / "b.ply", own)
+    assert remesh.remesh(own, 80).vertex_data["height"].shape == (80,)
+    cleaned = remesh.clean(V, F)
+    assert len(remesh.remesh(cleaned, 70).V) == 70
+
+
+def test_a_path_is_no_mesh():
+    with pytest.raises(TypeError, match=r"read it first: remesh.read\('gear.stl'\)"):
+        remesh.remesh("gear.stl")
+
+
+def test_unknown_arguments_name_the_one_that_was_meant():
+    V, F = remesh.examples.sphere(1)
+    with pytest.raises(TypeError, match="no argument 'edge_lenght'; did you mean 'edge_length'"):
+        remesh.remesh(V, F, edge_lenght=0.1)
+    with pytest.raises(TypeError, match="did you mean 'max_error'"):
+        remesh.voronoi(V, F, [0], maxerror=0)
+
+
+def test_what_the_program_warns_of_are_warnings():
+    V, F = remesh.examples.sphere(3)
+    plate = V * [1, 1, 0.01]
+    with pytest.warns(UserWarning, match="too coarse for some walls; use a larger n") as told:
+        result = remesh.remesh(plate, F, 100)
+    assert [str(one.message) for one in told] == result.report["warnings"]
+    assert told[0].filename == __file__
+    three = np.vstack([F[:3], [F[0, [1, 0, 2]] * [1, 1, 0] + [0, 0, len(V)]]])
+    with pytest.warns(UserWarning, match="repaired: "):
+        remesh.remesh(np.vstack([V, [[3, 0, 0]]]), three, 60, features="off")

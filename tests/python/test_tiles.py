@@ -103,3 +103,21 @@ def test_one_command(scan, tmp_path):
     assert done.returncode == 0, done.stderr
     assert done.stdout.splitlines()[-1] == "100 % of the tiles"
     assert remesh.read(out).V.shape == (3000, 3)
+
+
+def test_creases_that_tiles_do_not_keep_are_a_warning(tmp_path):
+    side, steps = np.arange(33) / 32, np.arange(32)
+    V = np.array([[x, y, z] for z in (0, 1) for y in side for x in side])
+    at = 33 * steps[:, None] + steps
+    squares = np.stack([at, at + 1, at + 34, at + 33], axis=2).reshape(-1, 4)
+    faces = np.vstack([squares[:, ::-1], squares + 33 * 33])
+    rim = np.concatenate([steps, 33 * steps + 32, 33 * 32 + 32 - steps, 33 * (32 - steps)])
+    walls = np.stack([rim, np.roll(rim, -1), np.roll(rim, -1) + 33 * 33, rim + 33 * 33], axis=1)
+    quads = np.vstack([faces, walls])
+    remesh.write(tmp_path / "box.ply", V, np.vstack([quads[:, :3], quads[:, [0, 2, 3]]]))
+    with pytest.warns(UserWarning, match="creases of length .* tiles do not keep"):
+        plan = remesh.tiles.split(tmp_path / "box.ply", tmp_path / "t", 2000)
+    assert "creases" in plan.warning
+    done = subprocess.run([sys.executable, "-m", "remesh.distributed", tmp_path / "none.ply", "out.ply"],
+                          capture_output=True, text=True)
+    assert done.returncode == 1 and "error:" in done.stderr and "Traceback" not in done.stderr

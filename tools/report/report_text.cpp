@@ -76,8 +76,12 @@ std::string why_dropped(const FeatureCounts& features) {
     return text + "with creases no good mesh was found";
 }
 
-std::string describe_place(const Vec3& at) {
-    return significant(at.x()) + ' ' + significant(at.y()) + ' ' + significant(at.z());
+// With the digits that place it in a box of this diagonal, however far from the origin.
+std::string describe_place(const Vec3& at, double diagonal) {
+    const double far = at.cwiseAbs().maxCoeff() / diagonal;
+    const int digits = 4 + (far > 1 ? std::min(12, static_cast<int>(std::log10(far)) + 1) : 0);
+    return agvd::number_text(at.x(), digits) + ' ' + agvd::number_text(at.y(), digits) + ' ' +
+           agvd::number_text(at.z(), digits);
 }
 
 // Empty without creases.
@@ -152,7 +156,8 @@ std::string describe_lost(const Verdict& verdict, const FeatureCounts& features)
     }
     if (features.freed_length > 0) {
         add("creases of length " + significant(features.freed_length) + " (given up near " +
-            describe_place(features.freed_near) + ", where faces would intersect or be flat)");
+            describe_place(features.freed_near, verdict.diagonal) +
+            ", where faces would intersect or be flat)");
     }
     if (verdict.thin_walls > 0) {
         add(counted(verdict.thin_walls, "wall") + " (thinnest " +
@@ -199,9 +204,9 @@ std::string describe_verdict(const RemeshResult& result) {
            " degrees" + describe_narrow(verdict.narrow) + "; " + describe_crossings(result) +
            "\ndistance: farthest " +
            significant(100 * verdict.largest_distance / verdict.diagonal) +
-           " % of the size, from the input's vertex at " + describe_place(verdict.farthest) +
-           "\ntoo small for edges of " + significant(verdict.spacing) + ": " +
-           (lost.empty() ? "nothing" : lost);
+           " % of the size, from the input's vertex at " +
+           describe_place(verdict.farthest, verdict.diagonal) + "\ntoo small for edges of " +
+           significant(verdict.spacing) + ": " + (lost.empty() ? "nothing" : lost);
 }
 
 // Empty if the file has no attributes.

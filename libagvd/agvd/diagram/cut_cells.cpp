@@ -1,9 +1,9 @@
 // The faces are cut along the bisectors (mesh/line_cutter.h); each polygon gets its cell.
 #include "agvd/diagram/cut_cells.h"
 
+#include <array>
 #include <map>
 #include <string>
-#include <utility>
 
 #include "agvd/core/error.h"
 #include "agvd/mesh/line_cutter.h"
@@ -19,9 +19,10 @@ public:
     CutCells run() {
         collect_pieces();
         std::vector<SiteId> face_site;
-        CutFaces cut = cutter_.run([&](std::span<const Index> polygon, Index num_triangles) {
-            face_site.insert(face_site.end(), num_triangles, site_of(polygon));
-        });
+        CutFaces cut =
+            cutter_.run([&](Index face, std::span<const Index> polygon, Index num_triangles) {
+                face_site.insert(face_site.end(), num_triangles, site_of(face, polygon));
+            });
         return {std::move(cut.mesh), std::move(cut.points), std::move(face_site),
                 std::move(cut.face_origin)};
     }
@@ -47,34 +48,42 @@ private:
                                        std::to_string(e) +
                                        " share no face; give a diagram of this surface");
                 }
-                cutter_.add_piece(piece.from.face.value(), from, to);
-                left_of_[{from, to}] = edge.left;
-                left_of_[{to, from}] = edge.right;
+                const Index face = piece.from.face.value();
+                cutter_.add_piece(face, from, to);
+                left_of_[{from, to, face}] = edge.left;
+                left_of_[{to, from, face}] = edge.right;
             }
         }
     }
 
-    // The cell of a polygon, by a bisector along it, or by a vertex that lies on none.
-    [[nodiscard]] SiteId site_of(const std::span<const Index> polygon) const {
+    // The cell of a polygon, by a bisector along it, by a vertex that lies on none, or by a
+    // bisector on the other side of one of its sides.
+    [[nodiscard]] SiteId site_of(Index face, const std::span<const Index> polygon) const {
+        SiteId beside, any;
         for (std::size_t i = 0; i < polygon.size(); ++i) {
-            const auto found = left_of_.find({polygon[i], polygon[(i + 1) % polygon.size()]});
-            if (found != left_of_.end()) return found->second;
+            const Index from = polygon[i], to = polygon[(i + 1) % polygon.size()];
+            const auto own = left_of_.find({from, to, face});
+            if (own != left_of_.end()) return own->second;
+            const auto first = left_of_.lower_bound({from, to, 0});
+            if (first == left_of_.end() || first->first[0] != from) continue;
+            if (first->first[1] == to) beside = first->second;
         }
-        SiteId any;
         for (const Index vertex : polygon) {
             if (vertex >= surface_.num_vertices()) continue;
             any = diagram_.nearest_site[vertex];
-            const auto piece = left_of_.lower_bound({vertex, 0});
-            if (piece == left_of_.end() || piece->first.first != vertex) return any;
+            const auto piece = left_of_.lower_bound({vertex, 0, 0});
+            if (piece == left_of_.end() || piece->first[0] != vertex) return any;
         }
-        return any;
+        return beside.is_valid() ? beside : any;
     }
 
     const Surface& surface_;
     const Diagram& diagram_;
     Ticker ticker_;
     LineCutter cutter_;
-    std::map<std::pair<Index, Index>, SiteId> left_of_;  // By vertices: the cell left of a piece.
+    // By the vertices of a piece and its face: the cell left of it. Of a bisector that runs into an
+    // edge and out again two pieces have the same vertices.
+    std::map<std::array<Index, 3>, SiteId> left_of_;
 };
 
 }  // namespace

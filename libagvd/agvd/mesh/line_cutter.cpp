@@ -232,7 +232,7 @@ void LineCutter::add_triangles(Index face, std::vector<Index> polygon) {
         std::vector<Index> vertices;
         vertices.reserve(polygon.size());
         for (const Index i : polygon) vertices.push_back(points_[i].vertex);
-        (*each_polygon_)(vertices, static_cast<Index>(polygon.size()) - 2);
+        (*each_polygon_)(face, vertices, static_cast<Index>(polygon.size()) - 2);
     }
     while (polygon.size() >= 3) {
         std::size_t best = 1;  // Of a triangle: in the order of its corners.

@@ -20,8 +20,9 @@ namespace agvd {
 //! never by coordinates.
 class LineCutter {
 public:
-    //! Gets the vertices of each polygon, and how many triangles it is cut into.
-    using EachPolygon = std::function<void(std::span<const Index> vertices, Index num_triangles)>;
+    //! Gets the face and the vertices of each polygon, and how many triangles it is cut into.
+    using EachPolygon =
+        std::function<void(Index face, std::span<const Index> vertices, Index num_triangles)>;
 
     //! The surface outlives this.
     LineCutter(const Surface& surface, Ticker ticker);

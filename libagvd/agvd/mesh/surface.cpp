@@ -37,7 +37,8 @@ void check_elements(const MeshView& mesh, Ticker& ticker) {
         for (const Index v : t) {
             if (v >= mesh.positions.size()) {
                 throw InvalidInput("face " + std::to_string(f) + " names vertex " +
-                                   std::to_string(v) + ", but the mesh has only " +
+                                   (v == no_index ? "-1" : std::to_string(v)) +
+                                   ", but the mesh has only " +
                                    std::to_string(mesh.positions.size()) +
                                    " vertices, counted from 0; correct or delete the face");
             }
@@ -123,7 +124,7 @@ void measure_edges(Surface& surface, int num_threads, Poller& poller) {
 
 // \param side_length  by half-edge.
 void take_lengths(Surface& surface, std::span<const double> side_length, Ticker& ticker) {
-    constexpr double agreement = 1e-12;
+    constexpr double agreement = 1e-12, least = 1e-60, most = 1e60;
     surface.has_own_lengths = true;
     surface.length.resize(surface.num_edges());
     const auto name = [&](Index h) {
@@ -137,6 +138,12 @@ void take_lengths(Surface& surface, std::span<const double> side_length, Ticker&
         if (!(length > 0 && std::isfinite(length))) {
             throw InvalidInput(name(h) + " has the length " + number_text(length) +
                                "; use a number above 0");
+        }
+        if (length < least || length > most) {
+            throw InvalidInput(name(h) + " has the length " + number_text(length) +
+                               ", but lengths are raised to the fourth power; multiply all by a "
+                               "number that brings them between " +
+                               number_text(least) + " and " + number_text(most));
         }
         if (twin != no_index && !(std::abs(side_length[twin] - length) <= agreement * length)) {
             throw InvalidInput(name(h) + " has the lengths " + number_text(length) + " and " +
@@ -187,7 +194,13 @@ void find_all_apexes(Surface& surface, int num_threads, Poller& poller) {
     parallel_chunks(num_half_edges, pass_grain, num_threads, find_apexes, poller);
     const auto first = std::min_element(degenerate.begin(), degenerate.end());
     if (first != degenerate.end() && *first != no_index) {
-        throw InvalidInput("face " + std::to_string(*first / 3) + " has no area" + remedy);
+        const Index h = *first / 3 * 3;
+        const std::string face = "face " + std::to_string(*first / 3);
+        if (!surface.has_own_lengths) throw InvalidInput(face + " has no area" + remedy);
+        throw InvalidInput(face + " has sides of the lengths " + number_text(surface.length_of(h)) +
+                           ", " + number_text(surface.length_of(h + 1)) + " and " +
+                           number_text(surface.length_of(h + 2)) +
+                           ", which make no triangle; correct them");
     }
 }
 

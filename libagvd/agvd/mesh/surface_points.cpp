@@ -114,6 +114,21 @@ Vec2 position_in_frame(const Surface& surface, const SurfacePoint& point, Index 
     return apex * surface.apex[half_edge] + Vec2(head * surface.length_of(half_edge), 0);
 }
 
+SurfacePoint snapped(const Surface& surface, const SurfacePoint& point) {
+    SurfacePoint result = point;
+    auto& b = result.barycentric;
+    if (const std::optional<Index> corner = corner_of(surface, point)) {
+        b = {0, 0, 0};
+        b[*corner % 3] = 1;
+    } else if (const std::optional<Index> h = half_edge_of(point)) {
+        b[(*h + 2) % 3] = 0;
+        const double sum = b[*h % 3] + b[(*h + 1) % 3];
+        b[*h % 3] /= sum;
+        b[(*h + 1) % 3] = 1 - b[*h % 3];
+    }
+    return result;
+}
+
 SurfaceKey key_of(const Surface& surface, const SurfacePoint& point) {
     const std::uint64_t num_vertices = surface.num_vertices();
     if (const auto vertex = vertex_of(surface, point)) return {*vertex, {}};

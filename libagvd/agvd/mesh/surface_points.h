@@ -90,6 +90,9 @@ struct CommonFaces {
     return (apex * surface.apex[h] + Vec2(head * surface.length[surface.edge[h]], 0)).norm();
 }
 
+//! Puts a point that lies on a vertex or an edge up to rounding (see vertex_of) exactly there.
+[[nodiscard]] SurfacePoint snapped(const Surface& surface, const SurfacePoint& point);
+
 //! A vertex, an edge or a face, and a position on it. Keys are equal for equal points, whichever of
 //! its faces a point names.
 struct SurfaceKey {

@@ -105,21 +105,6 @@ void cross(const Surface& surface, Index half_edge, std::vector<Index>& crossed)
     }
 }
 
-SurfacePoint snapped(const Surface& surface, const SurfacePoint& point) {
-    SurfacePoint result = point;
-    auto& b = result.barycentric;
-    if (const std::optional<Index> corner = corner_of(surface, point)) {
-        b = {0, 0, 0};
-        b[*corner % 3] = 1;
-    } else if (const std::optional<Index> h = half_edge_of(point)) {
-        b[(*h + 2) % 3] = 0;
-        const double sum = b[*h % 3] + b[(*h + 1) % 3];
-        b[*h % 3] /= sum;
-        b[(*h + 1) % 3] = 1 - b[*h % 3];
-    }
-    return result;
-}
-
 void trim(const Surface& surface, FaceStrip& strip) {
     std::vector<Index>& crossed = strip.crossed;
     auto first = crossed.begin();

@@ -20,9 +20,6 @@ struct FaceStrip {
 //! Appends a crossing of a half-edge, or undoes the last one if it is the reverse.
 void cross(const Surface& surface, Index half_edge, std::vector<Index>& crossed);
 
-//! Puts a point that lies on a vertex or an edge up to rounding (see vertex_of) exactly there.
-[[nodiscard]] SurfacePoint snapped(const Surface& surface, const SurfacePoint& point);
-
 //! The strip along a path; parameters and errors of straighten_path. Snaps its points.
 [[nodiscard]] FaceStrip strip_along(const Surface& surface, std::span<const SurfacePoint> points,
                                     std::span<const FaceId> faces);

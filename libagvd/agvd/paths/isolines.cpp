@@ -68,6 +68,26 @@ std::vector<FreeLevel> free_levels(const Propagation& propagation, std::span<con
     return result;
 }
 
+std::span<const FreeLevel> levels_that_may_cross(const Surface& surface,
+                                                 const Propagation& propagation,
+                                                 std::span<const FreeLevel> ascending, Index face) {
+    double low = infinity, high = 0, longest = 0;
+    for (Index h = 3 * face; h < 3 * face + 3; ++h) {
+        const double distance = propagation.vertex_distance[surface.tail(h)];
+        low = std::min(low, distance);
+        high = std::max(high, distance);
+        longest = std::max(longest, surface.length_of(h));
+    }
+    // No point of a face lies farther from the nearest corner.
+    const double reach = longest / std::sqrt(3.0);
+    const auto is_lower = [](const FreeLevel& level, double distance) {
+        return level.distance < distance;
+    };
+    const auto begin = std::lower_bound(ascending.begin(), ascending.end(), low - reach, is_lower);
+    const auto end = std::lower_bound(begin, ascending.end(), high + reach, is_lower);
+    return {begin, end};
+}
+
 class IsolineBuilder {
 public:
     IsolineBuilder(const Surface& surface, const Propagation& propagation,
@@ -93,24 +113,8 @@ public:
     }
 
 private:
-    // The levels that may cross a face.
     [[nodiscard]] std::span<const FreeLevel> levels_in(Index face) const {
-        double low = infinity, high = 0, longest = 0;
-        for (Index h = 3 * face; h < 3 * face + 3; ++h) {
-            const double distance = propagation_.vertex_distance[surface_.tail(h)];
-            low = std::min(low, distance);
-            high = std::max(high, distance);
-            longest = std::max(longest, surface_.length_of(h));
-        }
-        // No point of a face lies farther from the nearest corner.
-        const double reach = longest / std::sqrt(3.0);
-        const auto is_lower = [](const FreeLevel& level, double distance) {
-            return level.distance < distance;
-        };
-        const auto begin = std::lower_bound(levels_.begin(), levels_.end(), low - reach, is_lower);
-        const auto end = std::lower_bound(begin, levels_.end(), high + reach, is_lower);
-        return std::span(levels_).subspan(static_cast<std::size_t>(begin - levels_.begin()),
-                                          static_cast<std::size_t>(end - begin));
+        return levels_that_may_cross(surface_, propagation_, levels_, face);
     }
     [[nodiscard]] std::optional<Index> first_without_relays() const {
         Index next = 0;  // Of the mixed faces.
@@ -272,6 +276,16 @@ Isolines build_isolines(const Surface& surface, const Propagation& propagation,
                         std::span<const double> levels, const IsolineOptions& options) {
     check_num_threads(options.num_threads);
     return IsolineBuilder(surface, propagation, free_levels(propagation, levels), options).run();
+}
+
+std::vector<Index> faces_at_levels(const Surface& surface, const Propagation& propagation,
+                                   std::span<const double> levels) {
+    const std::vector<FreeLevel> ascending = free_levels(propagation, levels);
+    std::vector<Index> faces;
+    for (Index f = 0; f < surface.num_faces(); ++f) {
+        if (!levels_that_may_cross(surface, propagation, ascending, f).empty()) faces.push_back(f);
+    }
+    return faces;
 }
 
 std::vector<double> levels_every(const Propagation& propagation, double step) {

@@ -54,7 +54,7 @@ struct IsolineOptions {
 //! through a vertex. With errors, arcs may leave gaps, or small loops beside a line, of about those
 //! errors.
 //! \param propagation  propagate(surface, sites) with relays in all faces that levels may cross:
-//!                     PropagationOptions::relay_faces = all_faces(surface).
+//!                     PropagationOptions::relay_faces = faces_at_levels(), or all_faces(surface).
 //! \param levels       mesh units, finite and above 0, in any order.
 //! \throw InvalidOption  a level is not finite and above 0.
 //! \throw InvalidInput   a face that a level may cross has no relays; the text names it.
@@ -64,6 +64,13 @@ struct IsolineOptions {
 [[nodiscard]] Isolines build_isolines(const Surface& surface, const Propagation& propagation,
                                       std::span<const double> levels,
                                       const IsolineOptions& options = {});
+
+//! The faces that levels may cross, ascending. Two propagations, one for the distances that this
+//! reads and one with relays in these faces only, cost far less than one with all relays.
+//! \throw InvalidOption  as build_isolines.  Cost: O(#F log #levels).
+[[nodiscard]] std::vector<Index> faces_at_levels(const Surface& surface,
+                                                 const Propagation& propagation,
+                                                 std::span<const double> levels);
 
 //! step, 2 step, ... up to the largest distance of a vertex.
 //! \throw InvalidOption  the step is not finite and above 0, or gives more than 10^6 levels.

@@ -56,6 +56,21 @@ struct SiteShape {
     friend bool operator==(const SiteShape&, const SiteShape&) = default;
 };
 
+//! Sites on a surface: points, what they stand for, lines and regions.
+struct SurfaceSites {
+    std::vector<SurfacePoint> points = {};  //!< As propagate() takes them.
+    SitePoints roles = {};                  //!< For PropagationOptions::points.
+    std::vector<SiteShape> shapes = {};     //!< For PropagationOptions::shapes.
+};
+
+//! Sites on a surface that was cut open. Of a cut a point or line has one side only, that of its
+//! face. Where points, or lines or their ends, are on a cut, the other sides become parts of the
+//! same sites. Regions stay as they are. Added points come behind all given ones.
+//! \param whole, opened  what cut_along() got and gave.
+//! \param sites          on `opened`.  Cost: O(faces around them + n log n).
+[[nodiscard]] SurfaceSites on_all_sides(const Surface& whole, const Surface& opened,
+                                        SurfaceSites sites);
+
 //! `{}` gives the defaults.
 struct PropagationOptions {
     SitePoints points = {};              //!< What the points given as sites stand for.

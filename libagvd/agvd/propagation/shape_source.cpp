@@ -1,6 +1,7 @@
 #include "agvd/propagation/shape_source.h"
 
 #include <algorithm>
+#include <map>
 #include <string>
 #include <utility>
 
@@ -66,7 +67,8 @@ ShapeSource shape_source(const Surface& surface, const SiteShape& shape) {
     }
     source.sides = distinct(std::move(source.sides));
     source.vertices = distinct(std::move(source.vertices));
-    source.own_sides = source.sides;
+    source.own_sides = source.sector_sides = source.sides;
+    source.own_vertices = source.vertices;
     return source;
 }
 
@@ -77,12 +79,95 @@ std::vector<ShapeSource> sources_of(const Surface& surface, std::span<const Site
     return sources;
 }
 
+void leave_own(const Surface& surface, std::span<const SiteShape> shapes,
+               std::vector<ShapeSource>& sources) {
+    using Owner = std::pair<double, Index>;  // Its start, and its number.
+    std::map<Index, Owner> of_side, of_vertex, of_face;
+    const auto claim = [](std::map<Index, Owner>& owners, const std::vector<Index>& elements,
+                          const Owner& owner) {
+        for (const Index element : elements) {
+            Owner& best = owners.try_emplace(element, owner).first->second;
+            best = std::min(best, owner);
+        }
+    };
+    for (Index i = 0; i < sources.size(); ++i) {
+        const Owner owner(sources[i].start, i);
+        claim(of_side, sources[i].sides, owner);
+        claim(of_vertex, sources[i].vertices, owner);
+        claim(of_face, shapes[i].faces, owner);
+        sources[i].own_sides.clear();
+        sources[i].own_vertices.clear();
+        sources[i].sector_sides.clear();
+    }
+    for (const auto& [vertex, owner] : of_vertex) {
+        sources[owner.second].own_vertices.push_back(vertex);
+    }
+    const auto is_in_region = [&](Index side, double start) {
+        const auto region = of_face.find(Surface::face(side));
+        return region != of_face.end() && region->second.first <= start;
+    };
+    for (const auto& [side, owner] : of_side) {
+        if (is_in_region(side, owner.first)) continue;
+        sources[owner.second].own_sides.push_back(side);
+        // Those with a start let paths through.
+        if (owner.first > 0) continue;
+        for (const Index vertex : {surface.tail(side), surface.head(side)}) {
+            sources[of_vertex.at(vertex).second].sector_sides.push_back(side);
+        }
+    }
+    for (ShapeSource& source : sources) {
+        std::vector<Index>& sides = source.sector_sides;
+        const std::vector<Index>& more = source.start > 0 ? source.sides : source.own_sides;
+        sides.insert(sides.end(), more.begin(), more.end());
+        sides = distinct(std::move(sides));
+    }
+}
+
 std::vector<Index> all_edges_of(const Surface& surface, const SiteShape& shape) {
     std::vector<Index> edges = shape.edges;
     for (const Index face : shape.faces) {
         for (Index h = 3 * face; h < 3 * face + 3; ++h) edges.push_back(surface.edge[h]);
     }
     return distinct(std::move(edges));
+}
+
+SurfaceSites on_all_sides(const Surface& whole, const Surface& opened, SurfaceSites sites) {
+    auto& [points, roles, shapes] = sites;
+    const std::size_t num_given = points.size();
+    std::vector<Index> site;
+    std::vector<double> start;
+    for (Index i = 0; i < num_given; ++i) {
+        site.push_back(roles.site_of(i));
+        start.push_back(start_of(roles.start, i));
+    }
+    const auto add_others = [&](const SurfacePoint& given, Index of_site, double from) {
+        const SurfacePoint point = snapped(whole, given);
+        std::vector<SurfacePoint> views{point};
+        for_each_view(whole, point, [&](const SurfacePoint& view) { views.push_back(view); });
+        for (const Index i : distinct_points(opened, views)) {
+            if (i == 0) continue;
+            points.push_back(views[i]);
+            site.push_back(of_site);
+            start.push_back(from);
+        }
+    };
+    for (std::size_t i = 0; i < num_given; ++i)
+        add_others(SurfacePoint(points[i]), site[i], start[i]);
+    for (SiteShape& shape : shapes) {
+        std::vector<Index> edges = shape.edges;
+        for (const Index edge : shape.edges) {
+            const Index h = opened.edge_half[edge];
+            if (whole.twin[h] != no_index) edges.push_back(opened.edge[whole.twin[h]]);
+            add_others(point_on(h, 0), shape.site, shape.start);
+            add_others(point_on(Surface::next(h), 0), shape.site, shape.start);
+        }
+        shape.edges = distinct(std::move(edges));
+    }
+    if (points.size() == num_given) return sites;
+    roles.site = std::move(site);
+    const auto is_zero = [](double from) { return from == 0; };
+    if (!std::all_of(start.begin(), start.end(), is_zero)) roles.start = std::move(start);
+    return sites;
 }
 
 void check_shapes(const Surface& surface, const std::vector<SiteShape>& shapes) {

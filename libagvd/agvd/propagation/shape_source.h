@@ -28,8 +28,13 @@ struct ShapeSource {
     //! Ascending: all vertices on it.
     std::vector<Index> vertices;
     double start = 0;  //!< SiteShape::start.
-    //! Ascending: the sides from which its paths begin: all of them, if no other shape has them.
-    std::vector<Index> own_sides;
+
+    // Where its paths begin, all ascending: at all sides and vertices, unless other shapes have
+    // them.
+    std::vector<Index> own_sides;     //!< Beams.
+    std::vector<Index> own_vertices;  //!< Fans.
+    //! The own sides, and those of any shape at which a sector around an own vertex begins or ends.
+    std::vector<Index> sector_sides;
 };
 
 //! Cost: O(n log n) of the shape's edges and faces.
@@ -38,6 +43,12 @@ struct ShapeSource {
 //! That of each shape.
 [[nodiscard]] std::vector<ShapeSource> sources_of(const Surface& surface,
                                                   std::span<const SiteShape> shapes);
+
+//! Shapes may share sides and vertices, and lie in regions. Leaves each side and vertex to the one
+//! with the least start, of equal ones to the first: from there on others are no nearer. So no two
+//! of them tie on a whole area. \param sources  sources_of(shapes).
+void leave_own(const Surface& surface, std::span<const SiteShape> shapes,
+               std::vector<ShapeSource>& sources);
 
 //! Ascending: its edges, and those of its faces. Cost: O(n log n).
 [[nodiscard]] std::vector<Index> all_edges_of(const Surface& surface, const SiteShape& shape);

@@ -121,7 +121,8 @@ void check_elements(const MeshView& mesh, Ticker ticker) {
         ticker.tick();
         for (const Index v : mesh.triangles[f]) {
             if (v < mesh.positions.size()) continue;
-            throw InvalidInput("face " + std::to_string(f) + " names vertex " + std::to_string(v) +
+            throw InvalidInput("face " + std::to_string(f) + " names vertex " +
+                               (v == no_index ? "-1" : std::to_string(v)) +
                                ", but the mesh has only " + std::to_string(mesh.positions.size()) +
                                " vertices, counted from 0; correct or delete the face");
         }

@@ -50,11 +50,12 @@ enum class Repeats { Told, Allowed };
 //! each line is a site), and `start D`, the distance that it starts with (0 where it is missing).
 //! Whether vertices of a line are joined is not checked.
 //!
-//! FACE is a triangle of read_mesh's result: where a file has larger polygons, each of them counts
-//! as many triangles as it was split into (see MeshFile::face_polygon). A vertex site lies in the
-//! lowest of its faces. Barycentric coordinates whose sum differs from 1 by at most 1e-6 are scaled
-//! to it. Points that are off the mesh by more than a hundredth of the sites' spacing (the square
-//! root of area / sites) are a warning, and so are sites that lie exactly where earlier ones do.
+//! FACE is a triangle of the mesh, or with face_polygon a face of the file: behind the coordinates
+//! in a larger polygon stand the three vertices to which they belong, V0 V1 V2, as in lines of
+//! --map. A vertex site lies in the lowest of its faces. Barycentric coordinates whose sum differs
+//! from 1 by at most 1e-6 are scaled to it. Points that are off the mesh by more than a hundredth
+//! of the sites' spacing (the square root of area / sites) are a warning, and so are sites that lie
+//! exactly where earlier ones do.
 //!
 //! \param mesh  #V x 3 positions, finite; #F x 3 indices, in range; may be dirty otherwise.
 //! \throw IoError       the file cannot be read, a line is none of these, only some lines have a
@@ -64,8 +65,10 @@ enum class Repeats { Told, Allowed };
 //!        mesh by more than the spacing; names file and line.
 //! Cost: O(file size + n log n), and O(#F log #F) once for the first `p`.
 //! \param repeats  whether sites at the place of earlier ones are a warning.
+//! \param face_polygon  MeshFile::face_polygon, or empty.
 [[nodiscard]] SitesFile read_sites(const std::filesystem::path& path, const MeshView& mesh,
-                                   const Progress& progress = {}, Repeats repeats = Repeats::Told);
+                                   const Progress& progress = {}, Repeats repeats = Repeats::Told,
+                                   std::span<const Index> face_polygon = {});
 
 //! A text file with one vertex per line, counted from 0 as in the arrays of read_mesh's result;
 //! what follows # is a comment.

@@ -13,13 +13,12 @@ constexpr double any_double = std::numeric_limits<double>::max();
 constexpr double any_float = std::numeric_limits<float>::max();
 
 bool holds_all(const Attribute&, ElementKind, const MeshAttributes&) { return true; }
-bool holds_none(const Attribute&, ElementKind, const MeshAttributes&) { return false; }
 
 constexpr MeshFormat formats[] = {
     {"ply", read_ply, format_ply, holds_all, true, TexturePlace::Corners, any_double},
     {"obj", read_obj, format_obj, obj_holds, true, TexturePlace::Corners, any_double},
     {"off", read_off, format_off, off_holds, true, TexturePlace::Vertices, any_double},
-    {"stl", read_stl, format_stl, holds_none, false, TexturePlace::Nothing, any_float,
+    {"stl", read_stl, format_stl, stl_holds, false, TexturePlace::Nothing, any_float,
      MaterialPlace::Nothing, "millimeter"},
     {"vtk", read_vtk, format_vtk, holds_all, true, TexturePlace::Vertices, any_double},
     {"vtp", read_vtp, format_vtp, holds_all, true, TexturePlace::Nothing, any_double},

@@ -23,7 +23,7 @@ MeshWriter format_ply, format_obj, format_off, format_stl, format_vtk, format_vt
 
 //! Whether a format can hold an attribute, one of `all`.
 using AttributeTest = bool(const Attribute& attribute, ElementKind kind, const MeshAttributes& all);
-AttributeTest obj_holds, off_holds, medit_holds, gltf_holds, holds_3mf;
+AttributeTest obj_holds, off_holds, stl_holds, medit_holds, gltf_holds, holds_3mf;
 
 //! Unless the text of the parts is empty.
 template <typename... Parts>

@@ -22,10 +22,11 @@ struct Lines {
 //! The bytes of the format that the extension names (any case; compressed if .gz follows), for
 //! write_files_atomically:
 //! - vtp: VTK XML PolyData, the lines as polylines, their values as point and cell data.
-//! - obj: `v` and `l` lines; before each `l` a comment `# NAME VALUE ...` with the line's values.
-//! - ply: element vertex with x, y, z and the points' values, element edge with vertex1, vertex2,
-//!   line (its number, from 0) and the line's values; binary.
-//! A line without points is left out of obj, and has no edge in ply.
+//! - obj: `v` and `l` lines; before each `l` a comment `# line NUMBER NAME VALUE ...`.
+//! - ply: element vertex with x, y, z, the point's values, and number and values of its line;
+//!   element face with vertex_indices: each piece of a line as a face of two vertices; binary.
+//! Lines have their number, from 0, as value `line`. One without points is left out. A closed one
+//! comes back to its first point.
 //! \throw IoError    the extension is unknown.
 //! \throw Cancelled  the progress callback returned false.
 [[nodiscard]] std::string format_lines(const std::filesystem::path& path, const Lines& lines,

@@ -266,6 +266,11 @@ void write_mesh(const std::filesystem::path& path, const MeshView& mesh,
     return format_mesh(MeshPath{path}, mesh, attributes, progress);
 }
 
+//! The same PLY as text, for programs that read no other; numbers are the shortest that read back.
+//! \param bytes  of a binary PLY, of this library or another one.
+//! \throw IoError  they are none.
+[[nodiscard]] std::string ply_as_text(std::string bytes);
+
 //! Removes the attributes that the format cannot hold. VTK and OFF hold texture coordinates without
 //! seams.
 //! \return what they were: "vertex quality", "face label", "corner texcoord", "material colours", ...

@@ -402,6 +402,42 @@ MeshFile read_ply(SourceFile file) {
     return read_binary_ply(header, file);
 }
 
+std::string ply_as_text(std::string bytes) {
+    const SourceFile file{.path = "PLY", .bytes = std::move(bytes), .is_binary = true};
+    const PlyHeader header = read_ply_header(file);
+    std::string text = file.bytes.substr(0, header.size);
+    const std::size_t format = text.find("binary_"), end = text.find("_endian", format);
+    if (!header.byte_order || end == std::string::npos) return file.bytes;
+    text.replace(format, end + std::string_view("_endian").size() - format, "ascii");
+    BinaryValues values(file, header);
+    const auto add = [&](NumberType type) {
+        if (is_integer(type)) {
+            append_shortest(text, values.integer(type));
+        } else if (type == NumberType::Float32) {
+            append_shortest(text, static_cast<float>(values.real(type)));
+        } else {
+            append_shortest(text, values.real(type));
+        }
+        text += ' ';
+    };
+    for (const PlyElement& element : header.elements) {
+        for (std::uint64_t i = 0; i < element.count; ++i) {
+            values.begin(element, i);
+            for (const PlyProperty& property : element.properties) {
+                std::int64_t count = 1;
+                if (property.size_type) {
+                    count = read_length(values, property, file);
+                    append_shortest(text, count);
+                    text += ' ';
+                }
+                while (count-- > 0) add(property.type);
+            }
+            if (!element.properties.empty()) text.back() = '\n';
+        }
+    }
+    return text;
+}
+
 std::string format_ply(const MeshView& mesh, const MeshAttributes& attributes, Ticker ticker) {
     // "int" is what every reader knows; it does for all but the largest meshes.
     const char* const index_type = mesh.positions.size() <= INT32_MAX ? "int" : "uint";

@@ -61,8 +61,9 @@ void read_lines(const SourceFile& file, const char* empty, const Read& read) {
 
 class SiteReader {
 public:
-    SiteReader(const SourceFile& file, const MeshView& mesh, const Progress& progress)
-        : file_(file), mesh_(mesh), progress_(progress) {}
+    SiteReader(const SourceFile& file, const MeshView& mesh, std::span<const Index> face_polygon,
+               const Progress& progress)
+        : file_(file), mesh_(mesh), polygon_(face_polygon), progress_(progress) {}
 
     SitesFile read(Repeats repeats) {
         SitesFile result;
@@ -176,7 +177,11 @@ private:
     }
 
     GivenShape read_region(TextScanner& scan) {
-        GivenShape region{.faces = read_indices(scan, "face", "faces", mesh_.triangles.size())};
+        GivenShape region;
+        for (const Index face : read_indices(scan, "face", "faces", num_faces())) {
+            const auto [begin, end] = triangles_of(face);
+            for (Index t = begin; t < end; ++t) region.faces.push_back(t);
+        }
         if (region.faces.empty()) {
             file_.fail_malformed(start_, "a region has one face or more; add its faces");
         }
@@ -276,8 +281,39 @@ private:
         return point_on(require_corner(file_, start_, lowest_corner_, vertex), 0);
     }
 
+    [[nodiscard]] std::size_t num_faces() const {
+        return polygon_.empty() ? mesh_.triangles.size() : polygon_.back() + std::size_t{1};
+    }
+    // Of a face of the file, one behind the other.
+    [[nodiscard]] std::pair<Index, Index> triangles_of(Index face) const {
+        if (polygon_.empty()) return {face, face + 1};
+        const auto [first, last] = std::equal_range(polygon_.begin(), polygon_.end(), face);
+        return {static_cast<Index>(first - polygon_.begin()),
+                static_cast<Index>(last - polygon_.begin())};
+    }
+
+    // Finds the triangle of a polygon with these vertices, and puts the coordinates in its order.
+    void choose_triangle(TextScanner& scan, std::pair<Index, Index> triangles, SurfacePoint& site) {
+        const auto given = read_indices(scan, "vertex", "vertices", mesh_.positions.size());
+        const std::array<double, 3> b = site.barycentric;
+        for (Index t = triangles.first; given.size() == 3 && t < triangles.second; ++t) {
+            const Triangle& corners = mesh_.triangles[t];
+            if (!std::is_permutation(corners.begin(), corners.end(), given.begin())) continue;
+            site.face = FaceId(t);
+            for (std::size_t k = 0; k < 3; ++k) {
+                const auto at = std::find(corners.begin(), corners.end(), given[k]);
+                site.barycentric[static_cast<std::size_t>(at - corners.begin())] = b[k];
+            }
+            return;
+        }
+        file_.fail_unusable(start_,
+                            "the face has more than three corners; add the three vertices to which "
+                            "the coordinates belong, as --map writes them, or write \"p X Y Z\"");
+    }
+
     SurfacePoint face_site(TextScanner& scan) {
-        SurfacePoint site{FaceId(index(scan, "face", "faces", mesh_.triangles.size())), {}};
+        const auto triangles = triangles_of(index(scan, "face", "faces", num_faces()));
+        SurfacePoint site{FaceId(triangles.first), {}};
         auto& b = site.barycentric;
         for (double& x : b) x = scan.number("a barycentric coordinate");
         const double sum = b[0] + b[1] + b[2];
@@ -288,11 +324,13 @@ private:
                                 "within 1e-6; correct them, or write the point as \"p X Y Z\"");
         }
         for (double& x : b) x /= sum;
+        if (triangles.second - triangles.first != 1) choose_triangle(scan, triangles, site);
         return site;
     }
 
     const SourceFile& file_;
     const MeshView& mesh_;
+    std::span<const Index> polygon_;  // Of each triangle; empty: its own number.
     const Progress& progress_;
     std::size_t start_ = 0;                 // Of the current line's first word.
     Index num_roles_ = 0;                   // Lines with a site so far.
@@ -377,10 +415,11 @@ std::vector<double> read_edge_lengths(const std::filesystem::path& path, const M
 }
 
 SitesFile read_sites(const std::filesystem::path& path, const MeshView& mesh,
-                     const Progress& progress, Repeats repeats) {
+                     const Progress& progress, Repeats repeats,
+                     std::span<const Index> face_polygon) {
     Poller poller(progress);
     const SourceFile file = load_file(path, poller);
-    return SiteReader(file, mesh, progress).read(repeats);
+    return SiteReader(file, mesh, face_polygon, progress).read(repeats);
 }
 
 std::vector<Index> read_vertices(const std::filesystem::path& path, const MeshView& mesh,

@@ -35,15 +35,15 @@ void check_count(const Sizing& sizing) {
     const auto& count = sizing.count;
     const bool has_values = !sizing.is_even() && !sizing.is_adaptive();
     require(!std::holds_alternative<MaxError>(count) || sizing.is_adaptive(),
-            "max_error needs adaptive edges");
+            "MaxError needs AdaptiveEdges");
     require(!std::holds_alternative<MaxDistance>(count) || !has_values,
-            "max_distance excludes target_lengths, face_lengths and densities");
+            "MaxDistance excludes VertexLengths, FaceLengths and VertexDensities");
     require(!std::holds_alternative<CountOfLengths>(count) ||
                 (has_values && !std::holds_alternative<VertexDensities>(sizing.edges)),
-            "a number that follows from lengths needs target_lengths or face_lengths");
+            "CountOfLengths needs VertexLengths or FaceLengths");
     const auto check = [](double value) {
         require(value > 0 && std::isfinite(value),
-                "max_error, max_distance, edge_length and num_faces must be above 0");
+                "MaxError, MaxDistance, MeanEdge and NumFaces must be above 0");
     };
     if (const auto* mean = std::get_if<MeanEdge>(&count)) check(mean->length);
     if (const auto* faces = std::get_if<NumFaces>(&count)) check(faces->number);
@@ -54,11 +54,11 @@ void check_count(const Sizing& sizing) {
 void check_sizing(const Sizing& sizing, const MeshView& mesh) {
     const std::size_t num_vertices = mesh.positions.size();
     if (const auto* at = std::get_if<VertexLengths>(&sizing.edges)) {
-        check_values("target_lengths", at->values, num_vertices, "vertex", "vertices");
+        check_values("VertexLengths", at->values, num_vertices, "vertex", "vertices");
     } else if (const auto* of = std::get_if<FaceLengths>(&sizing.edges)) {
-        check_values("face_lengths", of->values, mesh.triangles.size(), "face", "faces");
+        check_values("FaceLengths", of->values, mesh.triangles.size(), "face", "faces");
     } else if (const auto* densities = std::get_if<VertexDensities>(&sizing.edges)) {
-        check_values("densities", densities->values, num_vertices, "vertex", "vertices");
+        check_values("VertexDensities", densities->values, num_vertices, "vertex", "vertices");
     }
     check_count(sizing);
     require(sizing.min_edge >= 0 && sizing.max_edge > 0 && sizing.min_edge <= sizing.max_edge,

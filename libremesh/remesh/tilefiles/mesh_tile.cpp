@@ -67,7 +67,7 @@ Tiling tiling_of(const TileFile& tile, const std::string& name, const TileJobOpt
         const Vec3 &from = tile.mesh.positions[a], &to = tile.mesh.positions[b];
         const Index h = boundary.find(from, to);
         if (h == no_index) {
-            const auto text = [](double x) { return number_text(x, 6); };
+            const auto text = [](double x) { return number_text(x, 12); };
             throw InvalidInput(name + ": the surface is not clean at its border near (" +
                                text(from.x()) + ", " + text(from.y()) + ", " + text(from.z()) +
                                "); clean the mesh first, or choose another number of vertices for "

@@ -13,6 +13,7 @@
 #include "agvd/mesh/any_mesh.h"
 #include "remesh/clean/clean_input.h"
 #include "remesh/curves/curve_sites.h"
+#include "remesh/curves/find_creases.h"
 #include "remesh/sites/shares.h"
 #include "remesh/tilefiles/each_tile.h"
 #include "remesh/tilefiles/face_buckets.h"
@@ -38,8 +39,8 @@ using Corners = std::array<Vec3, 3>;
 constexpr double surveyed = 0.1, divided = 0.5, parted = 0.75, banded = 0.9;
 
 std::string text_of(const Vec3& position) {
-    return "(" + number_text(position.x(), 6) + ", " + number_text(position.y(), 6) + ", " +
-           number_text(position.z(), 6) + ")";
+    return "(" + number_text(position.x(), 12) + ", " + number_text(position.y(), 12) + ", " +
+           number_text(position.z(), 12) + ")";
 }
 
 double area_of(const Corners& face) {
@@ -160,6 +161,18 @@ CellParts find_parts(const TriangleMesh& mesh) {
     return found;
 }
 
+// What cannot be cleaned has none: meshing its tile tells why.
+double length_of_creases(const TriangleMesh& mesh, double spacing) try {
+    const CleanResult clean = clean_input(mesh.view(), {.keep_slits = true, .num_threads = 1});
+    const Surface surface = build_surface(clean.mesh.view(), 1);
+    const auto is_crease = find_creases(surface, {.spacing = spacing, .num_threads = 1});
+    double sum = 0;
+    for (Index e = 0; e < surface.num_edges(); ++e) sum += is_crease[e] * surface.length[e];
+    return sum;
+} catch (const InvalidInput&) {
+    return 0;
+}
+
 class Splitter {
 public:
     Splitter(const fs::path& file, const fs::path& folder, const SplitOptions& options)
@@ -260,10 +273,14 @@ private:
 
     void find_all_parts(const FaceBuckets& faces) {
         std::vector<CellParts> found(faces.size());
+        std::vector<double> creases(faces.size());
         for_each_cell(faces.size(), divided, parted, [&](Index cell) {
-            found[cell] = find_parts(faces.read(cell));
+            const TriangleMesh mesh = faces.read(cell);
+            found[cell] = find_parts(mesh);
             found[cell].part_of_face = {};
+            creases[cell] = length_of_creases(mesh, plan_.spacing);
         });
+        for (const double length : creases) plan_.crease_length += length;
         for (CellParts& cell : found) {
             first_part_.push_back(static_cast<Index>(area_.size()));
             for (RimEdge& edge : cell.rim) {

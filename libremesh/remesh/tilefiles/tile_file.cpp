@@ -109,6 +109,7 @@ void write_tile_plan(const fs::path& folder, const TilePlan& plan) {
                                       {"relax_steps", plan.relax_steps},
                                       {"border_sites", plan.num_sites},
                                       {"border_euler", plan.border_euler},
+                                      {"crease_length", plan.crease_length},
                                       {"vertices", plan.num_vertices}};
     write_file_atomically(plan_path(folder), json.dump(1) + "\n");
 }
@@ -135,6 +136,7 @@ TilePlan read_tile_plan(const fs::path& folder) {
         json.at("relax_steps").get_to(plan.relax_steps);
         json.at("border_sites").get_to(plan.num_sites);
         json.at("border_euler").get_to(plan.border_euler);
+        plan.crease_length = json.value("crease_length", 0.0);
         json.at("vertices").get_to(plan.num_vertices);
     } catch (const nlohmann::json::exception&) {
         throw IoError(path.string() + ": is damaged; remove it, and split the file again");

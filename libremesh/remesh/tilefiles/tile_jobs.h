@@ -53,6 +53,8 @@ struct TilePlan {
     //! What the sum of the Euler characteristics of the tiles has too much: further copies of the
     //! vertices on borders, minus those of the edges.
     std::int64_t border_euler = 0;
+    //! Mesh units: of the creases inside tiles (find_creases), which tiles do not keep.
+    double crease_length = 0;
 
     //! How many tiles there are.
     [[nodiscard]] Index num_tiles() const { return static_cast<Index>(num_vertices.size()); }
@@ -60,7 +62,8 @@ struct TilePlan {
 
 //! Cuts a file into tiles. It is read twice and mapped, not loaded: memory follows the tiles in
 //! work and the faces at their borders. Tiles are cut by planes, so borders are smooth where the
-//! surface is. Creases are not kept, and only what lies inside a tile is cleaned (see clean_input).
+//! surface is. Creases are not kept, but measured, and only what lies inside a tile is cleaned (see
+//! clean_input).
 //! \param file    binary PLY with triangles, or binary STL.
 //! \param folder  is made if it does not exist.
 //! \return the plan. One that is there already is kept if the file's path and size and the options

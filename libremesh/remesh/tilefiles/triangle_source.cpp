@@ -80,7 +80,9 @@ struct TriangleSource::File {
 
     [[noreturn]] void fail_format() const {
         throw IoError(joined(path.string(),
-                             ": is neither binary PLY nor binary STL; convert it to one of them"));
+                             ": is neither binary PLY nor binary STL; convert it, for example by "
+                             "python3 -c \"import remesh; remesh.write('out.ply', remesh.read('",
+                             path.string(), "'))\""));
     }
     [[noreturn]] void fail_truncated() const {
         throw IoError(joined(path.string(), ": the file is truncated; export it again"));

@@ -8,11 +8,13 @@
 #include <string>
 
 #include "agvd/core/error.h"
+#include "agvd/diagram/cut_cells.h"
 #include "agvd/diagram/diagram.h"
 #include "agvd/diagram/face_relays.h"
 #include "agvd/mesh/surface_points.h"
 #include "support/checks.h"
 #include "support/developable.h"
+#include "support/dice.h"
 #include "support/line_sites.h"
 #include "support/points.h"
 #include "support/random_meshes.h"
@@ -72,6 +74,44 @@ double distance_through_relays(const Surface& surface, const Propagation& propag
                          reach(planar, position_in_frame(surface, p, 3 * p.face.value())).distance);
     }
     return least;
+}
+
+// The faces across the sides of a region, some of them.
+SiteShape beside(const Surface& surface, const SiteShape& region) {
+    SiteShape other;
+    for (const Index face : region.faces) {
+        for (Index h = 3 * face; h < 3 * face + 3 && other.faces.size() < 4; ++h) {
+            if (surface.twin[h] == no_index) continue;
+            const Index across = Surface::face(surface.twin[h]);
+            const bool is_inside =
+                std::find(region.faces.begin(), region.faces.end(), across) != region.faces.end();
+            if (!is_inside) other.faces.push_back(across);
+        }
+    }
+    return other;
+}
+
+// Two shapes with common edges: regions side by side, one in the other, a line with a part of
+// another one, and a region with a line that runs along it.
+std::vector<SiteShape> touching_shapes(const Surface& surface, std::uint64_t seed) {
+    const SiteShape region = random_region(surface, 6, seed + 7);
+    const SiteShape line = random_line(surface, 8, seed + 3);
+    SiteShape other;
+    switch (seed % 4) {
+        case 0:
+            return {region, beside(surface, region)};
+        case 1:
+            other.faces = {region.faces[0], region.faces[1]};
+            return {region, other};
+        case 2:
+            other = random_line(surface, 4, seed + 5);
+            other.edges.insert(other.edges.end(), line.edges.begin() + 2, line.edges.begin() + 5);
+            return {line, other};
+        default:
+            other = line;
+            other.edges.push_back(surface.edge[3 * region.faces[0]]);
+    }
+    return {region, other};
 }
 
 }  // namespace
@@ -162,6 +202,66 @@ TEST(CellsOfLines, AreThoseOfTheFormulaInThePlane) {
     }
     EXPECT_GT(num_shapes, 80);
     EXPECT_GT(count, 10000);
+}
+
+// Points of the cut cells against distances by formula. Shapes with common edges tie on whole
+// areas, in front of their common vertices: the lower number owns these, but for strips in which
+// the distances differ by rounding.
+TEST(CellsOfLines, ThatTouchHoldTheirNearestPoints) {
+    int count = 0, num_tied = 0, num_of_higher = 0;
+    for (std::uint64_t seed = 0; seed < 48; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        const Surface surface = uneven_square(12, seed);
+        std::vector<SiteShape> shapes = touching_shapes(surface, seed);
+        if (seed % 8 < 4) std::swap(shapes[0], shapes[1]);
+        shapes = numbered(shapes);
+        const Diagram diagram =
+            build_diagram(surface, {}, propagate(surface, {}, {.shapes = shapes, .max_error = 0}),
+                          {.chord_tolerance = 1e-3});
+        const CutCells cut = cut_cells(surface, diagram);
+        std::array<double, 2> area{};
+        Dice dice(seed);
+        for (Index f = 0; f < cut.mesh.triangles.size(); ++f) {
+            const auto [a, b, c] = cut.mesh.triangles[f];
+            const auto& at = cut.mesh.positions;
+            const double size = (at[b] - at[a]).cross(at[c] - at[a]).norm() / 2;
+            const Index site = cut.face_site[f].value();
+            area[site] += size;
+            if (size < 1e-6) continue;
+            const double u = dice.number(0.1, 0.8), v = dice.number(0.1, 0.9 - u);
+            const Vec3 p = at[a] + u * (at[b] - at[a]) + v * (at[c] - at[a]);
+            const std::array distance{in_plane(surface, shapes[0], p),
+                                      in_plane(surface, shapes[1], p)};
+            ASSERT_NEAR(distance[site], std::min(distance[0], distance[1]), 1e-3) << p.transpose();
+            ++count;
+            if (std::abs(distance[0] - distance[1]) > 1e-12) continue;
+            ++num_tied;
+            num_of_higher += site == 1 ? 1 : 0;
+        }
+        EXPECT_NEAR(area[0], diagram.cell_area[0], 1e-12);
+        EXPECT_NEAR(area[1], diagram.cell_area[1], 1e-12);
+    }
+    EXPECT_GT(count, 10000);
+    EXPECT_GT(num_tied, 2000);
+    EXPECT_LT(num_of_higher, 0.02 * num_tied);
+}
+
+// All corners of a region's face are of another region, which is all around it.
+TEST(CellsOfLines, MayBeOneFaceInAnotherRegion) {
+    const Surface surface = uneven_square(6, 1);
+    const Index face = 31;
+    SiteShape ring;
+    for (Index f = 0; f < surface.num_faces(); ++f) {
+        if (f != face) ring.faces.push_back(f);
+    }
+    const auto shapes = numbered({ring, {.faces = {face}}});
+    const Diagram diagram =
+        build_diagram(surface, {}, propagate(surface, {}, {.shapes = shapes, .max_error = 0}));
+    EXPECT_NEAR(diagram.cell_area[1], surface_area(surface) - (1 - diagram.cell_area[1]), 1e-12);
+    const CutCells cut = cut_cells(surface, diagram);
+    for (Index f = 0; f < cut.face_site.size(); ++f) {
+        EXPECT_EQ(cut.face_site[f].value(), cut.face_origin[f] == face ? 1u : 0u) << f;
+    }
 }
 
 // Two lines on a prism and two on a pyramid, one with a start: the points of the bisector are as

@@ -6,6 +6,7 @@
 
 #include "agvd/core/error.h"
 #include "agvd/diagram/diagram.h"
+#include "agvd/mesh/surface_points.h"
 #include "agvd/mesh/topology.h"
 #include "agvd/propagation/propagate.h"
 #include "support/checks.h"
@@ -56,6 +57,34 @@ TEST(CutSurface, PathsGoAroundASlit) {
                     engine == Engine::Window ? 1e-12 : 1e-3);
         EXPECT_NEAR(propagate(whole, sites, options).vertex_distance[target], 0.5, 1e-12);
     }
+}
+
+// Sites at y = 1: a vertex, the middle of an edge, a line along the slit, and one that ends there.
+TEST(CutSurface, SitesOnACutCountOnAllSides) {
+    const Surface whole = build_surface(large_grid().view());
+    const Surface opened = cut_along(whole, slit_of(whole)).surface;
+    const auto expect_both = [&](SurfaceSites given, double above, double below) {
+        const SurfaceSites sites = on_all_sides(whole, opened, std::move(given));
+        const Propagation found = propagate(
+            opened, sites.points, {.points = sites.roles, .shapes = sites.shapes, .max_error = 0});
+        for (const auto& [row, distance] : {std::pair(24, above), std::pair(16, below)}) {
+            EXPECT_NEAR(found.vertex_distance[grid_vertex(20, row)], distance, 1e-12);
+            EXPECT_EQ(found.vertex_site[grid_vertex(20, row)], SiteId(0));
+        }
+    };
+    const std::vector<Index> middle =
+        edges_along(whole, std::array{grid_vertex(20, 20), grid_vertex(21, 20)});
+    expect_both({{point_at(opened, grid_vertex(20, 20))}}, 0.2, 0.2);
+    expect_both({{point_on(whole.edge_half[middle[0]], 0.5)}, {.start = {0.1}}},
+                0.1 + std::hypot(0.2, 0.025), 0.1 + std::hypot(0.2, 0.025));
+    const Index of_one_side = opened.edge[whole.edge_half[middle[0]]];
+    expect_both({.shapes = {{.edges = {of_one_side}}}}, 0.2, 0.2);
+    const auto across = edges_along(
+        whole, std::array{grid_vertex(20, 22), grid_vertex(20, 21), grid_vertex(20, 20)});
+    const auto on_opened = [&](Index edge) { return opened.edge[whole.edge_half[edge]]; };
+    expect_both({.shapes = {{.edges = {on_opened(across[0]), on_opened(across[1])}}}}, 0.1, 0.2);
+    const SurfaceSites off{{point_at(opened, grid_vertex(3, 3))}};
+    EXPECT_EQ(on_all_sides(whole, opened, off).roles, SitePoints{});
 }
 
 TEST(CutSurface, KeepsFacesAndTheNumbersOfFirstCopies) {

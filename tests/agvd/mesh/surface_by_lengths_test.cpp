@@ -133,6 +133,9 @@ TEST(SurfaceByLengths, BadLengthsAreNamed) {
     expect_error({3, 4, 5, 5, 4, 0}, "vertex 3 to 0 has the length 0");
     expect_error({3, 4, 5, 5, 4, -1}, "has the length -1");
     expect_error({3, 4, 5, 5, 4, std::nan("")}, "has the length nan");
-    expect_error({1, 4, 5, 5, 4, 3}, "face 0 has no area");
-    expect_error({3, 4, 5, 5, 9, 3}, "face 1 has no area");
+    expect_error({1, 4, 5, 5, 4, 3},
+                 "face 0 has sides of the lengths 1, 4 and 5, which make no triangle");
+    expect_error({3, 4, 5, 5, 9, 3}, "face 1 has sides of the lengths 5, 9 and 3, which make no");
+    expect_error({3e150, 4e150, 5e150, 5e150, 4e150, 3e150}, "has the length 3e+150, but");
+    expect_error({3e-150, 4e-150, 5e-150, 5e-150, 4e-150, 3e-150}, "between 1e-60 and 1e+60");
 }

@@ -406,6 +406,33 @@ TEST(Isolines, WithErrorsAreNearTheirLevels) {
     }
 }
 
+// One site, several, and with errors: relays elsewhere change nothing.
+TEST(Isolines, NeedRelaysInTheFacesThatTheyMayCross) {
+    const Surface surface = build_surface(shapes::jitter(shapes::sphere(4), 0.01, 3).view());
+    for (const Index num_sites : {1, 7}) {
+        for (const double max_error : {0.0, 1e-3}) {
+            const auto sites = points::scattered(surface, num_sites, 2);
+            PropagationOptions options{.max_error = max_error};
+            const std::vector<double> levels{0.3, 0.8};
+            const std::vector<Index> faces =
+                faces_at_levels(surface, propagate(surface, sites, options), levels);
+            options.relay_faces = faces;
+            const Propagation some = propagate(surface, sites, options);
+            options.relay_faces = all_faces(surface);
+            const Propagation all = propagate(surface, sites, options);
+            EXPECT_LT(3 * faces.size(), surface.num_faces() * num_sites);
+            const Isolines a = build_isolines(surface, some, levels);
+            const Isolines b = build_isolines(surface, all, levels);
+            EXPECT_EQ(a.line_arcs, b.line_arcs);
+            ASSERT_EQ(a.arcs.size(), b.arcs.size());
+            for (std::size_t i = 0; i < a.arcs.size(); ++i) {
+                EXPECT_EQ(a.arcs[i].begin, b.arcs[i].begin);
+                EXPECT_EQ(a.arcs[i].centre, b.arcs[i].centre);
+            }
+        }
+    }
+}
+
 TEST(Isolines, NeedRelaysAndLevels) {
     const Surface surface = build_surface(shapes::sphere(2).view());
     const std::array sites{point_at(surface, 0)};

@@ -287,6 +287,8 @@ TEST(CleanInput, NamesTheElementThatCannotBeUsed) {
     mesh = shapes::cube();
     mesh.triangles[4][1] = 8;
     EXPECT_NE(error_of(mesh).find("face 4 names vertex 8"), std::string::npos);
+    mesh.triangles[4][0] = static_cast<agvd::Index>(-1);
+    EXPECT_NE(error_of(mesh).find("face 4 names vertex -1"), std::string::npos);
     mesh = shapes::cube();
     for (Vec3& p : mesh.positions) p *= 1e200;
     EXPECT_NE(error_of(mesh).find("scale it to a length between"), std::string::npos);

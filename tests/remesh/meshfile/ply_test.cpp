@@ -347,3 +347,24 @@ TEST(Ply, PointCloudsAreRefused) {
                                {"3 vertices but no face"});
     expect_error<InvalidInput>("a.ply", header("ascii", ""), {"nor a face"});
 }
+
+// Of all types, with values of faces, which some programs do not read in a binary file.
+TEST(WritePly, AsTextReadsBackTheSame) {
+    const agvd::TriangleMesh mesh{{{0.1, 0, 0}, {1, 0, 1e-300}, {4.2e6, 1, 0}}, {{0, 1, 2}}};
+    const remesh::MeshAttributes values{
+        .of_vertices = {{.name = "distance", .values = {0, 1.0 / 3, agvd::infinity}},
+                        {.name = "quality",
+                         .type = remesh::NumberType::Float32,
+                         .values = {.5, 1, 2}}},
+        .of_faces = {{.name = "site", .type = remesh::NumberType::Int32, .values = {-1}}}};
+    const std::string text = remesh::ply_as_text(remesh::format_mesh("a.ply", mesh.view(), values));
+    EXPECT_EQ(text.find("ply\nformat ascii 1.0\nelement vertex 3\n"), 0u) << text;
+    EXPECT_NE(text.find("end_header\n0.1 0 0 0 0.5\n"), std::string::npos) << text;
+    EXPECT_NE(text.find("\n3 0 1 2 -1\n"), std::string::npos) << text;
+    const remesh::MeshFile back = remesh::read_mesh_bytes(text, "a.ply", {.with_attributes = true});
+    EXPECT_EQ(back.mesh.positions, mesh.positions);
+    EXPECT_EQ(back.mesh.triangles, mesh.triangles);
+    EXPECT_EQ(back.attributes.of_vertices[0].values, values.of_vertices[0].values);
+    EXPECT_EQ(back.attributes.of_faces[0].values, values.of_faces[0].values);
+    EXPECT_EQ(remesh::ply_as_text(text), text);
+}

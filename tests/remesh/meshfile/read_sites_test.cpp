@@ -85,6 +85,25 @@ TEST_F(ReadSites, PointsMayBelongToSitesAndStartAtDistances) {
     expect_error<agvd::InvalidInput>("v 0 site 0\nv 1 site 2\n", "no point belongs to site 1");
 }
 
+// Faces of the file: a quad, which became the triangles 0 and 1, and a triangle.
+TEST_F(ReadSites, FacesAreThoseOfTheFile) {
+    const agvd::TriangleMesh mesh{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {2, 0, 0}},
+                                  {{0, 1, 2}, {0, 2, 3}, {1, 4, 2}}};
+    const std::vector<agvd::Index> polygons{0, 0, 1};
+    const auto read_all = [&](const std::string& text) {
+        std::ofstream(path_) << text;
+        return read_sites(path_, mesh.view(), {}, remesh::Repeats::Told, polygons);
+    };
+    const remesh::SitesFile file =
+        read_all("f 1 .5 .25 .25 site 0\nf 0 .5 .25 .25 3 0 2 site 1\nr 0 site 2\n");
+    EXPECT_EQ(file.sites[0], (agvd::SurfacePoint{agvd::FaceId(2), {.5, .25, .25}}));
+    EXPECT_EQ(file.sites[1], (agvd::SurfacePoint{agvd::FaceId(1), {.25, .25, .5}}));
+    EXPECT_EQ(file.shapes[0].faces, (std::vector<agvd::Index>{0, 1}));
+    for (const char* text : {"f 0 .5 .25 .25\n", "f 0 .5 .25 .25 0 1 3\n", "f 2 1 0 0\n"}) {
+        EXPECT_THROW((void)read_all(text), agvd::InvalidInput) << text;
+    }
+}
+
 TEST_F(ReadSites, LinesAndRegionsAreSites) {
     const auto read_all = [&](const std::string& text) {
         (void)read(text);

@@ -132,3 +132,46 @@ TEST(Stl, WrongBinaryValuesAreRefused) {
                                {"byte 146", "triangle 1", "not finite"});
     expect_error<InvalidInput>("a.stl", binary("", 0, {}), {"nor a face"});
 }
+
+// Several solids are labels, which keep their names in ascii STL.
+TEST(ReadStl, NamesOfSolidsAreLabels) {
+    const std::string text = "# made by hand\nsolid inlet pipe\n" +
+                             facet("0 0 0", "1 0 0", "1 1 0") +
+                             "endsolid inlet pipe\nsolid wall\n" +
+                             facet("0 0 0", "1 1 0", "0 1 0") + "# more\nendsolid wall\n";
+    const remesh::MeshFile file = remesh::read_mesh_bytes(text, "a.stl", {.with_attributes = true});
+    ASSERT_EQ(file.attributes.of_faces.size(), 1u);
+    const remesh::Attribute& solid = file.attributes.of_faces[0];
+    EXPECT_EQ(solid.name, "solid");
+    EXPECT_EQ(solid.values, (std::vector<double>{0, 1}));
+    EXPECT_EQ(solid.names, (std::vector<std::string>{"inlet pipe", "wall"}));
+    remesh::MeshAttributes values{.of_faces = {solid}};
+    EXPECT_TRUE(remesh::remove_unwritable("b.stl", values).empty());
+    const std::string written = remesh::format_mesh("b.stl", file.mesh.view(), values);
+    EXPECT_EQ(written.find("solid inlet pipe\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n"), 0u);
+    const remesh::MeshFile back =
+        remesh::read_mesh_bytes(written, "b.stl", {.with_attributes = true});
+    EXPECT_EQ(back.attributes.of_faces[0].names, solid.names);
+    EXPECT_EQ(back.mesh.positions, file.mesh.positions);
+    const remesh::MeshFile one = remesh::read_mesh_bytes("solid a\n" + two_facets + "endsolid a\n",
+                                                         "a.stl", {.with_attributes = true});
+    EXPECT_TRUE(one.attributes.empty());
+}
+
+TEST(ReadStl, WordsBehindKeywordsAreSkipped) {
+    std::string text = "solid a\n" + two_facets + "endsolid a\n";
+    for (const char* keyword : {"endloop", "endfacet"}) {
+        for (std::size_t at = text.find(keyword); at != std::string::npos;
+             at = text.find(keyword, at + 1)) {
+            text.insert(at + std::strlen(keyword), " x 7");
+        }
+    }
+    expect_welded_square(text);
+}
+
+TEST(ReadStl, AWebPageIsCalledThat) {
+    for (const char* page :
+         {"<!DOCTYPE html>\n<title>Sign in</title>", "  <HTML><body></body></HTML>"}) {
+        expect_error<IoError>("a.stl", page, {"HTML page", "download the mesh itself"});
+    }
+}

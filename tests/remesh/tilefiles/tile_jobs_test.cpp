@@ -67,6 +67,19 @@ std::string complaint(const Call& call) {
     return "";
 }
 
+TEST_F(TileJobs, MeasureCreasesWhichTheyDoNotKeep) {
+    TriangleMesh mesh = shapes::cube();
+    const double edge = std::cbrt(shapes::signed_volume(mesh));
+    for (int i = 0; i < 5; ++i) mesh = shapes::subdivide(mesh);
+    const auto cube = remesh::split_into_tiles(put("cube.ply", mesh), folder_ / "c", options);
+    EXPECT_LE(cube.crease_length, 12 * edge * (1 + 1e-9));
+    EXPECT_GT(cube.crease_length, 0.9 * 12 * edge);
+    EXPECT_EQ(remesh::read_tile_plan(folder_ / "c").crease_length, cube.crease_length);
+    const auto sphere =
+        remesh::split_into_tiles(put("s.ply", shapes::sphere(5)), folder_ / "s", options);
+    EXPECT_EQ(sphere.crease_length, 0);
+}
+
 TEST_F(TileJobs, KeepTheTopologyAndTheNumberOfVertices) {
     const std::vector<TriangleMesh> meshes{
         shapes::sphere(5),

@@ -40,10 +40,10 @@ py::array_t<double> run_distances_at(const Doubles& positions, const Indices& tr
     return to_array<double>(progress.run([&] {
         const cli::GivenSurface given =
             cli::given_surface(mesh, as_surface, num_threads, progress.of("clean"));
-        const GivenSites::OnSurface on_surface = sites.on(given);
+        const agvd::SurfaceSites on_surface = sites.on(given);
         const agvd::Distances found =
             agvd::find_distances(given.surface(), on_surface.points, given.to_surface(targets),
-                                 {.points = sites.roles,
+                                 {.points = on_surface.roles,
                                   .shapes = on_surface.shapes,
                                   .max_distance = radius,
                                   .max_error = max_error,
@@ -84,10 +84,10 @@ py::tuple run_nearest_sites(const Doubles& positions, const Indices& triangles,
     Ranks ranks = progress.run([&] {
         const cli::GivenSurface given =
             cli::given_surface(mesh, as_surface, num_threads, progress.of("clean"));
-        const GivenSites::OnSurface on_surface = sites.on(given);
+        const agvd::SurfaceSites on_surface = sites.on(given);
         return of_given_vertices(given,
                                  agvd::k_nearest_sites(given.surface(), on_surface.points, k,
-                                                       {.points = sites.roles,
+                                                       {.points = on_surface.roles,
                                                         .shapes = on_surface.shapes,
                                                         .max_error = max_error,
                                                         .num_threads = num_threads,

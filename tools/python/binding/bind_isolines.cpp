@@ -35,10 +35,15 @@ double default_tolerance(const agvd::MeshView& mesh) {
     return 1e-4 * box.diagonal().norm();
 }
 
-DrawnLines compute(const agvd::Surface& surface, const agvd::Propagation& propagation,
-                   const Wanted& wanted, const agvd::IsolineOptions& options) {
+// \param propagate  propagate(faces): with relays in these.
+template <typename Propagate>
+DrawnLines compute(const agvd::Surface& surface, const Propagate& propagate, const Wanted& wanted,
+                   const agvd::IsolineOptions& options) {
+    const agvd::Propagation distances = propagate(std::vector<Index>());
     const std::vector<double> levels =
-        wanted.levels.empty() ? agvd::levels_every(propagation, wanted.step) : wanted.levels;
+        wanted.levels.empty() ? agvd::levels_every(distances, wanted.step) : wanted.levels;
+    const agvd::Propagation propagation =
+        propagate(agvd::faces_at_levels(surface, distances, levels));
     const agvd::Isolines isolines = agvd::build_isolines(surface, propagation, levels, options);
     const agvd::MeshView mesh = surface.mesh.view();
     agvd::DrawnIsolines drawn = agvd::draw_isolines(
@@ -63,9 +68,12 @@ py::dict run_isolines(const Doubles& positions, const Indices& triangles, const 
         const cli::GivenSurface given =
             cli::given_surface(mesh, as_surface, num_threads, progress.of("clean"));
         const agvd::Surface& surface = given.surface();
-        const agvd::Propagation propagation = sites.propagate_everywhere(
-            surface, sites.on(given), max_error, num_threads, progress.of("propagate"));
-        return compute(surface, propagation, {levels, step, tolerance},
+        const agvd::SurfaceSites on_surface = sites.on(given);
+        const auto propagate = [&](std::vector<Index> faces) {
+            return GivenSites::propagate_on(surface, on_surface, std::move(faces), max_error,
+                                            num_threads, progress.of("propagate"));
+        };
+        return compute(surface, propagate, {levels, step, tolerance},
                        {.num_threads = num_threads, .progress = progress.of("isolines")});
     });
     py::dict result;

@@ -46,9 +46,10 @@ py::dict run_paths_to_sites(const Doubles& positions, const Indices& triangles,
         const cli::GivenSurface given =
             cli::given_surface(mesh, as_surface, num_threads, progress.of("clean"));
         const agvd::Surface& surface = given.surface();
-        const GivenSites::OnSurface on_surface = sites.on(given);
-        const agvd::Propagation propagation = sites.propagate_everywhere(
-            surface, on_surface, max_error, num_threads, progress.of("propagate"));
+        const agvd::SurfaceSites on_surface = sites.on(given);
+        const agvd::Propagation propagation =
+            GivenSites::propagate_on(surface, on_surface, agvd::all_faces(surface), max_error,
+                                     num_threads, progress.of("propagate"));
         DrawnPaths drawn;
         for (const agvd::SitePath& path :
              agvd::paths_to_sites(surface, on_surface.points, propagation, given.to_surface(starts),

@@ -106,9 +106,12 @@ cli::MemoryLimit memory_limit(const std::string& text, agvd::Engine engine) {
                               "percentage of what the machine has, such as '50%', or None");
 }
 
+// Those of the program, and what it says in its summary of the result.
 std::vector<std::string> warnings_of(const remesh::RemeshResult& result,
                                      const RemeshOptions& options, bool strict) {
     std::vector<std::string> warnings = cli::shortfalls_of(result, options, strict);
+    if (std::string text = cli::coarseness_text(result); !text.empty()) warnings.push_back(text);
+    if (result.cleaned.split_edges > 0) warnings.push_back(remesh::to_text(result.cleaned));
     for (std::string& text : warnings) text = in_terms_of_python(std::move(text));
     return warnings;
 }

@@ -5,6 +5,7 @@
 #include "binding/bindings.h"
 #include "binding/python_progress.h"
 #include "remesh/tilefiles/tile_jobs.h"
+#include "shortfalls.h"
 
 namespace python {
 namespace {
@@ -16,6 +17,8 @@ py::dict to_dict(const remesh::TilePlan& plan) {
     result["spacing"] = plan.spacing;
     result["vertices"] = plan.num_vertices;
     result["border_vertices"] = plan.num_sites;
+    result["warning"] =
+        plan.crease_length > 0 ? cli::creases_of_tiles_text(plan.crease_length) : std::string();
     return result;
 }
 

@@ -13,25 +13,22 @@ struct GivenSites {
     agvd::SitePoints roles;
 
     //! What they are on a surface.
-    struct OnSurface {
-        std::vector<agvd::SurfacePoint> points;
-        std::vector<agvd::SiteShape> shapes;
-    };
     //! \throw as GivenSurface::to_surface.
-    [[nodiscard]] OnSurface on(const cli::GivenSurface& given) const {
-        return {given.to_surface(on_mesh.points), given.to_surface(on_mesh.shapes)};
+    [[nodiscard]] agvd::SurfaceSites on(const cli::GivenSurface& given) const {
+        return given.to_surface(on_mesh.points, roles, on_mesh.shapes);
     }
-    //! Propagation with relays in all faces.
+    //! Propagation with relays in some faces.
     //! \throw as agvd::propagate.
-    [[nodiscard]] agvd::Propagation propagate_everywhere(const agvd::Surface& surface,
-                                                         const OnSurface& sites, double max_error,
-                                                         int num_threads,
-                                                         const agvd::Progress& progress) const {
+    [[nodiscard]] static agvd::Propagation propagate_on(const agvd::Surface& surface,
+                                                        const agvd::SurfaceSites& sites,
+                                                        std::vector<agvd::Index> relay_faces,
+                                                        double max_error, int num_threads,
+                                                        const agvd::Progress& progress) {
         return agvd::propagate(surface, sites.points,
-                               {.points = roles,
+                               {.points = sites.roles,
                                 .shapes = sites.shapes,
                                 .max_error = max_error,
-                                .relay_faces = agvd::all_faces(surface),
+                                .relay_faces = std::move(relay_faces),
                                 .num_threads = num_threads,
                                 .progress = progress});
     }

@@ -11,6 +11,8 @@ integer type, counted from 0), or one object: a remesh.Mesh, as read() returns i
 PyVista, VTK (vtkPolyData), meshio or trimesh. Inputs are never changed, and must not be changed by other
 threads during a call. Every function releases the interpreter, may run in several threads at
 once, and gives the same bytes for any number of threads. Ctrl-C ends a call in the main thread.
+Of functions that have them, ``threads`` is how many are used (0: all cores), ``seed`` that of the
+random numbers, and ``progress`` a function of the fraction that is done and the stage: see remesh().
 """
 
 import sys as _sys

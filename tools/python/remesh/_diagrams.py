@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _arrays, _kinds, _remesh
+from ._arguments import checked
 from ._given import all_sites, surface_of
 from ._remesh import InvalidOption
 from ._stages import Progress, take_sites
@@ -108,6 +109,7 @@ def _common(engine: str, max_error: float | None, threads: int) -> tuple[str, fl
             _arrays.whole(threads, "threads", 0, 2**31 - 1))
 
 
+@checked
 def voronoi(V: Any, F: Any = None, sites: Any = None, max_error: float | None = None, *,
             groups: Any = None, weights: Any = None, lines: Any = None, regions: Any = None,
             barriers: Any = None, edge_lengths: Any = None, engine: str = "window",
@@ -128,7 +130,7 @@ def voronoi(V: Any, F: Any = None, sites: Any = None, max_error: float | None = 
     regions: sites that are regions, at distance 0 inside: of each its faces. Their numbers follow.
     groups and weights may go on with those of the lines and of the regions.
     barriers: edges that no path crosses (m x 2 vertices). The mesh is cut along them; of a vertex
-    on them the nearest side counts, and a site there is on the side of its face.
+    on them the nearest side counts, and sites on them count on both sides.
     edge_lengths: in place of those between the positions, which then are for drawing only (#F x 3
     numbers: of the side from corner k of a face to corner k + 1). The mesh is not cleaned: what
     cleaning repairs is an error. Not together with barriers; sites are vertices, or faces and
@@ -164,6 +166,7 @@ def voronoi(V: Any, F: Any = None, sites: Any = None, max_error: float | None = 
     return Voronoi(**found, arcs=None if arcs is None else BisectorArcs(**arcs))
 
 
+@checked
 def compare(a: str | os.PathLike[str], b: str | os.PathLike[str] = "exact", *,
             spacing: float = 0.01, samples: int = 100_000, points: int = 20_000, threads: int = 0,
             progress: Progress | None = None) -> dict[str, Any]:
@@ -190,6 +193,7 @@ def compare(a: str | os.PathLike[str], b: str | os.PathLike[str] = "exact", *,
         _arrays.whole(threads, "threads", 0, 2**31 - 1), progress)))
 
 
+@checked
 def cut_cells(V: Any, F: Any = None, sites: Any = None, max_error: float | None = None, *,
               groups: Any = None, weights: Any = None, lines: Any = None, regions: Any = None,
               barriers: Any = None, edge_lengths: Any = None, engine: str = "window", keep_slits: bool = False,
@@ -200,7 +204,8 @@ def cut_cells(V: Any, F: Any = None, sites: Any = None, max_error: float | None 
     none reaches it), and the face of the input that it is a part of. It is a manifold, and the faces
     of a site have the area of its cell.
 
-    All parameters are those of voronoi(), which has ``chord`` besides.
+    sites, max_error, groups, weights, lines, regions, barriers, edge_lengths, engine and keep_slits
+    are those of voronoi(), which has ``chord`` besides.
 
     >>> V, F = remesh.examples.sphere(3)
     >>> W, G, site, source = remesh.cut_cells(V, F, [0, 1])
@@ -213,6 +218,7 @@ def cut_cells(V: Any, F: Any = None, sites: Any = None, max_error: float | None 
                              *_common(engine, max_error, threads), progress)
 
 
+@checked
 def geodesic_distance(V: Any, F: Any = None, sources: Any = None, max_error: float | None = None, *,
                       targets: Any = None, radius: float | None = None, weights: Any = None,
                       lines: Any = None, regions: Any = None,
@@ -248,6 +254,7 @@ def geodesic_distance(V: Any, F: Any = None, sources: Any = None, max_error: flo
                                      progress)
 
 
+@checked
 def nearest_sites(V: Any, F: Any = None, sites: Any = None, k: int = 1, max_error: float = 1e-4, *,
                   groups: Any = None, weights: Any = None, lines: Any = None, regions: Any = None,
                   barriers: Any = None, edge_lengths: Any = None, keep_slits: bool = False,
@@ -256,7 +263,8 @@ def nearest_sites(V: Any, F: Any = None, sites: Any = None, k: int = 1, max_erro
     """The k nearest sites of each vertex along the surface, and their distances: two arrays #V x k,
     the nearest first; -1 and infinity where fewer sites reach.
 
-    All else: as for voronoi(). No line hides what lies beyond it.
+    sites, max_error, groups, weights, lines, regions, barriers, edge_lengths and keep_slits: as for
+    voronoi(). No line hides what lies beyond it.
 
     >>> V, F = remesh.examples.sphere(3)
     >>> sites, distances = remesh.nearest_sites(V, F, [0, 1, 2], k=2)

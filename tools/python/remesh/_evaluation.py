@@ -6,9 +6,11 @@ import json
 from typing import Any
 
 from . import _arrays, _kinds, _remesh
+from ._arguments import checked
 from ._stages import Progress
 
 
+@checked
 def evaluate(V: Any, F: Any = None, V2: Any = None, F2: Any = None, *, samples: int = 200_000,
              threads: int = 0, progress: Progress | None = None) -> dict[str, Any]:
     """Compares a mesh (V2, F2) with its original (V, F): what ``remesh-eval --report`` writes.

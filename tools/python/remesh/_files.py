@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _arrays, _kinds, _remesh
+from ._arguments import checked
 from ._kinds import Data, Given
 from ._mesh import Mesh
 from ._remesh import InvalidInput
@@ -19,6 +20,7 @@ _COLOUR = "color"
 _PARTS = ("red", "green", "blue", "alpha")
 
 
+@checked
 def read(path: str | os.PathLike[str], *, format: str = "", lenient: bool = False,
          progress: Progress | None = None) -> Mesh:
     """Reads a mesh with all that the program carries over: the formats of the program.
@@ -54,12 +56,13 @@ def read(path: str | os.PathLike[str], *, format: str = "", lenient: bool = Fals
     return mesh
 
 
+@checked
 def write(path: str | os.PathLike[str], V: Any, F: Any = None, *, vertex_data: Data | None = None,
           face_data: Data | None = None, uv: Any = None, format: str = "",
           progress: Progress | None = None) -> None:
-    """Writes a mesh and its values, all or nothing: the formats of the program.
+    """Writes a mesh and its values to a path, all or nothing: the formats of the program.
 
-    V, F: arrays, or one object that is a mesh, whose values are written, too; ``vertex_data``,
+    V, F: arrays, or one object that is a mesh or a result, whose values are written, too; ``vertex_data``,
     ``face_data`` (arrays by name) and ``uv`` (#F x 3 x 2 or #V x 2) are added or take their place.
     ``result.mesh`` of a remesh.Mesh has all of them. Columns of an array become values of their
     own: ``"color"`` red, green, blue and alpha, others ``name_0``, ``name_1``, ... What the
@@ -90,13 +93,13 @@ def write(path: str | os.PathLike[str], V: Any, F: Any = None, *, vertex_data: D
         corner_type = "float64" if is_wide else "float32"
     folder = os.path.dirname(os.path.abspath(path))
     materials = [os.path.relpath(name, folder) if os.path.isabs(name) else name
-                 for name in getattr(V, "material_files", [])]
+                 for name in getattr(getattr(V, "mesh", V), "material_files", [])]
     texts = _remesh.write_mesh(
         path, format, mesh.V, mesh.F, _rows_of(of_vertices, len(mesh.V), "vertices"),
         _rows_of(of_faces, len(mesh.F), "faces"), corners, corner_type,
         None if normals is None else np.asarray(normals).dtype.name, materials, progress)
     for text in texts:
-        warnings.warn(f"{path}: {text}", stacklevel=2)
+        warnings.warn(f"{path}: {text}", stacklevel=3)  # Where write() is called: see _arguments.
 
 
 def _data_of(rows: list[_remesh.Row]) -> Data:

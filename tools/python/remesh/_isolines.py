@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _arrays, _kinds, _remesh
+from ._arguments import checked
 from ._given import all_sites, surface_of
 from ._remesh import InvalidOption
 from ._stages import Progress
@@ -40,6 +41,7 @@ class Isolines:
         return _arrays.parts(self.points, self.offsets)
 
 
+@checked
 def isolines(V: Any, F: Any = None, sites: Any = None, levels: Any = None, *,
              every: float | None = None, tolerance: float | None = None, max_error: float = 0,
              groups: Any = None, weights: Any = None, lines: Any = None, regions: Any = None,

@@ -3,6 +3,7 @@ trimesh, or laid out like these. Of other packages only VTK's is imported, where
 
 from __future__ import annotations
 
+import os
 from typing import Any
 
 import numpy as np
@@ -175,8 +176,21 @@ class OwnMesh(Given):
         return Mesh(V, F, of_vertices, of_faces, uv, list(self._given.material_files))
 
 
+def _unwrapped(given: Any) -> Any:
+    """Results of this package, which have V and F, as meshes: the object that they came as, if it is
+    one, or a Mesh."""
+    if isinstance(given, Mesh) or not (hasattr(given, "V") and hasattr(given, "F")):
+        return given
+    inner = getattr(given, "mesh", None)
+    if inner is not None and not isinstance(inner, tuple):
+        return inner
+    return Mesh(given.V, given.F, dict(getattr(given, "vertex_data", {})),
+                dict(getattr(given, "face_data", {})), getattr(given, "uv", None))
+
+
 def kind_of(given: Any) -> Any:
     """The class above that takes it; None: it is no mesh by itself."""
+    given = _unwrapped(given)
     for kind, has in ((OwnMesh, isinstance(given, Mesh)),
                       (PyVistaMesh, hasattr(given, "faces") and hasattr(given, "points")),
                       (TrimeshMesh, hasattr(given, "faces") and hasattr(given, "vertices")),
@@ -188,17 +202,26 @@ def kind_of(given: Any) -> Any:
 
 
 def is_mesh(given: Any) -> bool:
-    """Whether it is a mesh by itself."""
-    return kind_of(given) is not None
+    """Whether it is a mesh by itself, or the two arrays as a tuple."""
+    return _is_pair(given) or kind_of(given) is not None
+
+
+def _is_pair(given: Any) -> bool:
+    return type(given) is tuple and len(given) == 2
 
 
 def take(V: Any, F: Any, name: str = "") -> Given:
     """The mesh that a user gave as V and F, or as V alone."""
+    if isinstance(V, (str, os.PathLike)):
+        raise TypeError(f"{os.fspath(V)!r} is a path, not a mesh; read it first: "
+                        f"remesh.read({os.fspath(V)!r})")
+    if F is None and _is_pair(V):
+        V, F = V
     kind = kind_of(V)
     if kind is not None:
         if F is not None:
             raise TypeError("the first argument is a mesh with faces; give no faces besides")
-        mesh: Given = kind(V)
+        mesh: Given = kind(_unwrapped(V))
         return mesh
     if F is None:
         raise TypeError(f"{type(V).__name__} has no faces; give V and F, a remesh.Mesh, or an object "

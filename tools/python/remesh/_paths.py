@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _arrays, _kinds, _remesh
+from ._arguments import checked
 from ._given import all_sites, surface_of
 from ._remesh import InvalidOption, InvalidSites
 from ._stages import Progress, take_sites
@@ -40,6 +41,7 @@ class Paths:
         return _arrays.parts(self.points, self.offsets)
 
 
+@checked
 def paths(V: Any, F: Any = None, starts: Any = None, sites: Any = None, *, ends: Any = None,
           max_error: float = 0, groups: Any = None, weights: Any = None, lines: Any = None,
           regions: Any = None, barriers: Any = None, edge_lengths: Any = None,

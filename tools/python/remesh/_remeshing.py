@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import operator
 import os
+import warnings
 from dataclasses import dataclass
 from typing import Any
 
@@ -12,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _arrays, _kinds, _options, _page, _remesh, _transfer
+from ._arguments import checked
 from ._remesh import InvalidOption
 from ._stages import Progress
 
@@ -44,7 +46,8 @@ class Result:
     kept_vertices: NDArray[np.int64]
     kept_faces: NDArray[np.int64]
     #: What was done and found: the keys of the program's ``--report``. ``report["warnings"]`` is a
-    #: list of the texts of which the program would warn.
+    #: list of the texts of Python's warnings: what the program warns of, or tells of a result that
+    #: is too coarse, and of edges that cleaning cut apart.
     report: dict[str, Any]
     #: Values of the input that were carried over, by name.
     vertex_data: dict[str, NDArray[Any]]
@@ -83,6 +86,7 @@ class Result:
         return f"<remesh.Result: {len(self.V)} vertices, {len(self.F)} faces{warnings}>"
 
 
+@checked
 def remesh(
     V: Any,
     F: Any = None,
@@ -298,6 +302,8 @@ def _run(mesh: _kinds.Given, options: _remesh.Options, wanted: _transfer.Wanted,
                               progress)
     report = json.loads(text)
     report["warnings"] = mesh.warnings + report["warnings"]
+    for warning in report["warnings"]:
+        warnings.warn(warning, stacklevel=4)  # Where remesh() is called: see _arguments.
     of_vertices, of_faces = _transfer.carry(wanted, mesh, new_V, new_F, source_face, barycentric,
                                             samples)
     _transfer.keep(wanted.of_vertices, kept_vertices, of_vertices)

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _arrays, _kinds, _remesh
+from ._arguments import checked
 from ._remesh import InvalidSites
 
 Progress = Callable[[float, str], Any]
@@ -133,6 +134,7 @@ def _nearest(mesh: _kinds.Given, points: NDArray[Any]) -> tuple[_arrays.Indices,
     return face.astype(np.uint32), barycentric
 
 
+@checked
 def clean(V: Any, F: Any = None, *, keep_slits: bool = False, threads: int = 0,
           progress: Progress | None = None) -> Cleaned:
     """Repairs a mesh as remesh() does first, without moving a vertex: welds, drops degenerate and
@@ -150,6 +152,7 @@ def clean(V: Any, F: Any = None, *, keep_slits: bool = False, threads: int = 0,
     return Cleaned(*mesh.like_given(new_V, new_F), vertices, faces, counts)
 
 
+@checked
 def sample_sites(V: Any, F: Any = None, n: int = 2000, *, init: str = "blue-noise",
                  boundary: str = "keep", seed: int = 1, threads: int = 0,
                  progress: Progress | None = None) -> Sites:
@@ -168,6 +171,7 @@ def sample_sites(V: Any, F: Any = None, n: int = 2000, *, init: str = "blue-nois
         _arrays.whole(seed, "seed", 0, 2**64 - 1), _arrays.whole(threads, "threads", 0, 2**31 - 1), progress))
 
 
+@checked
 def relax_sites(V: Any, F: Any = None, sites: Any = None, *, steps: int = 60,
                 tolerance: float = 1e-4, stop: Callable[[list[float]], Any] | None = None,
                 fixed: Any = None, boundary: str = "keep", threads: int = 0,
@@ -180,7 +184,8 @@ def relax_sites(V: Any, F: Any = None, sites: Any = None, *, steps: int = 60,
     before the first step and after each. ``stop`` may take the interpreter's time after each step;
     an exception in it ends the call.
 
-    sites: see voronoi(). fixed: k truth values, true for sites that stay.
+    sites: see voronoi(). fixed: k truth values, true for sites that stay. boundary: see
+    sample_sites().
 
     >>> V, F = remesh.examples.sphere(3)
     >>> first = remesh.sample_sites(V, F, 100, init="random")

@@ -11,12 +11,14 @@ from __future__ import annotations
 import argparse
 import importlib
 import os
+import sys
 import tempfile
 from contextlib import ExitStack
 from typing import Any
 
 from . import tiles
 from ._files import write
+from ._remesh import Error
 from ._stages import Progress
 from .tiles import Path
 
@@ -59,8 +61,9 @@ def remesh_file(file: Path, out: Path, n: int = 2000, *, folder: Path | None = N
                 retries: int = 3, progress: Progress | None = None) -> None:
     """Splits a file, meshes its tiles by workers, joins them, and writes the result.
 
-    folder: for the tiles, which stay there; None: a temporary one, which only workers of this
-    machine see. The other options are those of tiles.split() and mesh().
+    out: the result; the extension gives the format. folder: for the tiles, which stay there; None: a
+    temporary one, which only workers of this machine see. n, tile, seed and relax are those of
+    tiles.split(), client and retries those of mesh().
     """
     with tempfile.TemporaryDirectory() as temporary:
         used = temporary if folder is None else folder
@@ -84,9 +87,15 @@ def _main() -> None:
     parser.add_argument("--folder", help="for the tiles, which stay there")
     parser.add_argument("--scheduler", help="address; without it workers of this machine are used")
     given = parser.parse_args()
-    remesh_file(given.file, given.out, given.samples, folder=given.folder, client=given.scheduler,
-                tile=given.tile, seed=given.seed,
-                progress=lambda share, _: print(f"{100 * share:.0f} % of the tiles", flush=True))
+    try:
+        remesh_file(given.file, given.out, given.samples, folder=given.folder,
+                    client=given.scheduler, tile=given.tile, seed=given.seed,
+                    progress=lambda share, _: print(f"{100 * share:.0f} % of the tiles", flush=True))
+    except ModuleNotFoundError as error:
+        sys.exit(f"remesh.distributed: error: {error}; install dask.distributed (Debian: "
+                 "python3-distributed)")
+    except Error as error:
+        sys.exit(f"remesh.distributed: error: {error}")
 
 
 if __name__ == "__main__":

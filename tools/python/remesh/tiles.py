@@ -6,6 +6,7 @@ stopped goes on where it was, and tiles may be meshed by any number of processes
 from __future__ import annotations
 
 import os
+import warnings
 from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Union
@@ -13,6 +14,7 @@ from typing import Union
 from numpy import int32
 
 from . import _arrays, _remesh
+from ._arguments import checked
 from ._mesh import Mesh
 from ._stages import Progress
 
@@ -42,6 +44,8 @@ class Plan:
     vertices: list[int]
     #: On borders between tiles.
     border_vertices: int
+    #: Of creases, which tiles do not keep; split() also warns. Empty: there are none.
+    warning: str
 
     @property
     def num_tiles(self) -> int:
@@ -49,29 +53,37 @@ class Plan:
         return len(self.vertices)
 
 
+@checked
 def split(file: Path, folder: Path, n: int = 2000, *, tile: int = 10000, seed: int = 1,
           relax: int = 60, threads: int = 0, progress: Progress | None = None) -> Plan:
     """Cuts a file into tiles of at most ``tile`` vertices (500 or more), for a result of ``n``
     vertices in all.
 
+    relax: steps of relaxation on each of two levels.
+    Creases are not kept: a mesh that has any is a warning.
     file: binary PLY with triangles, or binary STL; it is read twice and need not fit into memory.
     folder: is made if it does not exist. A plan that is there is kept if the file and the options
     are the same.
     """
-    return Plan(**_remesh.split_into_tiles(
+    made = Plan(**_remesh.split_into_tiles(
         os.fspath(file), os.fspath(folder), _arrays.whole(n, "n", 1, 2**32 - 2),
         _arrays.whole(tile, "tile", 0, 2**32 - 2), _arrays.whole(seed, "seed", 0, 2**64 - 1),
         _arrays.whole(relax, "relax", 0, 1_000_000), _threads(threads), progress))
+    if made.warning:
+        warnings.warn(made.warning, stacklevel=3)  # Where split() is called: see _arguments.
+    return made
 
 
+@checked
 def plan(folder: Path) -> Plan:
     """The plan of a folder that a file was split into."""
     return Plan(**_remesh.read_tile_plan(os.fspath(folder)))
 
 
+@checked
 def mesh(folder: Path, tiles: Iterable[int] | None = None, *, threads: int = 0,
          progress: Progress | None = None) -> tuple[int, int]:
-    """Makes the meshes of tiles (None: of all), as many side by side as there are threads.
+    """Makes the meshes of tiles of a folder (None: of all), as many side by side as there are threads.
 
     Returns how many were made, and how many were there before.
     """
@@ -81,6 +93,7 @@ def mesh(folder: Path, tiles: Iterable[int] | None = None, *, threads: int = 0,
                               _threads(threads), progress)
 
 
+@checked
 def join(folder: Path, *, threads: int = 0, progress: Progress | None = None) -> Mesh:
     """Joins the meshes of all tiles.
 

@@ -116,10 +116,11 @@ void emit_from_shape(WindowFront& front, const ShapeSource& shape) {
         v.bound = std::min(v.bound, shape.start);
     }
     const Around around{front.corners, shape};
-    for (const Index side : shape.own_sides) {
-        emit_beam(front, side, shape.start);
-        emit_left_of_tail(front, around, side);
-        emit_right_of_head(front, around, side);
+    const auto is_own = [&](Index vertex) { return is_among(shape.own_vertices, vertex); };
+    for (const Index side : shape.sector_sides) {
+        if (is_among(shape.own_sides, side)) emit_beam(front, side, shape.start);
+        if (is_own(front.surface.tail(side))) emit_left_of_tail(front, around, side);
+        if (is_own(front.surface.head(side))) emit_right_of_head(front, around, side);
     }
 }
 

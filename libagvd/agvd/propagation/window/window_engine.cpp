@@ -349,22 +349,6 @@ private:
     Propagation result_;
 };
 
-// Lines may share edges. Of the shapes with a side the one with the least start keeps it, of equal
-// ones the first: from there on others are no nearer.
-void keep_own_sides(std::vector<ShapeSource>& shapes) {
-    std::vector<std::tuple<Index, double, Index>> all;
-    for (Index i = 0; i < shapes.size(); ++i) {
-        for (const Index side : shapes[i].sides) all.emplace_back(side, shapes[i].start, i);
-        shapes[i].own_sides.clear();
-    }
-    std::sort(all.begin(), all.end());
-    Index last = no_index;
-    for (const auto& [side, start, shape] : all) {
-        if (side != last) shapes[shape].own_sides.push_back(side);
-        last = side;
-    }
-}
-
 // The corners without ways across lines and into regions at distance 0: no path crosses them.
 std::shared_ptr<const Corners> corners_around(const Surface& surface,
                                               std::shared_ptr<const Corners> corners,
@@ -399,7 +383,7 @@ Propagation propagate_windows(const Surface& surface, SurfaceLayout layout,
                               std::span<const float> caps) {
     poll(options.progress, 0);
     std::vector<ShapeSource> shapes = sources_of(surface, options.shapes);
-    keep_own_sides(shapes);
+    leave_own(surface, options.shapes, shapes);
     DistanceBounds bounds =
         distance_bounds(surface, layout, sites, options.num_threads, within(options.progress, 0, 0),
                         options.points.start, options.shapes);
