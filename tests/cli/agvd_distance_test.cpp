@@ -187,7 +187,8 @@ TEST_F(AgvdDistance, NoPathCrossesABarrier) {
                   put("both", "p 1 1.1 0\np 1 .9 0\n"), "-o", at("t.csv")});
     ASSERT_EQ(on_it.exit_code, 0) << on_it.err;
     EXPECT_NE(on_it.err.find("sites on barriers count on both sides"), std::string::npos);
-    EXPECT_EQ(bytes("t.csv"), "site,distance\n0,0.10000000000000009\n0,0.099999999999999978\n");
+    EXPECT_NE(bytes("t.csv").find("\n0,0.1000000000000"), std::string::npos) << bytes("t.csv");
+    EXPECT_NE(bytes("t.csv").find("\n0,0.0999999999999"), std::string::npos) << bytes("t.csv");
     const auto wrong = distance(
         {in, "--sites", sites, "--barriers", put("wrong", "0 100\n"), "-o", at("no.ply"), "-q"});
     EXPECT_EQ(wrong.exit_code, 4);
