@@ -3,7 +3,9 @@
 // Specification, 1989). The names of several solids are labels of faces, "solid"; written with
 // these, the file is ascii.
 
+#include <algorithm>
 #include <cstring>
+#include <initializer_list>
 
 #include "agvd/core/groups.h"
 #include "remesh/meshfile/formats.h"
