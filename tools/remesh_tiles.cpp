@@ -8,6 +8,7 @@
 #include "mesh_paths.h"
 #include "remesh/meshfile/mesh_file.h"
 #include "remesh/tilefiles/tile_jobs.h"
+#include "shortfalls.h"
 
 namespace fs = std::filesystem;
 
