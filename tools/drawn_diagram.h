@@ -32,7 +32,7 @@ struct DrawnArcs {
     std::vector<std::array<agvd::Index, 2>> spans;  //!< Of Polylines::points.
     std::vector<agvd::ArcKind> kinds;
     std::array<std::vector<agvd::Vec3>, 2> foci;  //!< On the left and right, in space.
-    std::array<std::vector<double>, 2> weights;   //!< Likewise.
+    std::array<std::vector<double>, 2> weights;   //!< On the left and right.
 };
 
 //! What a diagram is computed to: on the surface, and for the caller's vertices.

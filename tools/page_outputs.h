@@ -14,7 +14,7 @@ namespace cli {
 
 struct PageArguments {
     std::filesystem::path html;     //!< Empty: none.
-    std::filesystem::path picture;  //!< Likewise.
+    std::filesystem::path picture;  //!< Empty: none.
     std::string command;            //!< The command line: see page::to_shell.
 };
 

@@ -21,7 +21,7 @@ inline constexpr double grid_steps = 1 << 18;
 //! but for those that close the last gate that starts at b, or ends at a.
 struct PackedMesh {
     std::vector<agvd::Index> vertices;  //!< The caller's, in the new order.
-    std::vector<agvd::Index> faces;     //!< Likewise. Corners may have been rotated.
+    std::vector<agvd::Index> faces;     //!< The caller's, in the new order, with corners rotated.
     agvd::Vec3 low{0, 0, 0};            //!< Of the grid.
     double step = 0;                    //!< Of the grid; 0: all points are one.
     std::string codes;                  //!< A FaceCode for each gate.

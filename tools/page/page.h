@@ -16,13 +16,13 @@ struct Page {
     //! JSON: the settings, repairs and warnings of the run. Empty: there was no run.
     std::string report = {};
     std::string original_name = {};      //!< Of the file.
-    std::string result_name = {};        //!< Likewise.
+    std::string result_name = {};        //!< Of the file.
     agvd::MeshView original = {};        //!< As it was read.
     agvd::MeshView result = {};          //!< As it was written.
     remesh::Evaluation evaluation = {};  //!< Of the two.
     std::vector<double> targets = {};    //!< Edge length at each vertex of the result, or none.
     FaceLabels original_labels = {};     //!< Of one property of both meshes, or none.
-    FaceLabels result_labels = {};       //!< Likewise.
+    FaceLabels result_labels = {};       //!< Of the same property, or none.
     Polylines cells = {};                //!< On the original.
     remesh::RemeshOptions options = {};  //!< Of creases and threads.
 };

@@ -25,7 +25,7 @@ struct BisectorSample {
 struct BisectorError {
     double mean = 0;       //!< Over the points measured.
     double p95 = 0;        //!< 95th percentile.
-    double max = 0;        //!< Likewise.
+    double max = 0;        //!< Over the points measured.
     Index num_points = 0;  //!< Points measured.
 };
 

@@ -18,7 +18,7 @@ public:
     Canvas(int width, int height);
 
     [[nodiscard]] int width() const;   //!< Of the finished picture.
-    [[nodiscard]] int height() const;  //!< Likewise.
+    [[nodiscard]] int height() const;  //!< Of the finished picture.
     //! Fills pixels that are in front of everything drawn before; edges get a thin dark line of
     //! this opacity.
     void draw_triangle(const std::array<agvd::Vec3, 3>& corners, const Color& color,

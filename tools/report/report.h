@@ -24,7 +24,7 @@ struct AttributeReport {
 struct RunInfo {
     std::string version = {};                //!< Of the program.
     std::string input_path = {};             //!< Empty: not a file.
-    std::string output_path = {};            //!< Likewise.
+    std::string output_path = {};            //!< Empty: not a file.
     RemeshOptions options = {};              //!< As passed to remesh().
     AttributeReport attributes = {};         //!< What was carried over.
     std::optional<MeshFigures> output = {};  //!< Of the result (measure_figures), if measured.
@@ -42,7 +42,7 @@ struct RunFailure {
 struct EvaluationInfo {
     std::string version = {};        //!< Of the program.
     std::string original_path = {};  //!< Empty: not a file.
-    std::string result_path = {};    //!< Likewise.
+    std::string result_path = {};    //!< Empty: not a file.
 };
 
 //! A diagram compared with another one or the exact one.
@@ -79,9 +79,9 @@ struct ComparisonInfo {
 [[nodiscard]] std::string to_text(const RemeshResult& result, const RunInfo& info = {});
 //! More of it, for those who know the method; likewise without a last line end.
 [[nodiscard]] std::string details_to_text(const RemeshResult& result, const RunInfo& info = {});
-//! Likewise.
+//! An evaluation for people, without a last line end.
 [[nodiscard]] std::string to_text(const Evaluation& evaluation, const EvaluationInfo& info = {});
-//! Likewise.
+//! A comparison for people, without a last line end.
 [[nodiscard]] std::string to_text(const Comparison& comparison, const ComparisonInfo& info = {});
 
 //! One line on where distances come from, e.g. "distances: window engine, at most 0.0712 % above

@@ -135,7 +135,7 @@ private:
     std::vector<PlanarRelay> relays_;
     RelayTree tree_;
     std::vector<Index> found_;
-    std::vector<PlanarRelay> near_;  // Those found.
+    std::vector<PlanarRelay> near_;  // The relays of found_.
     std::vector<LineRelay> on_cut_;
     std::vector<Point> points_;
     FaceTriangulation triangulation_;

@@ -68,7 +68,7 @@ public:
     explicit IntrinsicTriangulation(Surface&& input, const IntrinsicOptions& options = {}) = delete;
     //! Moves; the other one may only be destroyed or assigned to.
     IntrinsicTriangulation(IntrinsicTriangulation&&) noexcept;
-    //! Likewise.
+    //! Moves; the other one may only be destroyed or assigned to.
     IntrinsicTriangulation& operator=(IntrinsicTriangulation&&) noexcept;
     ~IntrinsicTriangulation();
 

@@ -18,7 +18,7 @@ struct FaceArcEnd {
 //! Counter-clockwise about the centre, less than half of the circle; or straight.
 struct FaceArc {
     Vec2 centre;    //!< As IsolineArc::centre.
-    double radius;  //!< Likewise.
+    double radius;  //!< As IsolineArc::radius.
     Index site;
     FaceArcEnd begin, end;
     Index next = no_index;  //!< The arc that follows in the face.

@@ -353,7 +353,7 @@ private:
     std::vector<Quadric> quadrics_;
     std::optional<Groups> around_;  // The faces at each vertex, at the start of the round.
     std::vector<Wing> wings_;       // Of the vertex that goes.
-    std::vector<Index> ring_;       // Likewise.
+    std::vector<Index> ring_;       // The vertices around it.
 };
 
 }  // namespace

@@ -75,7 +75,7 @@ struct Curve {
     std::vector<CurveSide> sides;  //!< First those that run along it; each kind by sheet.
     std::vector<double> up_to;  //!< #edges + 1: length before each edge, then of all; mesh units.
     Index begin = no_index;     //!< Index into CurveNetwork::nodes; no_index: closed.
-    Index end = no_index;       //!< Likewise.
+    Index end = no_index;       //!< Index into CurveNetwork::nodes; no_index: closed.
     Index num_sheets = 1;       //!< Above 1: a junction.
     bool is_locked = false;     //!< A locked edge: it is not divided.
 

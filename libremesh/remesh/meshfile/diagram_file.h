@@ -29,7 +29,7 @@ struct GivenShape {
 struct SitesFile {
     std::vector<SurfacePoint> sites;    //!< In the file's order.
     SitePoints points;                  //!< Sites of the points, and their starts.
-    std::vector<GivenShape> shapes;     //!< Likewise.
+    std::vector<GivenShape> shapes;     //!< Lines and regions, in the file's order.
     std::vector<std::string> warnings;  //!< With the file's name and the line.
 };
 

@@ -14,7 +14,7 @@ struct SourceFile {
     std::string bytes;
     bool is_binary = false;        //!< Errors name bytes instead of lines.
     bool is_lenient = false;       //!< See ReadOptions.
-    bool with_attributes = false;  //!< Likewise.
+    bool with_attributes = false;  //!< See ReadOptions.
     Ticker ticker = {};            //!< Of the call that reads it; readers tick copies.
 
     //! "mesh.off: line 12: ". Lines are counted here and not while reading, so that valid files

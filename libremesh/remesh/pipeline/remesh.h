@@ -183,7 +183,7 @@ struct ForcedFace {
 //! not listed come after those that are. Empty: the whole mesh was remeshed.
 struct KeptPart {
     std::vector<Index> vertices;  //!< The caller's, ascending: the first ones of the result.
-    std::vector<Index> faces;     //!< Likewise.
+    std::vector<Index> faces;     //!< The caller's, ascending: the first ones of the result.
     Index rim_edges = 0;          //!< Edges between kept and remeshed faces.
 };
 

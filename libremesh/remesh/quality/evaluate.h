@@ -73,7 +73,7 @@ struct EvaluationOptions {
 //! From one surface to the closest points of another, mesh units.
 struct OneSidedDistance {
     double mean = 0;               //!< Over the area: from the samples alone.
-    double rms = 0;                //!< Likewise.
+    double rms = 0;                //!< Over the area: from the samples alone.
     double max = 0;                //!< Over samples and vertices.
     Vec3 farthest = Vec3::Zero();  //!< The point that is so far; of several the first.
 };

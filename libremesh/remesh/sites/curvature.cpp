@@ -12,7 +12,7 @@
 namespace remesh {
 namespace {
 
-// Any value works.
+// Of the random numbers: no value is better than another.
 constexpr std::uint64_t cell_seed = 0x5eed;
 // Pieces of a face that is larger than this share of a cell.
 constexpr double piece_of_cell = 0.25;

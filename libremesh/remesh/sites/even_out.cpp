@@ -27,7 +27,7 @@ constexpr Index vertices_per_region = 8;
 constexpr double most_deviation = 4, most_deviation_of_one = 5;
 // Sites nearer than this count as being at one position; in mean distances.
 constexpr double same_position = 1e-3;
-// Any value works.
+// Of the random numbers: no value is better than another.
 constexpr std::uint64_t seed = 0x5eed;
 
 // Parts of the surface, each a set of faces.

@@ -79,7 +79,7 @@ private:
     std::vector<SurfacePoint> sites_;
     std::vector<Vec3> at_, facing_;                // #sites: positions, normals of their faces.
     std::vector<SurfacePoint> sites_before_;       // Before the last step.
-    std::vector<Vec3> at_before_, facing_before_;  // Likewise.
+    std::vector<Vec3> at_before_, facing_before_;  // at_ and facing_ of these.
     std::vector<Vec3> move_;                       // #sites: the last move.
     std::vector<Vec3> half_slope_;                 // #sites
     std::vector<double> weight_;                   // #sites

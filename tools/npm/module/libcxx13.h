@@ -120,7 +120,7 @@ template <typename Iterator>
 requires requires(Iterator at) { at[0]; }
 void sort(Iterator first, Iterator last) { std::sort(first, last, std::less<>{}); }
 
-//! Likewise. Moves the first part away and back.
+//! As std::inplace_merge. Moves the first part away and back.
 template <typename Iterator, typename Less>
 requires requires(Iterator at) { at[0]; }
 void inplace_merge(Iterator first, Iterator middle, Iterator last, Less less) {
@@ -132,7 +132,7 @@ void inplace_merge(Iterator first, Iterator middle, Iterator last, Less less) {
     std::move(from, moved.end(), first);
 }
 
-//! Likewise: O(n log n).
+//! As std::stable_sort: O(n log n).
 template <typename Iterator, typename Less>
 requires requires(Iterator at) { at[0]; }
 void stable_sort(Iterator first, Iterator last, Less less) {
