@@ -63,8 +63,8 @@ void expect_loops_close(const Diagram& d) {
         const Index begin = cells.loop_edges[l];
         const Index size = cells.loop_edges[l + 1] - begin;
         for (Index i = 0; i < size; ++i) {
-            const DirectedEdge& a = cells.edges[begin + i];
-            const DirectedEdge& b = cells.edges[begin + (i + 1) % size];
+            const LoopEdge& a = cells.edges[begin + i];
+            const LoopEdge& b = cells.edges[begin + (i + 1) % size];
             const VoronoiEdge& ea = d.edges[a.edge];
             const VoronoiEdge& eb = d.edges[b.edge];
             EXPECT_EQ(a.reversed ? ea.tail : ea.head, b.reversed ? eb.head : eb.tail);

@@ -162,7 +162,7 @@ void collect_loops(const Diagram& diagram, Ticker& ticker, Cells& cells) {
         Index begin, end;  // Of `walked`.
     };
     const std::vector<Side> next = next_sides(diagram);
-    std::vector<DirectedEdge> walked;
+    std::vector<LoopEdge> walked;
     std::vector<Loop> loops;
     std::vector<bool> seen(next.size(), false);
     for (Side start = 0; start < next.size(); ++start) {

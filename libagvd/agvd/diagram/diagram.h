@@ -133,7 +133,7 @@ struct CurvePiece {
 [[nodiscard]] std::vector<Index> points_of_arc(const Diagram& diagram, Index edge, Index arc);
 
 //! A directed edge of the complex with the cell on its left.
-struct DirectedEdge {
+struct LoopEdge {
     Index edge = no_index;  //!< Of Diagram::edges.
     bool reversed = false;  //!< True: walked from head to tail.
 };
@@ -144,7 +144,7 @@ struct DirectedEdge {
 struct Cells {
     std::vector<Index> cell_loops;         //!< #sites + 1 offsets into loops.
     std::vector<Index> loop_edges;         //!< #loops + 1 offsets into edges.
-    std::vector<DirectedEdge> edges;       //!< Loop by loop.
+    std::vector<LoopEdge> edges;           //!< Loop by loop.
     std::vector<Index> neighbour_offsets;  //!< #sites + 1 offsets into neighbours.
     std::vector<SiteId> neighbours;        //!< Ascending, without repetition.
 };
