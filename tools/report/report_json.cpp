@@ -255,7 +255,7 @@ Json to_json(const RemeshOptions& options, Index num_samples) {
     Json object;
     object["samples"] = num_samples;
     object["sizing"] = to_json(options.sizing);
-    object["topology"] = options.vertex_count == VertexCount::Exact ? "exact" : "add";
+    object["topology"] = options.vertex_count == VertexCount::Add ? "add" : "exact";
     object["boundary"] = options.boundary == Boundary::Keep ? "keep" : "free";
     object["keep_slits"] = options.cleaning.keep_slits;
     object["drop_components"] = options.drop_components;

@@ -43,7 +43,8 @@ enum class Features {
 //! The number of vertices if the topology needs more sites.
 enum class VertexCount {
     Exact,  //!< As many vertices as sites were asked for: others are removed.
-    Add,    //!< Vertices that the topology needs are added.
+    Raise,  //!< Exact; if no mesh has so few, another number is tried, until one is found.
+    Add,    //!< Vertices that the topology needs are added; the number is raised likewise.
 };
 
 //! All lengths in mesh units. `{}` gives a good result.
