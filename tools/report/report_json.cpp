@@ -215,6 +215,12 @@ Json to_json(const SizingResult& sizing) {
 
 Json to_json(const Verdict& verdict) {
     return {
+        {"closed_components", verdict.bodies.closed},
+        {"holes", verdict.bodies.holes},
+        {"hole_edges", verdict.bodies.hole_edges},
+        {"inside_out_bodies", verdict.bodies.inside_out},
+        {"cavities", verdict.bodies.cavities},
+        {"inner_bodies", verdict.bodies.inner_bodies},
         {"spacing_mesh_units", verdict.spacing},
         {"small_components", verdict.small_components},
         {"samples_for_components", verdict.samples_for_components},
