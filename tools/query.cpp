@@ -148,6 +148,9 @@ GivenSites sites_on(const OpenedInput& input, const DiagramArguments& arguments,
     if (slit > remesh::mean_spacing(input.surface, sites.points.size() + sites.shapes.size())) {
         console.warn(welded_slit_text(slit));
     }
+    if (input.clean.loose_vertices > 0) {
+        console.warn(loose_vertices_text(input.clean.loose_vertices));
+    }
     return sites;
 }
 

@@ -192,6 +192,7 @@ struct RemeshResult {
                                       //!< (faces are the caller's).
     CleanCounts cleaned;              //!< What cleaning repaired.
     double welded_slit_length = 0;    //!< See CleanResult::slit_length.
+    Index loose_vertices = 0;         //!< See CleanResult.
     Topology input_topology;          //!< Of the cleaned input.
     Index refined_faces = 0;          //!< Faces of the base, on which propagation runs.
     Index components_dropped = 0;     //!< See drop_components.
