@@ -243,11 +243,10 @@ agvd::Index num_samples_for(const DiagramArguments& arguments, std::size_t num_v
 agvd::Index num_samples_for(const Amount& samples, std::size_t num_vertices) {
     if (!samples.is_percent) return static_cast<agvd::Index>(samples.value);
     const double count = std::round(samples.value / 100 * static_cast<double>(num_vertices));
-    if (count >= 1 && count < agvd::no_index) return static_cast<agvd::Index>(count);
+    if (count < agvd::no_index) return static_cast<agvd::Index>(std::max(count, 1.0));
     throw agvd::InvalidOption("the number of samples is " + std::to_string(samples.value) +
-                              " % of " + std::to_string(num_vertices) + " vertices, which is " +
-                              (count < 1 ? "none" : "too many") +
-                              "; use another percentage or a number");
+                              " % of " + std::to_string(num_vertices) +
+                              " vertices, which is too many; use another percentage or a number");
 }
 
 void add_diagram_options(CLI::App& app, DiagramArguments& arguments) {

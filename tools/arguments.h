@@ -55,7 +55,8 @@ struct Amount {
 [[nodiscard]] bool is_number_of_samples(const std::string& text);
 
 //! The number of sites for a mesh, or a part of one.
-//! \param num_vertices  of which a percentage is taken. \throw agvd::InvalidOption  it gives none.
+//! \param num_vertices  of which a percentage is taken, at least 1.
+//! \throw agvd::InvalidOption  it gives too many.
 [[nodiscard]] agvd::Index num_samples_for(const Amount& samples, std::size_t num_vertices);
 [[nodiscard]] agvd::Index num_samples_for(const DiagramArguments& arguments,
                                           std::size_t num_vertices);

@@ -83,6 +83,11 @@ std::vector<fs::path> level_paths(const LevelArguments& arguments, const fs::pat
 remesh::RemeshOptions options_of_level(const LevelArguments& arguments, std::size_t level,
                                        remesh::RemeshOptions options, std::size_t num_vertices) {
     remesh::Sizing& sizing = options.sizing;
+    const bool is_given =
+        arguments.samples.empty() ? level == 0 : !arguments.samples[level].is_percent;
+    if (!is_given && options.vertex_count == remesh::VertexCount::Exact) {
+        options.vertex_count = remesh::VertexCount::Raise;
+    }
     if (!arguments.samples.empty()) {
         options.num_samples = num_samples_for(arguments.samples[level], num_vertices);
         if (std::holds_alternative<remesh::CountOfLengths>(sizing.count)) {

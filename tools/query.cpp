@@ -152,6 +152,9 @@ agvd::SurfaceSites sites_on(const OpenedInput& input, const DiagramArguments& ar
     if (slit > remesh::mean_spacing(input.surface, sites.points.size() + sites.shapes.size())) {
         console.warn(welded_slit_text(slit));
     }
+    if (input.clean.loose_vertices > 0) {
+        console.warn(loose_vertices_text(input.clean.loose_vertices));
+    }
     if (!input.whole) return sites;
     const std::size_t num_points = sites.points.size();
     sites = agvd::on_all_sides(*input.whole, input.surface, std::move(sites));

@@ -399,6 +399,9 @@ Input prepare(const Arguments& arguments, cli::Console& console) {
                                   .delaunay = arguments.delaunay,
                                   .num_threads = arguments.common.threads,
                                   .progress = progress};
+    if (arguments.sample_percent > 0 && options.vertex_count == remesh::VertexCount::Exact) {
+        options.vertex_count = remesh::VertexCount::Raise;
+    }
     if (arguments.weld) {
         options.cleaning.weld = cli::length_of(*arguments.weld, input.mesh.view());
     }

@@ -40,6 +40,26 @@ std::string describe_crossings(const remesh::RemeshResult& result, const std::st
            where + ": for these use " + more + ", for the others repair the input";
 }
 
+// Of the vertices in the part that was remeshed.
+double spacing_of(const remesh::RemeshResult& result) {
+    double area = 0;
+    for (const auto& component : result.input_topology.components) area += component.area;
+    const std::size_t kept = result.kept.vertices.size() - result.kept.rim_edges;
+    return std::sqrt(area / static_cast<double>(result.mesh.positions.size() - kept));
+}
+
+// Empty: no part of the input is lost.
+std::string describe_lost_part(const remesh::RemeshResult& result, const std::string& more) {
+    constexpr double most_spacings = 2;
+    const remesh::Verdict& verdict = result.verdict;
+    if (!(verdict.largest_distance > most_spacings * spacing_of(result))) return {};
+    const auto text = [](double number) { return agvd::number_text(number, 4); };
+    const agvd::Vec3& at = verdict.farthest;
+    return "the result is " + text(verdict.largest_distance) + " away from the input at " +
+           text(at.x()) + ' ' + text(at.y()) + ' ' + text(at.z()) +
+           ", farther than two distances of neighbouring vertices; use " + more;
+}
+
 // \throw agvd::ConstraintUnmet  with --strict.
 void judge(const remesh::RemeshResult& result, const std::string& more, bool strict,
            Warnings& warnings) {
@@ -51,6 +71,7 @@ void judge(const remesh::RemeshResult& result, const std::string& more, bool str
         if (strict) refuse(text);
         warnings.push_back(text);
     };
+    if (const std::string text = describe_lost_part(result, more); !text.empty()) tell(text);
     if (const agvd::Index flat = result.verdict.faces_without_area; flat > 0) {
         tell("the result has " + std::to_string(flat) + (flat == 1 ? " face" : " faces") +
              " without area, whose corners lie on one line; "
@@ -60,6 +81,14 @@ void judge(const remesh::RemeshResult& result, const std::string& more, bool str
     if (result.self_intersections.value_or(0) > result.input_self_intersections) {
         tell(describe_crossings(result, more));
     }
+}
+
+void warn_of_bodies(const remesh::BodyCounts& bodies, Warnings& warnings) {
+    if (bodies.inside_out == 0) return;
+    warnings.push_back(std::to_string(bodies.inside_out) +
+                       (bodies.inside_out == 1 ? " closed body is" : " closed bodies are") +
+                       " inside out, as in the input: normals point inward; turn the faces over "
+                       "before you print the mesh");
 }
 
 void warn_of_junctions(const remesh::JunctionCounts& counts, remesh::Junctions wanted,
@@ -92,12 +121,6 @@ void warn_of_seams(const remesh::FeatureCounts& counts, Warnings& warnings) {
         " % of the seams of texture coordinates are too short or too close to each other "
         "to be edges of the result, whose faces there have coordinates of one side only; "
         "use more --samples");
-}
-
-double spacing_of(const remesh::RemeshResult& result) {
-    double area = 0;
-    for (const auto& component : result.input_topology.components) area += component.area;
-    return std::sqrt(area / static_cast<double>(result.mesh.positions.size()));
 }
 
 }  // namespace
@@ -133,13 +156,24 @@ std::string welded_slit_text(double length) {
            "leave it open, unless it is a seam of a texture";
 }
 
+std::string loose_vertices_text(agvd::Index count) {
+    return std::to_string(count) + (count == 1 ? " vertex" : " vertices") + " of the boundary " +
+           (count == 1 ? "lies" : "lie") +
+           " beside an edge of the boundary, with a gap between them; use --weld of remesh with "
+           "the "
+           "width of the gap to close it, unless it is meant to be there";
+}
+
 std::vector<std::string> shortfalls_of(const remesh::RemeshResult& result,
                                        const remesh::RemeshOptions& options, bool strict) {
     Warnings warnings;
     judge(result, finer(options), strict, warnings);
-    if (result.welded_slit_length > spacing_of(result)) {
+    // Seams of a texture are told below.
+    if (result.welded_slit_length > spacing_of(result) && options.texture_seams.empty()) {
         warnings.push_back(welded_slit_text(result.welded_slit_length));
     }
+    if (result.loose_vertices > 0) warnings.push_back(loose_vertices_text(result.loose_vertices));
+    warn_of_bodies(result.verdict.bodies, warnings);
     warn_of_junctions(result.junctions, options.junctions, warnings);
     warn_of_seams(result.features, warnings);
     warn_of_bounds(result.sizing, options.sizing, warnings);

@@ -18,6 +18,8 @@ namespace cli {
 
 //! A warning of a slit of that length, in mesh units.
 [[nodiscard]] std::string welded_slit_text(double length);
+//! A warning of so many of CleanResult::loose_vertices.
+[[nodiscard]] std::string loose_vertices_text(agvd::Index count);
 
 //! \return warnings of slits longer than the spacing that were welded, of self-intersections that the input does not have, of sheets that should be
 //!         welded but could not be, of lost seams of texture coordinates, and of bounds of the

@@ -51,7 +51,8 @@ remesh::RemeshResult example_result() {
                       .diagonal = 8,
                       .min_angle = std::numbers::pi / 8,
                       .small_angle_share = 0.125,
-                      .narrow = {51, 12, 13, 14}};
+                      .narrow = {51, 12, 13, 14},
+                      .bodies = {8, 2, 17, 1, 5, 3}};
     result.junctions = {.edges = 31,
                         .curves = 32,
                         .vertices = 33,
@@ -167,7 +168,13 @@ TEST(RemeshReport, GivesEveryFieldOfTheResult) {
                                     {"narrow_sites", 63},
                                     {"simplified_parts", 26},
                                     {"simplified_patches", 64}}));
-    EXPECT_EQ(report["verdict"], json({{"spacing_mesh_units", 0.5},
+    EXPECT_EQ(report["verdict"], json({{"closed_components", 8},
+                                       {"holes", 2},
+                                       {"hole_edges", 17},
+                                       {"inside_out_bodies", 1},
+                                       {"cavities", 5},
+                                       {"inner_bodies", 3},
+                                       {"spacing_mesh_units", 0.5},
                                        {"small_components", 41},
                                        {"samples_for_components", 42},
                                        {"thin_walls", 43},
@@ -305,6 +312,9 @@ TEST(RemeshReport, TextIsForAnyUser) {
         "input: in.ply\n"
         "repaired: 4 split edges\n"
         "result: 3 vertices, 1 face; same topology\n"
+        "watertight: no, 2 holes of 17 edges; 8 closed shells; 1 closed shell inside out (normals "
+        "point inward); 5 closed shells around cavities of others; 3 closed shells inside others, "
+        "around no cavity (normals point outward)\n"
         "edges: mean length 1\n"
         "10 components dropped, because the area is too small\n"
         "6 sites dropped, because they have no cell\n"
@@ -312,7 +322,7 @@ TEST(RemeshReport, TextIsForAnyUser) {
         "(51 faces below 30: 12 at acute corners, 13 at walls thinner than the edges, 14 between "
         "close creases); "
         "17 pairs cross (16 in the input)\n"
-        "distance: farthest 37.5 % of the size, from the input's vertex at 5 6 7\n"
+        "distance: farthest at least 37.5 % of the size, from the input's vertex at 5 6 7\n"
         "too small for edges of 0.5: creases of length 2.75 (too few of the given sites lie "
         "on 24 creases or on the boundary; with creases no good mesh was found), creases of "
         "length 2.625 (too close to stronger ones), creases of length 2.875 (given up near 15 16 "
@@ -331,13 +341,15 @@ TEST(RemeshReport, TextOfAGoodResultHasAVerdictOfThreeLines) {
                       .largest_distance = 0.5,
                       .farthest = {1, 2, 3},
                       .diagonal = 8,
-                      .min_angle = std::numbers::pi / 4};
+                      .min_angle = std::numbers::pi / 4,
+                      .bodies = {.closed = 1}};
     EXPECT_EQ(remesh::to_text(result),
               "repaired: nothing\n"
               "result: 8 vertices, 12 faces; same topology\n"
+              "watertight: yes; 1 closed shell\n"
               "edges: mean length 0.25\n"
               "triangles: even, smallest angle 45.0 degrees; no crossing\n"
-              "distance: farthest 6.25 % of the size, from the input's vertex at 1 2 3\n"
+              "distance: farthest at least 6.25 % of the size, from the input's vertex at 1 2 3\n"
               "too small for edges of 0.25: nothing");
     result.self_intersections.reset();
     result.verdict.narrow = {.count = 7};

@@ -92,6 +92,38 @@ TEST(Shortfalls, ASlitLongerThanTheSpacingIsWarnedOf) {
     EXPECT_EQ(cli::shortfalls_of(result, {}, false), Warnings());
 }
 
+// Likewise.
+TEST(Shortfalls, APartThatIsFartherThanTwoSpacingsIsWarnedOfAndRefusedIfStrict) {
+    RemeshResult result;
+    result.mesh.positions.resize(4);
+    result.input_topology.components = {{.area = 4}};
+    result.verdict.largest_distance = 2.5;
+    result.verdict.farthest = {1, 2, 3};
+    EXPECT_EQ(cli::shortfalls_of(result, {}, false),
+              Warnings{"the result is 2.5 away from the input at 1 2 3, farther than two distances "
+                       "of neighbouring vertices; use more --samples"});
+    EXPECT_NE(refusal_of(result).find("2.5 away"), std::string::npos);
+    result.verdict.largest_distance = 1.9;
+    EXPECT_EQ(cli::shortfalls_of(result, {}, true), Warnings());
+}
+
+TEST(Shortfalls, ABodyThatIsInsideOutIsWarnedOf) {
+    RemeshResult result;
+    result.verdict.bodies = {.closed = 3, .inside_out = 1};
+    const Warnings warnings = cli::shortfalls_of(result, {}, true);
+    ASSERT_EQ(warnings.size(), 1U);
+    EXPECT_NE(warnings[0].find("1 closed body is inside out"), std::string::npos) << warnings[0];
+}
+
+// The two sides of a seam of a texture are not told as a slit.
+TEST(Shortfalls, ASlitInATextureIsASeam) {
+    RemeshResult result;
+    result.mesh.positions.resize(4);
+    result.input_topology.components = {{.area = 4}};
+    result.welded_slit_length = 1.25;
+    EXPECT_EQ(cli::shortfalls_of(result, {.texture_seams = {{0, 1}}}, false), Warnings());
+}
+
 TEST(Shortfalls, BoundsOfEdgesAndLostSeamsAndJunctionsAreWarnedOf) {
     RemeshResult result;
     result.sizing = {.num_samples = 50, .least_target = 1, .largest_target = 4};

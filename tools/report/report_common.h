@@ -25,6 +25,7 @@ struct RepairRow {
 };
 
 inline constexpr std::array repair_rows = {
+    RepairRow{&CleanCounts::divided_edges, "divided_edges", "divided boundary edge"},
     RepairRow{&CleanCounts::welded_vertices, "welded_vertices", "welded vertex"},
     RepairRow{&CleanCounts::degenerate_faces, "degenerate_faces", "degenerate face"},
     RepairRow{&CleanCounts::absorbed_faces, "absorbed_faces", "absorbed face without area"},

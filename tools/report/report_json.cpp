@@ -215,6 +215,12 @@ Json to_json(const SizingResult& sizing) {
 
 Json to_json(const Verdict& verdict) {
     return {
+        {"closed_components", verdict.bodies.closed},
+        {"holes", verdict.bodies.holes},
+        {"hole_edges", verdict.bodies.hole_edges},
+        {"inside_out_bodies", verdict.bodies.inside_out},
+        {"cavities", verdict.bodies.cavities},
+        {"inner_bodies", verdict.bodies.inner_bodies},
         {"spacing_mesh_units", verdict.spacing},
         {"small_components", verdict.small_components},
         {"samples_for_components", verdict.samples_for_components},
@@ -276,7 +282,7 @@ Json to_json(const RemeshOptions& options, Index num_samples) {
     object["samples"] = num_samples;
     object["sizing"] = to_json(options.sizing);
     object["bounds"] = to_json(options.bounds);
-    object["topology"] = options.vertex_count == VertexCount::Exact ? "exact" : "add";
+    object["topology"] = options.vertex_count == VertexCount::Add ? "add" : "exact";
     object["boundary"] = options.boundary == Boundary::Keep ? "keep" : "free";
     object["keep_slits"] = options.cleaning.keep_slits;
     object["drop_components"] = options.drop_components;

@@ -142,6 +142,21 @@ std::string samples_for(Index count) {
     return "; about " + std::to_string(count) + " samples would do)";
 }
 
+std::string describe(const BodyCounts& bodies) {
+    std::string text = "\nwatertight: ";
+    text += bodies.holes == 0 ? "yes"
+                              : "no, " + counted(bodies.holes, "hole") + " of " +
+                                    counted(bodies.hole_edges, "edge");
+    const auto add = [&](Index count, const char* what) {
+        if (count > 0) text += "; " + counted(count, "closed shell") + what;
+    };
+    add(bodies.closed, "");
+    add(bodies.inside_out, " inside out (normals point inward)");
+    add(bodies.cavities, " around cavities of others");
+    add(bodies.inner_bodies, " inside others, around no cavity (normals point outward)");
+    return text;
+}
+
 // Parts of the input that are smaller than the result's edges; empty: none.
 std::string describe_lost(const Verdict& verdict, const FeatureCounts& features) {
     std::string small;
@@ -202,7 +217,7 @@ std::string describe_verdict(const RemeshResult& result) {
     const std::string lost = describe_lost(verdict, result.features);
     return "triangles: " + shape + ", smallest angle " + fixed(verdict.min_angle * degrees, 1) +
            " degrees" + describe_narrow(verdict.narrow) + "; " + describe_crossings(result) +
-           "\ndistance: farthest " +
+           "\ndistance: farthest at least " +
            significant(100 * verdict.largest_distance / verdict.diagonal) +
            " % of the size, from the input's vertex at " +
            describe_place(verdict.farthest, verdict.diagonal) + "\ntoo small for edges of " +
@@ -240,6 +255,7 @@ std::string to_text(const RemeshResult& result, const RunInfo& info) {
             counted(result.mesh.triangles.size(), "face") +
             (result.junctions.welded_edges > 0 ? "; same topology before the sheets were welded"
                                                : "; same topology");
+    text += describe(result.verdict.bodies);
     text += '\n' + to_text(result.sizing);
     text += describe(result.kept, result.mesh.triangles.size());
     text += describe(result.junctions);

@@ -5,6 +5,7 @@
 
 #include "agvd/core/union_find.h"
 #include "agvd/mesh/any_mesh.h"
+#include "remesh/clean/coincident.h"
 #include "remesh/clean/soup.h"
 
 namespace remesh::detail {
@@ -13,14 +14,22 @@ namespace {
 // Faces with the same three corners: of those oriented alike one stays. Two of opposite orientation
 // may be the walls of two bodies that touch: then an edge of the rim of all such pairs has two
 // faces of each body. At a sheet drawn from both sides it has the pair alone; a repeated wall
-// leaves an odd number.
+// leaves an odd number. Where some edges have the pair alone, and others the pair and a body that
+// is closed without it, the pair is a flap that diagonals of polygons made: both go.
 class DuplicateFaces {
 public:
     DuplicateFaces(Soup& soup, std::span<const EdgeSide> sides)
-        : soup_(soup), sides_(sides), is_dead_(soup.mesh.triangles.size(), false) {}
+        : soup_(soup),
+          sides_(sides),
+          is_dead_(soup.mesh.triangles.size(), false),
+          walls_(is_dead_.size()),
+          patch_(is_dead_.size(), no_index) {}
 
     bool drop() {
         for_each_edge(sides_, [&](std::span<const EdgeSide> edge) { compare(edge); });
+        for (const CoincidentPatch& pair : find_coincident(soup_.mesh, sides_, soup_.ticker)) {
+            compare(pair);
+        }
         if (!opposite_.empty()) drop_opposite();
         const Index dropped = drop_faces(soup_, is_dead_);
         soup_.counts.duplicate_faces += dropped;
@@ -54,10 +63,32 @@ private:
         }
     }
 
-    // Keeps the walls that most edges of their rim ask for.
+    // Patches have other triangles than theirs.
+    void compare(const CoincidentPatch& pair) {
+        const auto is_done = [&](Index f) {
+            return is_dead_[f] || (!opposite_.empty() && opposite_[f] != no_index);
+        };
+        if (std::ranges::any_of(pair.first, is_done) || std::ranges::any_of(pair.copy, is_done)) {
+            return;
+        }
+        for (const Index f : pair.copy) is_dead_[f] = !pair.is_turned;
+        if (!pair.is_turned) return;
+        opposite_.resize(is_dead_.size(), no_index);
+        for (const auto* patch : {&pair.first, &pair.copy}) {
+            for (const Index f : *patch) {
+                opposite_[f] = patch == &pair.first ? no_index - 1 : pair.first.front();
+                patch_[f] = patch->front();
+                (void)walls_.unite(f, pair.first.front());
+            }
+        }
+    }
+
+    // Keeps the walls that most edges of their rim ask for. Flaps have no vertex inside.
     void drop_opposite() {
-        UnionFind walls(is_dead_.size());
         std::vector<std::int64_t> votes(is_dead_.size(), 0);  // By face, then by wall.
+        enum Trait : unsigned { alone = 1, closed = 2, odd = 4, inner = 8 };
+        std::vector<unsigned> traits(is_dead_.size(), 0);  // Likewise.
+        std::vector<bool> is_rim(soup_.mesh.positions.size(), false);
         for_each_edge(sides_, [&](std::span<const EdgeSide> edge) {
             soup_.ticker.tick(edge.size());
             std::vector<Index> faces;
@@ -66,20 +97,33 @@ private:
             }
             const auto is_paired = [&](Index f) { return opposite_[f] != no_index; };
             const bool is_on_rim = faces.size() != 4 || !std::ranges::all_of(faces, is_paired);
+            const bool is_in_patch = faces.size() == 2 && patch_[faces[0]] != no_index &&
+                                     patch_[faces[0]] == patch_[faces[1]];
+            if (is_in_patch) return;
             const bool touches = faces.size() >= 4 && faces.size() % 2 == 0;
             for (const Index f : faces) {
-                if (!is_on_rim) (void)walls.unite(f, faces.front());
-                if (is_on_rim && is_paired(f)) votes[f] += touches ? 1 : -1;
+                if (!is_on_rim) (void)walls_.unite(f, faces.front());
+                if (!is_on_rim || !is_paired(f)) continue;
+                votes[f] += touches ? 1 : -1;
+                traits[f] |= faces.size() == 2 ? alone : touches ? closed : odd;
+                is_rim[edge[0].low()] = is_rim[edge[0].high()] = true;
             }
         });
         for (Index f = 0; f < is_dead_.size(); ++f) {
-            if (!walls.is_root(f)) votes[walls.root(f)] += votes[f];
+            const Index wall = walls_.root(f);
+            if (wall != f) votes[wall] += votes[f];
+            traits[wall] |= traits[f];
+            for (const Index v : soup_.mesh.triangles[f]) {
+                if (opposite_[f] != no_index && !is_rim[v]) traits[wall] |= inner;
+            }
         }
         for (Index f = 0; f < is_dead_.size(); ++f) {
             soup_.ticker.tick();
-            if (opposite_[f] == no_index || opposite_[f] > f) continue;
-            is_dead_[f] = votes[walls.root(f)] <= 0;
-            soup_.counts.touching_faces += is_dead_[f] ? 0 : 1;
+            if (opposite_[f] == no_index) continue;
+            const Index wall = walls_.root(f);
+            const bool is_later = opposite_[f] < f, is_flap = traits[wall] == (alone | closed);
+            is_dead_[f] = is_flap || (is_later && votes[wall] <= 0);
+            soup_.counts.touching_faces += is_later && !is_dead_[f] ? 1 : 0;
         }
     }
 
@@ -94,6 +138,8 @@ private:
     Soup& soup_;
     std::span<const EdgeSide> sides_;
     std::vector<bool> is_dead_;
+    UnionFind walls_;
+    std::vector<Index> patch_;     // #F: of a coincident patch, its lowest face.
     std::vector<Index> opposite_;  // #F: the other face of a pair; empty: there is none.
     std::vector<Sheet> sheets_;    // Of one edge.
 };
@@ -101,6 +147,10 @@ private:
 // Most flips per degenerate face before the rest is dropped. Usually one is enough; a chain takes a
 // few.
 constexpr std::size_t most_flips = 32;
+
+// Height of a sliver, in longest sides: positions that near to an edge are one with it, as for
+// vertices of cracks.
+constexpr double sliver_height = 1e-2;
 
 bool is_degenerate(const std::vector<Vec3>& positions, const Triangle& t) {
     return smallest_doubled_area(positions, t) == 0;
@@ -209,6 +259,43 @@ private:
 
 bool drop_duplicates(Soup& soup, std::span<const EdgeSide> sides) {
     return DuplicateFaces(soup, sides).drop();
+}
+
+bool drop_slivers(Soup& soup, std::span<const EdgeSide> sides) {
+    const auto num_faces = static_cast<Index>(soup.mesh.triangles.size());
+    std::vector<bool> is_sliver(num_faces, false), hangs = is_sliver, belongs = is_sliver;
+    for_each_edge(sides, [&](std::span<const EdgeSide> edge) {
+        if (edge.size() > 1) return;
+        const Index f = edge[0].face(), h = longest_side(soup, f);
+        is_sliver[f] = doubled_normal(soup.mesh.positions, soup.mesh.triangles[f]).norm() <=
+                       sliver_height * length_sq(soup, soup.tail(h), soup.head(h));
+    });
+    UnionFind patches(num_faces);
+    for_each_edge(sides, [&](std::span<const EdgeSide> edge) {
+        soup.ticker.tick();
+        const auto slivers = static_cast<std::size_t>(std::ranges::count_if(
+            edge, [&](const EdgeSide& side) { return is_sliver[side.face()]; }));
+        if (slivers == 0 || edge.size() < 2) return;
+        const bool has_its_faces = edge.size() - slivers >= 2;
+        if (slivers == 2 && edge.size() == 2) patches.unite(edge[0].face(), edge[1].face());
+        for (const EdgeSide& side : edge) {
+            if (has_its_faces) hangs[side.face()] = true;
+            if (!has_its_faces && edge.size() != slivers) belongs[side.face()] = true;
+        }
+    });
+    for (Index f = 0; f < num_faces; ++f) {
+        const Index root = patches.root(f);
+        hangs[root] = hangs[root] || hangs[f];
+        belongs[root] = belongs[root] || belongs[f];
+    }
+    std::vector<bool> is_dead(num_faces, false);
+    for (Index f = 0; f < num_faces; ++f) {
+        const Index root = patches.root(f);
+        is_dead[f] = is_sliver[f] && hangs[root] && !belongs[root];
+    }
+    const Index dropped = drop_faces(soup, is_dead);
+    soup.counts.degenerate_faces += dropped;
+    return dropped > 0;
 }
 
 double smallest_doubled_area(std::span<const Vec3> positions, const Triangle& t) {

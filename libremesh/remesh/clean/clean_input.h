@@ -13,6 +13,7 @@ namespace remesh {
 
 //! How many elements each step of the repair touched.
 struct CleanCounts {
+    Index divided_edges = 0;     //!< Boundary edges divided at vertices that lay on them.
     Index welded_vertices = 0;   //!< Merged into another vertex at the same position.
     Index degenerate_faces = 0;  //!< Dropped: repeated corner, or no area.
     Index absorbed_faces = 0;    //!< Without area, removed by an edge flip: no hole is left.
@@ -45,9 +46,15 @@ struct CleanResult {
     //! Of the longest slit that was welded, in mesh units. A slit is a chain of boundary edges
     //! whose two sides coincide; it begins at a vertex that both have.
     double slit_length = 0;
+    //! Vertices of the boundary beside edges of the boundary that they do not divide, as they are
+    //! too far: within loose_share of the mesh's longest side. 0 with keep_slits.
+    Index loose_vertices = 0;
     //! find_connectivity(mesh) if nothing had to be repaired; otherwise empty.
     Connectivity connectivity = {};
 };
+
+//! See CleanResult::loose_vertices.
+inline constexpr double loose_share = 1e-3;
 
 //! `{}` gives the defaults.
 struct CleanOptions {
@@ -89,14 +96,19 @@ struct CleanedView {
 };
 
 //! Repairs in this order, without moving anything but what 1. says:
-//! 1. Boundary edges between the same two positions are welded: cracks and soups close, while parts
-//!    that touch at a point, and closed parts that touch anywhere, stay apart. Positions are one
-//!    position if they are equal, or differ by a millionth of the mesh's longest side at most and
-//!    by a hundredth of each edge there; the first one stays. Zero-length edges collapse. With
+//! 1. Vertices of the boundary on boundary edges divide these where both sides then have a common
+//!    edge. Boundary edges between the same two positions are welded: cracks and soups close, while
+//!    parts that touch at a point, and closed parts that touch anywhere, stay apart. Positions are
+//!    one position if they are equal, or differ by a millionth of the mesh's longest side at most
+//!    and by a hundredth of each edge there; the first one stays. Zero-length edges collapse. With
 //!    keep_slits only the latter happens. CleanOptions::weld widens this.
-//! 2. Faces with a repeated corner and duplicate faces (the first stays) are dropped. Of duplicates
-//!    of opposite orientation two stay where they are the walls of bodies that touch: where most
-//!    edges at the rim of such faces have two faces of each body.
+//! 2. Faces with a repeated corner and duplicate faces (the first stays) are dropped; so are
+//! patches
+//!    that lie on others within such a millionth, whatever their vertices and diagonals. Of
+//!    duplicates of opposite orientation two stay where they are the walls of bodies that touch:
+//!    where most edges at the rim of such faces have two faces of each body; and none where they
+//!    are a flap, without vertices inside, on a body that is closed without it. Faces lower than a
+//!    hundredth of their longest side that hang on edges which have two other faces are dropped.
 //! 3. Faces connected through edges of two faces are oriented alike. Consistent pieces are not
 //!    turned. Otherwise a clear majority (3/4) wins; without one, closed pieces are turned outward,
 //!    and open ones follow the larger part.

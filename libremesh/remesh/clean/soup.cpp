@@ -12,6 +12,8 @@
 #include "agvd/core/parallel.h"
 #include "agvd/mesh/scale.h"
 #include "agvd/mesh/surface_points.h"
+#include "agvd/mesh/topology.h"
+#include "remesh/clean/coincident.h"
 #include "remesh/clean/soup.h"
 
 namespace remesh {
@@ -30,6 +32,14 @@ Soup as_soup(const MeshView& mesh, Ticker ticker) {
     std::iota(soup.face_origin.begin(), soup.face_origin.end(), Index{0});
     ticker.poll();
     return soup;
+}
+
+std::vector<Index> open_half_edges(std::span<const Index> twin) {
+    std::vector<Index> open;
+    for (Index h = 0; h < twin.size(); ++h) {
+        if (twin[h] == no_index) open.push_back(h);
+    }
+    return open;
 }
 
 // Whether build_surface finds an area at all corners. Where that of one is a millionth of the
@@ -60,17 +70,24 @@ std::optional<CleanResult> take_clean(const MeshView& mesh, const CleanOptions& 
         return std::nullopt;  // An isolated vertex.
     }
     const auto apex = [&](Index h) { return mesh.triangles[h / 3][previous_half_edge(h) % 3]; };
-    std::atomic<bool> is_clean = true;
+    std::atomic<bool> is_clean = true, may_coincide = label_components(twin, ticker).count > 1;
     const auto num_faces = static_cast<Index>(mesh.triangles.size());
     const auto check_face = [&](Index f) {
         bool is_good = has_area(mesh.positions, mesh.triangles[f]);
         for (Index h = 3 * f; h < 3 * f + 3; ++h) {
             is_good = is_good && (twin[h] == no_index || apex(h) != apex(twin[h]));
+            if (twin[h] < h && is_folded(mesh, h, twin[h])) {
+                may_coincide.store(true, std::memory_order_relaxed);
+            }
         }
         if (!is_good) is_clean.store(false, std::memory_order_relaxed);
     };
     parallel_each(num_faces, pass_grain, num_threads, check_face, poller);
     if (!is_clean) return std::nullopt;
+    if (may_coincide &&
+        !find_coincident(mesh, sorted_edge_sides(mesh.triangles, ticker), ticker).empty()) {
+        return std::nullopt;
+    }
     std::vector<bool> is_boundary(outgoing.size());
     for (Index v = 0; v < outgoing.size(); ++v) {
         ticker.tick();
@@ -80,9 +97,12 @@ std::optional<CleanResult> take_clean(const MeshView& mesh, const CleanOptions& 
     if (is_open && options.fill_holes > 0) return std::nullopt;
     if (!options.keep_slits) {
         const std::vector<Index> first =
-            find_common_positions(mesh, is_boundary, ticker, options.weld);
+            find_common_positions(mesh, is_boundary, ticker, options.weld).first;
         for (Index v = 0; v < first.size(); ++v) {
             if (first[v] != no_index && first[v] != v) return std::nullopt;  // Possibly a crack.
+        }
+        if (!find_divisions(mesh, open_half_edges(twin), options.weld, ticker).empty()) {
+            return std::nullopt;
         }
     }
     Soup soup = as_soup(mesh, ticker);
@@ -214,7 +234,14 @@ CleanResult clean_input(const MeshView& mesh, const CleanOptions& options) {
     check_digits(box);
     check_spread(mesh, box);
     check_width(mesh, ticker);
+    const auto count_loose = [&](const MeshView& cleaned, std::span<const Index> twin) {
+        if (options.keep_slits) return Index{0};
+        const double reach = loose_share * box.longest_side();
+        return static_cast<Index>(
+            find_divisions(cleaned, open_half_edges(twin), reach, ticker).size());
+    };
     if (std::optional<CleanResult> clean = take_clean(mesh, options)) {
+        clean->loose_vertices = count_loose(clean->mesh, clean->connectivity.twin);
         return *std::move(clean);
     }
     Soup soup = as_soup(mesh, ticker);
@@ -223,16 +250,21 @@ CleanResult clean_input(const MeshView& mesh, const CleanOptions& options) {
     const auto refresh = [&](bool is_changed) {
         if (is_changed) sides = sorted_edge_sides(soup.mesh.triangles, soup.ticker);
     };
-    if (!options.keep_slits) refresh(weld_cracks(soup, sides, options.weld));
+    if (!options.keep_slits) {
+        refresh(divide_edges(soup, sides, options.weld));
+        refresh(weld_cracks(soup, sides, options.weld));
+    }
     const bool is_collapsed = collapse_zero_edges(soup);
     refresh(drop_repeated_corners(soup) || is_collapsed);
     refresh(drop_duplicates(soup, sides));
+    refresh(drop_slivers(soup, sides));
     check_not_empty(soup);
     refresh(orient_faces(soup, sides));
     std::vector<Index> twin = pair_sheets(soup, sides);
     remove_degenerate_faces(soup, twin);
     check_not_empty(soup);
     split_vertices(soup, twin);
+    soup.loose_vertices = count_loose(soup.mesh, twin);
     drop_isolated_vertices(soup);
     if (options.fill_holes > 0) fill_holes(soup, options.fill_holes);
 

@@ -35,6 +35,14 @@ struct Soup : CleanResult {
 //!        index out of range.
 void check_elements(const MeshView& mesh, Ticker ticker = {});
 
+//! Which vertices are at one position.
+struct CommonPositions {
+    std::vector<Index> first;   //!< #V: see find_common_positions.
+    std::vector<double> reach;  //!< #V: `share` of the shortest edge at a first vertex.
+    double limit = 0;           //!< Of all reaches, mesh units.
+    double share = 0;
+};
+
 //! For each wanted vertex the first one at its position; no_index for the others.
 //!
 //! Positions are one if they are equal, or differ by a millionth of the mesh's longest side at most
@@ -43,9 +51,26 @@ void check_elements(const MeshView& mesh, Ticker ticker = {});
 //! \param is_wanted  #V: vertices of the boundary.
 //! \param tolerance  above 0: the limits are this length, if that is more, and half of each edge.
 //! Cost: O(#F + #wanted).
-[[nodiscard]] std::vector<Index> find_common_positions(const MeshView& mesh,
-                                                       const std::vector<bool>& is_wanted,
-                                                       Ticker& ticker, double tolerance = 0);
+[[nodiscard]] CommonPositions find_common_positions(const MeshView& mesh,
+                                                    const std::vector<bool>& is_wanted,
+                                                    Ticker& ticker, double tolerance = 0);
+
+//! A vertex on an edge of the boundary, no nearer to its ends.
+struct Division {
+    Index half_edge = 0;  //!< Of the edge.
+    double share = 0;     //!< Of its length, before the vertex.
+    Index vertex = 0;     //!< The first one at its position.
+
+    [[nodiscard]] auto operator<=>(const Division&) const = default;
+};
+
+//! Vertices of the boundary on edges of the boundary (as near as common positions are), where a
+//! piece of the edge that they end has the ends of another such piece, or edge.
+//! \param open  half-edges of edges with one face.
+//! \return ascending. Cost: O(n log n).
+[[nodiscard]] std::vector<Division> find_divisions(const MeshView& mesh,
+                                                   std::span<const Index> open, double tolerance,
+                                                   Ticker& ticker);
 
 //! Removes the marked faces and returns their number.
 //! \param twin  is updated; null: there is none yet.
@@ -54,14 +79,20 @@ Index drop_faces(Soup& soup, const std::vector<bool>& is_dead, std::vector<Index
 // The passes, in the order in which they run. Those that return bool tell whether they changed a
 // triangle, so that sides must be sorted again.
 
+//! Divides the edges of find_divisions, and their faces.
+bool divide_edges(Soup& soup, std::span<const EdgeSide> sides, double tolerance);
 //! Boundary edges between the same two positions (find_common_positions) become one edge.
 //! \param tolerance  see find_common_positions.
 bool weld_cracks(Soup& soup, std::span<const EdgeSide> sides, double tolerance);
 //! Different corners of a face at one position become one vertex.
 bool collapse_zero_edges(Soup& soup);
 bool drop_repeated_corners(Soup& soup);
-//! Of faces with the same corners one stays, or two of opposite orientation where bodies touch.
+//! Of faces with the same corners one stays, two of opposite orientation where bodies
+//! touch, or none: a flap on a body that is closed without it.
 bool drop_duplicates(Soup& soup, std::span<const EdgeSide> sides);
+//! Drops patches of slivers on the boundary that hang on edges which have two faces without them:
+//! they are no sheets.
+bool drop_slivers(Soup& soup, std::span<const EdgeSide> sides);
 //! \throw InvalidInput  a component is not orientable.
 bool orient_faces(Soup& soup, std::span<const EdgeSide> sides);
 //! The twins. At an edge of more than two faces the flattest pairs stay together, the rest is cut.

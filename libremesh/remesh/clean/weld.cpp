@@ -87,22 +87,25 @@ UnionFind find_parts(Soup& soup) {
 }
 
 // See CleanResult::slit_length. Cracks between parts are no slits, nor are seams of a part that
-// closes by welding, as their sides have ends of their own.
+// closes by welding, as of a sphere from pole to pole.
 // \param open  boundary edges, sorted by the positions of their ends.
 double longest_slit(Soup& soup, std::span<const EdgeSide> open, std::span<const Index> position) {
     UnionFind parts = find_parts(soup), chains(soup.mesh.positions.size());
-    std::vector<bool> is_tip(soup.mesh.positions.size(), false);
+    std::vector<bool> is_tip(soup.mesh.positions.size(), false), stays_open = is_tip;
     std::vector<double> length(soup.mesh.positions.size(),
                                0);  // By position, of edges from it upwards.
+    std::vector<Index> part(soup.mesh.positions.size(), 0);  // Likewise.
     for_each_edge(open, [&](std::span<const EdgeSide> edge) {
         soup.ticker.tick();
         const Index low = edge[0].low(), high = edge[0].high();
         const auto first = soup.tail(edge[0].half_edge);
+        if (edge.size() == 1) stays_open[parts.root(first)] = true;
         if (edge.size() < 2 || low == high ||
             parts.root(first) != parts.root(soup.tail(edge[1].half_edge))) {
             return;
         }
         (void)chains.unite(low, high);
+        part[low] = parts.root(first);
         length[low] += (soup.mesh.positions[high] - soup.mesh.positions[low]).norm();
         for (const Index where : {low, high}) {
             if (end_at(soup, position, edge[0], where) == end_at(soup, position, edge[1], where)) {
@@ -111,7 +114,9 @@ double longest_slit(Soup& soup, std::span<const EdgeSide> open, std::span<const 
         }
     });
     std::vector<double> of_chain(soup.mesh.positions.size(), 0);
-    for (Index v = 0; v < length.size(); ++v) of_chain[chains.root(v)] += length[v];
+    for (Index v = 0; v < length.size(); ++v) {
+        if (stays_open[part[v]]) of_chain[chains.root(v)] += length[v];
+    }
     double longest = 0;
     for (Index v = 0; v < length.size(); ++v) {
         if (is_tip[v]) longest = std::max(longest, of_chain[chains.root(v)]);
@@ -122,20 +127,22 @@ double longest_slit(Soup& soup, std::span<const EdgeSide> open, std::span<const 
 }  // namespace
 
 // The first of each set of equal positions goes into a grid, and is compared with those there.
-std::vector<Index> find_common_positions(const MeshView& mesh, const std::vector<bool>& is_wanted,
-                                         Ticker& ticker, double tolerance) {
-    std::vector<Index> first = first_at_position(mesh.positions, ticker, is_wanted);
-    const std::vector<double> reach =
-        find_reaches(mesh, first, tolerance > 0 ? share_with_tolerance : share_of_edge, ticker);
+CommonPositions find_common_positions(const MeshView& mesh, const std::vector<bool>& is_wanted,
+                                      Ticker& ticker, double tolerance) {
+    CommonPositions common;
+    common.share = tolerance > 0 ? share_with_tolerance : share_of_edge;
+    std::vector<Index>& first = common.first = first_at_position(mesh.positions, ticker, is_wanted);
+    const std::vector<double>& reach = common.reach =
+        find_reaches(mesh, first, common.share, ticker);
+    const MeshBox box = box_of(mesh);
+    common.limit = std::max(tolerance, share_of_size * box.longest_side());
     std::vector<double> finite;
     for (const double r : reach) {
         if (r < infinity) finite.push_back(r);
     }
-    if (finite.empty()) return first;
-    const MeshBox box = box_of(mesh);
-    const double limit = std::max(tolerance, share_of_size * box.longest_side());
-    const double most = std::min(median(std::move(finite)), limit);
-    if (!(most > 0)) return first;
+    if (finite.empty()) return common;
+    const double most = std::min(median(std::move(finite)), common.limit);
+    if (!(most > 0)) return common;
 
     UnionFind sets(first.size());
     PointGrid grid(box.low, cell_size * most, first.size());
@@ -152,7 +159,7 @@ std::vector<Index> find_common_positions(const MeshView& mesh, const std::vector
     for (Index& v : first) {
         if (v != no_index) v = sets.root(v);
     }
-    return first;
+    return common;
 }
 
 // Only edges are welded, and only boundary edges: parts that touch at a point, and closed parts
@@ -168,7 +175,7 @@ bool weld_cracks(Soup& soup, std::span<const EdgeSide> sides, double tolerance) 
     std::vector<bool> is_boundary(soup.mesh.positions.size(), false);
     for (const EdgeSide& side : open) is_boundary[side.low()] = is_boundary[side.high()] = true;
     const std::vector<Index> position =
-        find_common_positions(soup.mesh.view(), is_boundary, soup.ticker, tolerance);
+        find_common_positions(soup.mesh.view(), is_boundary, soup.ticker, tolerance).first;
     for (EdgeSide& side : open) {
         side.ends = edge_key(position[side.low()], position[side.high()]);
     }

@@ -1,5 +1,6 @@
 // A vertex is a corner if both the polyline and longer chords turn sharply there, so that noise
-// makes none.
+// makes none; or, at a lower angle, if it is on the boundary and that is straight around it, as a
+// polygon is. (Creases are close to others; more nodes on them gave plates twice as many needles.)
 #include "remesh/curves/curve_network.h"
 
 #include <algorithm>
@@ -12,7 +13,12 @@
 namespace remesh {
 namespace {
 
-constexpr double least_turn = std::numbers::pi / 4;
+constexpr double least_turn = std::numbers::pi / 4 - 1e-6;  // Rounding.
+// Between straight sides: leaving out such a corner costs a distance of .1 spacings. The same angle
+// as of weak creases.
+constexpr double least_polygon_turn = 25 * degree;
+// In spacings: the length of these sides, and as a share of the corner's turn theirs.
+constexpr double side_length = 1, most_side_turn = 0.5;
 // In spacings: length of a corner's chords, and least distance between corners.
 constexpr double corner_reach = 0.5;
 
@@ -40,18 +46,43 @@ public:
         }
     }
 
-    // The smaller of two turns at an inner vertex: of its edges, and of its chords.
-    [[nodiscard]] double sharpness(std::size_t i, double reach) const {
-        const std::size_t num_edges = curve_.num_edges();
-        const std::size_t before = i == 0 ? num_edges - 1 : i - 1;
-        const double here_turn = turn(at_[before], at_[i], at_[i + 1]);
-        if (here_turn < least_turn) return 0;
-        reach = std::min(reach, curve_.length() / 3);
+    // The smaller of two turns at an inner vertex, of its edges and of its chords; of a polygon's
+    // corner the former. 0: it is no corner.
+    [[nodiscard]] double sharpness(std::size_t i, double spacing) const {
+        const double here_turn = turn_at(i);
+        if (here_turn < least_polygon_turn) return 0;
+        const double reach = std::min(corner_reach * spacing, curve_.length() / 3);
         const double along = curve_.up_to[i];
-        return std::min(here_turn, turn(position(along - reach), at_[i], position(along + reach)));
+        const double of_both =
+            std::min(here_turn, turn(position(along - reach), at_[i], position(along + reach)));
+        if (of_both >= least_turn) return of_both;
+        if (curve_.sides.size() > 1) return 0;
+        return has_straight_sides(i, here_turn, side_length * spacing) ? here_turn : 0;
     }
 
 private:
+    [[nodiscard]] double turn_at(std::size_t i) const {
+        return turn(at_[i == 0 ? curve_.num_edges() - 1 : i - 1], at_[i], at_[i + 1]);
+    }
+    [[nodiscard]] bool has_straight_sides(std::size_t i, double here_turn, double length) const {
+        const std::size_t num_edges = curve_.num_edges();
+        double sum = 0;
+        for (const bool is_after : {true, false}) {
+            double way = 0;
+            for (std::size_t j = i;;) {
+                if (!curve_.is_closed() && j == (is_after ? num_edges : 0)) break;
+                const std::size_t edge = is_after ? j : (j + num_edges - 1) % num_edges;
+                way += curve_.up_to[edge + 1] - curve_.up_to[edge];
+                if (way >= length) break;
+                j = is_after ? j + 1 : edge;
+                if (curve_.is_closed()) j %= num_edges;
+                if (j == i) return false;
+                if (curve_.is_closed() || (j > 0 && j < num_edges)) sum += turn_at(j);
+                if (sum > most_side_turn * here_turn) return false;
+            }
+        }
+        return true;
+    }
     [[nodiscard]] Vec3 position(double along) const {
         const auto [i, share] = find_position(curve_, along);
         return (1 - share) * at_[i] + share * at_[i + 1];
@@ -78,8 +109,8 @@ std::vector<std::size_t> corners_of_curve(const Surface& surface, const Curve& c
     const Course course(surface, curve);
     std::vector<std::pair<double, std::size_t>> candidates;  // (minus sharpness, vertex)
     for (std::size_t i = curve.is_closed() ? 0 : 1; i < curve.num_edges(); ++i) {
-        const double sharp = course.sharpness(i, reach);
-        if (sharp >= least_turn) candidates.emplace_back(-sharp, i);
+        const double sharp = course.sharpness(i, spacing);
+        if (sharp > 0) candidates.emplace_back(-sharp, i);
     }
     std::sort(candidates.begin(), candidates.end());
     std::vector<std::size_t> corners;

@@ -120,8 +120,9 @@ struct CurveNetwork {
 [[nodiscard]] Curve curve_of_loop(const Surface& surface, std::vector<Index> loop);
 
 //! The vertices (see Curve::vertex) where a curve turns by at least 45 degrees, both at the vertex
-//! and between the chords to half a spacing before and after it: a rough curve has none. Of several
-//! within half a spacing the sharpest counts; so near to an end, none.
+//! and between the chords to half a spacing before and after it: a rough curve has none; and on the
+//! boundary those of at least 25 degrees where it turns by less than half of that over a spacing on
+//! both sides. Of several within half a spacing the sharpest counts; so near to an end, none.
 //! \return ascending.
 //! Cost: O(k log k + k c), c = corners.
 [[nodiscard]] std::vector<std::size_t> corners_of_curve(const Surface& surface, const Curve& curve,

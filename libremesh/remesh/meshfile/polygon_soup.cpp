@@ -38,6 +38,42 @@ void append_corners(std::span<const Index> polygon, std::size_t begin,
     }
 }
 
+// Two quads with a corner that no other polygon has share two edges. Cut along the diagonal between
+// the ends of these, both would get the same triangle, a flap.
+// \return by polygon: the corner, among all corners, from which it is to be cut; or no_index.
+std::vector<Index> find_doublets(std::span<const Index> corners, std::span<const std::size_t> ends,
+                                 std::size_t num_vertices, Ticker& ticker) {
+    struct Use {
+        Index count = 0, corner = 0, polygon = 0;
+    };
+    std::vector<Use> uses(num_vertices);
+    std::vector<Index> cut_at(ends.size(), no_index);
+    const auto beside = [&](Index corner, Index polygon, Index steps) {
+        const auto begin = static_cast<Index>(ends[polygon] - 4);
+        return corners[begin + (corner - begin + steps) % 4];
+    };
+    for (const bool is_counted : {false, true}) {
+        Index c = 0;
+        for (Index p = 0; p < ends.size(); ++p) {
+            ticker.tick();
+            const bool is_quad = ends[p] - c == 4;
+            for (; c < ends[p]; ++c) {
+                Use& use = uses[corners[c]];
+                if (!is_counted) {
+                    use = {use.count + 1, c, is_quad ? p : no_index};
+                } else if (use.count == 2 && is_quad && use.polygon != no_index &&
+                           use.corner != c &&
+                           beside(c, p, 1) == beside(use.corner, use.polygon, 3) &&
+                           beside(c, p, 3) == beside(use.corner, use.polygon, 1)) {
+                    cut_at[p] = c;
+                    cut_at[use.polygon] = use.corner;
+                }
+            }
+        }
+    }
+    return cut_at;
+}
+
 using FaceCorners = std::array<Index, 4>;  // Of a triangle the last one is no_index.
 
 struct KindOfCell {
@@ -157,6 +193,11 @@ MeshFile PolygonSoup::finish() && {
     result.face_polygon.reserve(polygon_end_.size());
     const bool has_texture = !texture.name.empty();
     std::vector<std::size_t> corner;  // Of the triangles: its number among all corners.
+    const bool has_triangles_only = corners_.size() == 3 * polygon_end_.size();
+    const std::vector<Index> cut_at =
+        has_triangles_only
+            ? std::vector<Index>()
+            : find_doublets(corners_, polygon_end_, result.mesh.positions.size(), ticker);
     std::size_t begin = 0;
     for (Index p = 0; p < polygon_end_.size(); begin = polygon_end_[p++]) {
         ticker.tick();
@@ -167,7 +208,13 @@ MeshFile PolygonSoup::finish() && {
         }
         if (polygon.size() > 3) ++result.polygons;
         const std::size_t num_before = result.mesh.triangles.size();
-        append_triangles(polygon, result.mesh.positions, ticker, result.mesh.triangles);
+        if (!cut_at.empty() && cut_at[p] != no_index) {
+            const auto at = [&](Index k) { return polygon[(cut_at[p] - begin + k) % 4]; };
+            result.mesh.triangles.push_back({at(0), at(1), at(2)});
+            result.mesh.triangles.push_back({at(0), at(2), at(3)});
+        } else {
+            append_triangles(polygon, result.mesh.positions, ticker, result.mesh.triangles);
+        }
         if (has_texture) {
             append_corners(polygon, begin, std::span(result.mesh.triangles).subspan(num_before),
                            corner);

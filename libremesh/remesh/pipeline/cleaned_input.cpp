@@ -39,6 +39,7 @@ CleanedInput clean_stage(const InputMesh& input, const StageContext& context) {
     CleanResult clean = clean_input(input.view, cleaning_of(options));
     result.cleaned = clean.counts;
     result.welded_slit_length = clean.slit_length;
+    result.loose_vertices = clean.loose_vertices;
     const Progress half = progress_at(Stage::Clean, options, cleaned_fraction / 2);
     Poller poller(half);
     const bool is_reordered = order_in_space(clean, Ticker(poller));

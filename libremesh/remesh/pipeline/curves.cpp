@@ -26,6 +26,8 @@ constexpr std::size_t least_scale = 300;
 constexpr double least_junction = 2;
 // In spacings: given sites this near to a curve are put onto it if sites are relaxed.
 constexpr double on_curve = 0.1;
+// In spacings: shorter spokes of poles are no seams of the result, as they are close to each other.
+constexpr double spoke_length = 2.5;
 
 // Adds marks to others.
 void add_marks(std::span<const std::uint8_t> more, std::vector<std::uint8_t>& marks) {
@@ -67,6 +69,17 @@ void find_all_creases(const CleanedInput& cleaned, double spacing, CloseCreases 
     for (Index e = 0; e < found.is_crease.size(); ++e) found.is_close[e] ^= found.is_crease[e];
 }
 
+// Vertices all of whose edges are seams, such as the pole of a sphere, where each face has its own
+// coordinates: without these edges faces there differ by what one of them is wide.
+std::vector<bool> find_poles(const Surface& surface, std::span<const std::uint8_t> is_seam) {
+    std::vector<bool> is_pole(surface.num_vertices(), true);
+    for (Index e = 0; e < surface.num_edges(); ++e) {
+        const Index h = surface.edge_half[e];
+        if (is_seam[e] == 0) is_pole[surface.tail(h)] = is_pole[surface.head(h)] = false;
+    }
+    return is_pole;
+}
+
 // \param found  its creases are known.
 void find_seams(const CleanedInput& cleaned, double spacing, const RemeshOptions& options,
                 FoundCurves& found) {
@@ -77,6 +90,12 @@ void find_seams(const CleanedInput& cleaned, double spacing, const RemeshOptions
         if (surface.twin[surface.edge_half[e]] == no_index) found.is_seam[e] = 0;
     }
     found.is_wide = found.is_seam;
+    const std::vector<bool> is_pole = find_poles(surface, found.is_seam);
+    for (Index e = 0; e < surface.num_edges(); ++e) {
+        const Index h = surface.edge_half[e];
+        const bool is_at_pole = is_pole[surface.tail(h)] || is_pole[surface.head(h)];
+        if (is_at_pole && surface.length[e] < spoke_length * spacing) found.is_wide[e] = 0;
+    }
     const Progress progress = cleaned_progress(options);
     Poller poller(progress);
     prune_seams(surface, found.is_crease, spacing, found.is_wide, Ticker(poller));
@@ -119,6 +138,7 @@ void count_plan(const NetworkPlan& plan, RemeshResult& result) {
 // Of the network's edges which are creases, and which are seams: an edge may be both.
 void count_seams(const Surface& surface, const NetworkPlan& plan, const FoundCurves& found,
                  FeatureCounts& counts) {
+    const std::vector<bool> is_pole = find_poles(surface, found.is_seam);
     std::vector<std::uint8_t> is_kept(surface.num_edges(), 0);
     for (const Curve& curve : plan.network.curves) {
         for (const Index h : curve.sides.front().half_edges) is_kept[surface.edge[h]] = 1;
@@ -129,9 +149,10 @@ void count_seams(const Surface& surface, const NetworkPlan& plan, const FoundCur
         if (!found.is_crease.empty() && found.is_crease[e] != 0) {
             (is_kept[e] != 0 ? counts.length : counts.dropped_length) += length;
         }
-        if (found.is_seam[e] != 0) {
-            (is_kept[e] != 0 ? counts.seam_length : counts.dropped_seam_length) += length;
-        }
+        const Index h = surface.edge_half[e];
+        const bool is_at_pole = is_pole[surface.tail(h)] || is_pole[surface.head(h)];
+        if (found.is_seam[e] == 0 || (is_kept[e] == 0 && is_at_pole)) continue;
+        (is_kept[e] != 0 ? counts.seam_length : counts.dropped_seam_length) += length;
     }
 }
 

@@ -162,20 +162,35 @@ RemeshResult meet_distance(const CleanedInput& cleaned, const RemeshOptions& opt
     std::vector<SizedPoint> lengths;
     MeasuredDistance best{.largest = infinity};
     std::size_t num_vertices = 0;
+    finer.sizing.count = aim;
     for (int round = 0; round < max_rounds; ++round) {
-        finer.sizing.count = aim;
         RemeshResult result = run(finer, lengths, &bound);
-        if (result.sizing.largest_distance > 0) return result;  // It is proved.
-        const MeasuredDistance found =
-            measure_distance(mesh, tree, result.mesh, result.sizing.targets, limit,
-                             options.num_threads, progress_at(Stage::Check, options, 1));
-        result.sizing.largest_distance = found.largest;
-        if (found.is_within) return result;
-        lengths.insert(lengths.end(), found.lengths.begin(), found.lengths.end());
+        MeasuredDistance found{.largest = result.sizing.largest_distance};
+        found.is_within = found.largest > 0;  // It is proved.
+        if (!found.is_within) {
+            found = measure_distance(mesh, tree, result.mesh, result.sizing.targets, limit,
+                                     options.num_threads, progress_at(Stage::Check, options, 1));
+            result.sizing.largest_distance = found.largest;
+        }
         if (found.largest < best.largest) {
             best = found;
             num_vertices = result.mesh.positions.size();
         }
+        // Half the lengths would take more vertices than the curves that were left out. Sheets are
+        // welded even where the distance does not need it.
+        const bool is_welded = options.junctions == Junctions::Keep;
+        const Index for_curves =
+            std::max(found.is_within ? 0 : result.features.samples_for_all,
+                     found.is_within && !is_welded ? 0 : result.junctions.samples_for_all);
+        if (round + 1 < max_rounds && for_curves > result.sizing.num_samples &&
+            for_curves <= 2 * num_vertices) {
+            finer.sizing.count = NumSamples{};
+            finer.num_samples = for_curves;
+            continue;
+        }
+        if (found.is_within) return result;
+        finer.sizing.count = aim;
+        lengths.insert(lengths.end(), found.lengths.begin(), found.lengths.end());
     }
     throw ConstraintUnmet("the largest distance asked for is " + std::to_string(limit) + ", and " +
                           std::to_string(best.largest) + " was reached with " +

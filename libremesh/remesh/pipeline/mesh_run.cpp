@@ -77,7 +77,7 @@ public:
     // \throw TooFewSamples  no choice of curves gives a mesh.
     MadeMesh find_mesh() {
         const RemeshResult start = result_;
-        Index num_needed = 0, samples_for_all = 0;
+        Index num_needed = 0, samples_for_all = 0, num_for_all = 0;
         std::optional<RemeshResult> best;
         MadeMesh best_made;
         for (const bool has_junctions : {true, false}) {
@@ -92,6 +92,8 @@ public:
                                                  bound_, of_input_, {options_, tried});
                 result_.seconds = tried.seconds;
                 samples_for_all = std::max(samples_for_all, tried.features.samples_for_all);
+                num_for_all =
+                    std::max({num_for_all, samples_for_all, tried.junctions.samples_for_all});
                 tried.features.gave_up =
                     choice == Choice::None && kept_.is_crease != found_.is_crease;
                 if (!made.has_mesh) {
@@ -103,7 +105,7 @@ public:
                 }
             }
         }
-        if (!best) throw TooFewSamples{options_.num_samples, num_needed};
+        if (!best) throw TooFewSamples{options_.num_samples, num_needed, num_for_all};
         best->seconds = result_.seconds;
         best->features.samples_for_all = samples_for_all;
         result_ = *std::move(best);

@@ -15,6 +15,7 @@ struct DistanceBound;
 struct TooFewSamples {
     Index asked;
     Index reached;  //!< Vertices that may suffice.
+    Index for_all;  //!< Vertices that may suffice for all curves, too.
 };
 
 //! Runs the stages from the network of curves on (mesh_with_curves). Where no mesh has the curves,

@@ -1,5 +1,6 @@
 #include <utility>
 
+#include <algorithm>
 #include "agvd/mesh/surface_points.h"
 #include "remesh/clean/carry.h"
 #include "remesh/pipeline/build_mesh.h"
@@ -36,6 +37,22 @@ bool weld_junctions(const CurveNetwork& network, std::span<const ChainEdge> chai
     return result.junctions.welded_edges == num_wanted;
 }
 
+// Turns bodies over that few vertices have turned inside out: their volumes keep the sign of the
+// input's.
+// \param topology  of the mesh.
+void keep_inside(const CleanedInput& cleaned, std::span<const SurfacePoint> points,
+                 const Topology& topology, TriangleMesh& mesh) {
+    const std::vector<double> volumes = body_volumes(mesh.view(), topology);
+    if (std::ranges::all_of(volumes, [](double volume) { return volume == 0; })) return;
+    const std::vector<double> wanted = body_volumes(cleaned.surface.mesh.view(), cleaned.topology);
+    for (Index f = 0; f < mesh.triangles.size(); ++f) {
+        Triangle& t = mesh.triangles[f];
+        const Index part = cleaned.topology.face_component[points[t[0]].face.value()];
+        const bool is_turned = volumes[topology.face_component[f]] * wanted[part] < 0;
+        if (is_turned) std::swap(t[1], t[2]);
+    }
+}
+
 // Sets the mesh of the result, and judges it. In between, Junctions::Keep welds the sheets.
 // \return whether it has the topology of the input, all that is locked, and its junctions.
 bool check_mesh(const CleanedInput& cleaned, const CurvedSurface& curved,
@@ -51,6 +68,7 @@ bool check_mesh(const CleanedInput& cleaned, const CurvedSurface& curved,
         !has_locked(cleaned.surface, cleaned.locked, mesh)) {
         return false;
     }
+    keep_inside(cleaned, built.mesh.points, topology, mesh);
     if (curved.has_junctions() && options.junctions == Junctions::Keep &&
         !weld_junctions(curved.plan->network.network, chain, built.mesh, mesh, result)) {
         return false;

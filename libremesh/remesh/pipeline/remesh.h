@@ -44,7 +44,8 @@ enum class Features {
 //! The number of vertices if the topology needs more sites.
 enum class VertexCount {
     Exact,  //!< As many vertices as sites were asked for: others are removed.
-    Add,    //!< Vertices that the topology needs are added.
+    Raise,  //!< Exact; if no mesh has so few, another number is tried, until one is found.
+    Add,    //!< Vertices that the topology needs are added; the number is raised likewise.
 };
 
 //! All lengths in mesh units. `{}` gives a good result.
@@ -204,6 +205,7 @@ struct RemeshResult {
                                       //!< (faces are the caller's).
     CleanCounts cleaned;              //!< What cleaning repaired.
     double welded_slit_length = 0;    //!< See CleanResult::slit_length.
+    Index loose_vertices = 0;         //!< See CleanResult.
     Topology input_topology;          //!< Of the cleaned input.
     Index refined_faces = 0;          //!< Faces of the base, on which propagation runs.
     Index components_dropped = 0;     //!< See drop_components.

@@ -135,6 +135,8 @@ RemeshResult remesh_region(const MeshView& mesh, const RemeshOptions& options) {
     GluedRegion glued = glue_region(mesh, region, result.mesh, last_ticker);
     result.sites = sites_of(region, glued, result.sites);
     result.mesh = std::move(glued.mesh);
+    result.verdict.bodies =
+        count_bodies(result.mesh, analyze_topology(result.mesh.view(), last), last_ticker);
     result.sizing.targets.clear();
     for (ForcedFace& forced : result.forced) {
         forced.face += static_cast<Index>(region.kept.size());

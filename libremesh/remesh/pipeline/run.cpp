@@ -28,7 +28,7 @@ void require_least_samples(const Topology& topology, const RemeshOptions& option
         return;
     }
     const Index needed = minimum_samples(topology);
-    if (options.num_samples < needed) throw TooFewSamples{options.num_samples, needed};
+    if (options.num_samples < needed) throw TooFewSamples{options.num_samples, needed, needed};
 }
 
 struct EnoughSamples {
@@ -36,6 +36,20 @@ struct EnoughSamples {
     bool is_tried = false;    // A run with so many has given a mesh.
     bool is_too_few = false;  // A run with so many has given none.
 };
+
+// The number to try after one that is too few.
+Index next_count(const TooFewSamples& failure, Index tried) {
+    return failure.reached > tried + 1 ? failure.reached : tried + tried / 4 + 1;
+}
+
+// From 1 on, they lead to 40 000 samples and more.
+constexpr int most_tries = 40;
+
+// Whether the number of samples follows from a distance, whatever the topology needs.
+bool follows_from_distance(const Sizing& sizing) {
+    return std::holds_alternative<MaxError>(sizing.count) ||
+           std::holds_alternative<MaxDistance>(sizing.count);
+}
 
 // A number of samples that works. Large numbers are not tried: a run would take minutes.
 EnoughSamples find_enough(const CleanedInput& cleaned, const RemeshResult& after_cleaning,
@@ -54,7 +68,7 @@ EnoughSamples find_enough(const CleanedInput& cleaned, const RemeshResult& after
             require_mesh(coarse ? *coarse : cleaned, result, more);
             return {.count = reached, .is_tried = true};
         } catch (const TooFewSamples& failure) {
-            reached = failure.reached > reached + 1 ? failure.reached : reached + reached / 4 + 1;
+            reached = next_count(failure, reached);
         }
     }
     return {.count = more.num_samples, .is_too_few = true};
@@ -114,23 +128,45 @@ RemeshResult run_stages(const InputMesh& input, const RemeshOptions& given) {
         result.seconds.emplace_back(stage, 0.0);
     }
     CleanedInput cleaned = clean_stage(input, {options, result});
-    // Nobody asked for a number that what is locked could contradict.
-    if (!cleaned.locked.empty() && gives_num_samples(options.sizing)) {
+    // Nobody asked for a number that topology, or what is locked, could contradict.
+    const bool is_free = follows_from_distance(options.sizing);
+    const bool may_raise =
+        (is_free || options.vertex_count != VertexCount::Exact) && !options.sites;
+    if (is_free || (!cleaned.locked.empty() && gives_num_samples(options.sizing))) {
         options.vertex_count = VertexCount::Add;
+    } else if (options.vertex_count == VertexCount::Raise) {
+        options.vertex_count = VertexCount::Exact;
     }
     options.sizing.max_edge = std::min(options.sizing.max_edge, most_mean_edge(options.bounds));
     try {
         options.num_samples = sample_count(cleaned, options);
-        require_least_samples(cleaned.topology, options);
+        if (may_raise) {
+            options.num_samples = std::max(options.num_samples, minimum_samples(cleaned.topology));
+        } else {
+            require_least_samples(cleaned.topology, options);
+        }
         const std::optional<CleanedInput> coarse =
             coarse_input(cleaned, spacing_for(cleaned, options), {options, result});
         const CleanedInput& used = coarse ? *coarse : cleaned;
         RemeshResult after_cleaning = result;
         const auto run = [&](const RemeshOptions& changed, std::span<const SizedPoint> lengths,
                              const DistanceBound* bound) {
-            RemeshResult made = run_after_cleaning(used, after_cleaning, changed, lengths, bound);
-            after_cleaning.seconds = made.seconds;
-            return made;
+            RemeshOptions enough = changed;
+            for (int tries = 0;; ++tries) {
+                try {
+                    RemeshResult made =
+                        run_after_cleaning(used, after_cleaning, enough, lengths, bound);
+                    after_cleaning.seconds = made.seconds;
+                    return made;
+                } catch (const TooFewSamples& failure) {
+                    if (!may_raise || tries == most_tries) throw;
+                    enough.num_samples = next_count(failure, failure.asked);
+                    if (is_free) {
+                        enough.num_samples = std::max(enough.num_samples, failure.for_all);
+                    }
+                    enough.sizing.count = NumSamples{};
+                }
+            }
         };
         const auto* distance = std::get_if<MaxDistance>(&options.sizing.count);
         result = distance != nullptr ? meet_distance(cleaned, options, distance->distance, run)

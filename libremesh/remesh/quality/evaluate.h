@@ -199,6 +199,27 @@ struct NarrowFaces {
     Index between_creases = 0;  //!< Of the others: all three corners are on sharp edges.
 };
 
+//! What is to be known before a mesh is printed. Closed components are bodies, or the walls of
+//! cavities in them.
+struct BodyCounts {
+    Index closed = 0;        //!< Closed components.
+    Index holes = 0;         //!< Connected chains of the edges with one face.
+    Index hole_edges = 0;    //!< These edges.
+    Index inside_out = 0;    //!< Closed components in no other one whose normals point inward.
+    Index cavities = 0;      //!< Closed components in others whose normals point inward.
+    Index inner_bodies = 0;  //!< The same whose normals point outward.
+};
+
+//! #components: signed volumes, cubic mesh units, above 0 where normals point outward; 0 of open
+//! components. Cost: O(#F).
+[[nodiscard]] std::vector<double> body_volumes(const MeshView& mesh, const Topology& topology);
+
+//! Counts closed components and holes.
+//! \param topology  of these faces; sheets may have been welded since.
+//! Cost: O(n log n), and of each component as many steps as those have faces whose boxes hold it.
+[[nodiscard]] BodyCounts count_bodies(const MeshView& mesh, const Topology& topology,
+                                      Ticker ticker = {});
+
 //! Parts of a result that are smaller than the spacing of its vertices. All lengths in mesh units.
 struct Verdict {
     double spacing = 0;  //!< Mean edge length of the result.
@@ -220,6 +241,7 @@ struct Verdict {
     double small_angle_share = 0;  //!< Of these faces: those with an angle below pi / 6.
     NarrowFaces narrow = {};       //!< The same ones.
     Index faces_without_area = 0;  //!< Of these faces.
+    BodyCounts bodies = {};        //!< Of the result.
 };
 
 //! A component with fewer vertices is hard to recognise.

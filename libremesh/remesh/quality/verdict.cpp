@@ -258,6 +258,7 @@ Verdict judge_result(const MeshView& input, const MeshView& result, const Topolo
     verdict.small_angle_share = triangles.small_angle_share;
     verdict.faces_without_area = triangles.faces_without_area;
     judge_components(result, topology, verdict);
+    verdict.bodies = count_bodies(result, topology, Ticker(poller));
     const ClosestPointTree tree(result, poller.progress());
     const std::vector<VertexShape> shapes = vertex_shapes(result);
     const std::vector<Wall> walls = find_walls(result, tree, shapes, num_threads, poller);

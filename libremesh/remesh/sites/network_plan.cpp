@@ -173,6 +173,8 @@ NetworkPlan plan_network(const Surface& surface, std::vector<std::uint8_t> is_cr
     }
     NetworkPlan none;
     none.sites_for_boundary = fewest_vertices(plan.network);
+    none.sites_for_all = plan.sites_for_all;
+    none.sites_for_junctions = plan.sites_for_junctions;
     return none;
 }
 

@@ -51,11 +51,11 @@ bool expect_repaired(const TriangleMesh& mesh) {
         EXPECT_EQ(clean.mesh.positions[v], mesh.positions.at(clean.vertex_origin[v]));
     }
     const remesh::CleanCounts& counts = clean.counts;
-    EXPECT_EQ(mesh.triangles.size() - clean.mesh.triangles.size(),
+    EXPECT_EQ(mesh.triangles.size() + counts.divided_edges - clean.mesh.triangles.size(),
               counts.degenerate_faces + counts.duplicate_faces);
     EXPECT_EQ(mesh.positions.size() + counts.split_vertices - clean.mesh.positions.size(),
               counts.welded_vertices + counts.isolated_vertices);
-    if (counts.welded_vertices == 0) {
+    if (counts.welded_vertices + counts.duplicate_faces + counts.divided_edges == 0) {
         const double twice = counts.touching_faces > 0 ? area(mesh) : 0;  // At most: walls stay.
         EXPECT_GE(area(clean.mesh), (1 - 1e-12) * area(mesh)) << "geometry is unchanged";
         EXPECT_LE(area(clean.mesh), (1 + 1e-12) * area(mesh) + twice) << "geometry is unchanged";

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
 
 #include "agvd/core/error.h"
@@ -95,8 +97,7 @@ TEST(CleanInput, DropsOneOfTwoFacesBackToBack) {
 TEST(CleanInput, LeavesClosedPartsThatTouchAsTheyAre) {
     TriangleMesh shifted = shapes::cube();
     for (Vec3& p : shifted.positions) p += Vec3(1, 1, 0);
-    expect_unchanged(shapes::join(shapes::cube(), shifted));         // Along an edge.
-    expect_unchanged(shapes::join(shapes::cube(), shapes::cube()));  // Everywhere.
+    expect_unchanged(shapes::join(shapes::cube(), shifted));  // Along an edge.
     TriangleMesh grid = shapes::grid(2);
     for (Vec3& p : grid.positions) p += Vec3(1, 1, 0);
     expect_unchanged(shapes::join(shapes::grid(2), grid));  // Open ones, at a point.
@@ -123,7 +124,8 @@ TEST(CleanInput, WeldsASlitAndTellsItsLength) {
         const CleanResult clean = clean_to(shapes::slit_grid(8, begin, end), shapes::grid(8));
         EXPECT_DOUBLE_EQ(clean.slit_length, (end - begin) / 8.0);
     }
-    TriangleMesh two = shapes::join(shapes::slit_grid(8, 2, 4), shapes::slit_grid(8, 2, 7));
+    const TriangleMesh two = shapes::join(shapes::slit_grid(8, 2, 4),
+                                          shapes::moved(shapes::slit_grid(8, 2, 7), {2, 0, 0}));
     EXPECT_DOUBLE_EQ(clean_input(two.view()).slit_length, 5 / 8.0);
 }
 
@@ -132,6 +134,22 @@ TEST(CleanInput, CracksAndSeamsAreNoSlits) {
     EXPECT_EQ(clean_input(shapes::unweld(shapes::grid(4)).view()).slit_length, 0);
     EXPECT_EQ(clean_input(shapes::slit_grid(8, 0, 8).view()).slit_length, 0);
     EXPECT_EQ(clean_input(shapes::grid(4).view()).slit_length, 0);
+    // A sphere of degrees of longitude and latitude, whose seam joins the poles.
+    TriangleMesh sphere{{{0, 0, 2}, {0, 0, -2}}, {}};
+    for (Index i = 0; i <= 8; ++i) {
+        const double angle = (i % 8) * std::numbers::pi / 4;
+        for (const double z : {1., -1.}) {
+            sphere.positions.emplace_back(std::cos(angle), std::sin(angle), z);
+        }
+    }
+    for (Index a = 2; a < 18; a += 2) {
+        sphere.triangles.insert(
+            sphere.triangles.end(),
+            {{0, a, a + 2}, {a, a + 1, a + 2}, {a + 2, a + 1, a + 3}, {1, a + 3, a + 1}});
+    }
+    const CleanResult closed = clean_to(sphere, shapes::cube());
+    EXPECT_EQ(closed.counts.welded_vertices, 2u);
+    EXPECT_EQ(closed.slit_length, 0);
 }
 
 TEST(CleanInput, LeavesSlitsOpenIfAskedTo) {
@@ -187,6 +205,80 @@ TEST(CleanInput, AbsorbsFacesWithoutAreaAndLeavesNoSlit) {
             EXPECT_LT(clean.face_origin[f], n + 2) << "lies in a face that has an area";
         }
     }
+}
+
+// The middle edge is whole below and in pieces above: no face has both.
+TEST(CleanInput, DividesEdgesOfTheBoundaryAtVerticesThatLieOnThem) {
+    for (const Index n : {2u, 3u, 40u}) {
+        TriangleMesh mesh = shapes::filled_slit(n);
+        mesh.triangles.resize(n + 2);
+        const CleanResult clean = clean_to(mesh, shapes::grid(1));
+        EXPECT_EQ(clean.counts, (CleanCounts{.divided_edges = n - 1})) << n;
+        EXPECT_EQ(clean.mesh.triangles.size(), 2 * n + 1) << n;
+        // Both halves with vertices of their own, and a gap that is no rounding.
+        TriangleMesh apart = shapes::unweld(mesh);
+        for (std::size_t f = 2; f < apart.triangles.size(); ++f) {
+            for (const Index v : apart.triangles[f]) apart.positions[v].y() += 0.015;
+        }
+        EXPECT_EQ(clean_input(apart.view()).counts.divided_edges, 0u);
+        EXPECT_EQ(clean_input(apart.view()).loose_vertices, n > 10 ? n - 1 : 0);
+        const CleanResult welded = clean_input(apart.view(), {.weld = 0.02});
+        EXPECT_EQ(welded.counts.divided_edges, n - 1);
+        EXPECT_TRUE(same_topology(analyze_topology(welded.mesh.view()),
+                                  analyze_topology(shapes::grid(1).view())));
+        EXPECT_EQ(clean_input(mesh.view(), {.keep_slits = true}).counts.divided_edges, 0u);
+    }
+}
+
+TEST(CleanInput, DividesAllSidesOfAFace) {
+    // Around a triangle three others, each of two pieces along it.
+    TriangleMesh mesh{{{0, 0, 0},
+                       {2, 0, 0},
+                       {0, 2, 0},
+                       {1, 0, 0},
+                       {1, 1, 0},
+                       {0, 1, 0},
+                       {1, -1, 0},
+                       {2, 2, 0},
+                       {-1, 1, 0}},
+                      {{0, 1, 2}}};
+    for (Index k = 0; k < 3; ++k) {
+        mesh.triangles.push_back({3 + k, k, 6 + k});
+        mesh.triangles.push_back({(k + 1) % 3, 3 + k, 6 + k});
+    }
+    const CleanResult clean = clean_to(mesh, shapes::grid(1));
+    EXPECT_EQ(clean.counts, (CleanCounts{.divided_edges = 3}));
+    EXPECT_EQ(clean.mesh.triangles.size(), 10u);
+}
+
+// A vertex near an edge of another part, which has no edge there.
+TEST(CleanInput, LeavesEdgesWholeThatOnlyTouchAVertex) {
+    TriangleMesh mesh{{{0, 0, 0}, {2, 0, 0}, {1, 2, 0}, {1, 0, 0}, {0, -1, 0}, {2, -1, 0}},
+                      {{0, 1, 2}, {3, 4, 5}}};
+    expect_unchanged(mesh);
+}
+
+TEST(CleanInput, DropsSliversThatHangOnTheEdgesOfABody) {
+    const TriangleMesh body = shapes::subdivide(shapes::cube());
+    TriangleMesh mesh = body;
+    // Beside the middle of an edge, by a share of its length: rounding, a bow, and a fin.
+    const auto with_sliver = [&](double height) {
+        mesh = body;
+        for (const Index f : {0u, 7u, 30u}) {
+            const auto& [a, b, c] = body.triangles[f];
+            const Vec3 &p = mesh.positions[a], &q = mesh.positions[b];
+            const Vec3 middle = (p + q) / 2 + height * (p - q).norm() * Vec3(0.6, 0.64, 0.48);
+            mesh.triangles.push_back({b, a, static_cast<Index>(mesh.positions.size())});
+            mesh.positions.push_back(middle);
+        }
+        return clean_input(mesh.view());
+    };
+    for (const double height : {0.0, 1e-8, 5e-3}) {
+        const CleanResult clean = with_sliver(height);
+        EXPECT_EQ(clean.mesh.triangles, body.triangles);
+        EXPECT_EQ(clean.counts, (CleanCounts{.degenerate_faces = 3, .isolated_vertices = 3}));
+    }
+    EXPECT_EQ(with_sliver(0.1).counts.degenerate_faces, 0u);
 }
 
 TEST(CleanInput, DropsDegenerateFacesOnTheBoundary) {

@@ -156,6 +156,101 @@ TEST(DuplicateFaces, ASheetDrawnFromBothSidesIsOneSheet) {
     EXPECT_EQ(clean.counts, remesh::CleanCounts{.duplicate_faces = 32});
 }
 
+// Two sheets with one rim. At two corners a triangle has two edges of the rim: both sheets have it.
+TEST(DuplicateFaces, FlapsOnABodyThatIsClosedWithoutThemGo) {
+    const Index n = 6;
+    TriangleMesh mesh = shapes::grid(n);
+    const std::vector<Triangle> front = mesh.triangles;
+    std::vector<Index> below(mesh.positions.size());
+    for (Index v = 0; v < below.size(); ++v) {
+        const Vec3 p = mesh.positions[v];
+        const double height = p.x() * (1 - p.x()) * p.y() * (1 - p.y());
+        below[v] = v;
+        if (height < 1e-9) continue;
+        mesh.positions[v].z() = height;
+        below[v] = static_cast<Index>(mesh.positions.size());
+        mesh.positions.emplace_back(p.x(), p.y(), -height);
+    }
+    for (const auto& [a, b, c] : front) mesh.triangles.push_back({below[a], below[c], below[b]});
+    const CleanResult clean = remesh::clean_input(mesh.view());
+    EXPECT_EQ(clean.counts, (remesh::CleanCounts{.duplicate_faces = 4, .isolated_vertices = 2}));
+    EXPECT_EQ(volumes_of(clean.mesh).size(), 1u);
+}
+
+// Of other vertices, or other diagonals: turned over, or the same way.
+TEST(DuplicateFaces, SurfacesInOnePlaceAreOne) {
+    const auto bent = [](TriangleMesh mesh) {
+        for (Vec3& p : mesh.positions) p.z() = 0.05 * p.x() * p.x() - 0.1 * p.x() * p.y();
+        return mesh;
+    };
+    const TriangleMesh sheet = bent(shapes::grid(8));
+    TriangleMesh other = sheet;
+    for (std::size_t f = 0; f < other.triangles.size(); f += 2) {
+        Triangle &t = other.triangles[f], &u = other.triangles[f + 1];  // (a, b, c), (a, c, d)
+        const Index a = t[0], b = t[1], c = t[2], d = u[2];
+        t = {a, b, d};
+        u = {b, c, d};
+    }
+    const TriangleMesh fine_cube = shapes::subdivide(shapes::cube());
+    const TriangleMesh flat = shapes::grid(4), fine = shapes::grid(8);
+    for (const bool is_turned : {false, true}) {
+        for (const auto& [one, two] : {std::pair{sheet, other},
+                                       {shapes::cube(), fine_cube},
+                                       {flat, fine},
+                                       {fine_cube, fine_cube}}) {
+            SCOPED_TRACE(one.triangles.size());
+            TriangleMesh mesh = two;
+            if (is_turned) {
+                for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
+            }
+            mesh = shapes::join(one, mesh);
+            const CleanResult clean = remesh::clean_input(mesh.view());
+            EXPECT_EQ(clean.counts.duplicate_faces, two.triangles.size());
+            const auto topology = remesh::analyze_topology(clean.mesh.view());
+            EXPECT_TRUE(same_topology(topology, remesh::analyze_topology(one.view())));
+        }
+    }
+}
+
+TEST(DuplicateFaces, BodiesWhoseCommonWallHasOtherDiagonalsStayClosed) {
+    // The walls have vertices in common.
+    TriangleMesh mesh = shapes::cube();
+    const TriangleMesh cube = mesh;
+    for (const Triangle& t : cube.triangles) {
+        Triangle beside;
+        for (std::size_t k = 0; k < 3; ++k) {
+            Vec3 p = cube.positions[t[k]];
+            p.x() = 2 - p.x();
+            const auto at = std::ranges::find(mesh.positions, p);
+            beside[k] = static_cast<Index>(at - mesh.positions.begin());
+            if (at == mesh.positions.end()) mesh.positions.push_back(p);
+        }
+        std::swap(beside[1], beside[2]);
+        mesh.triangles.push_back(beside);
+    }
+    // Mirrored walls have the same diagonal.
+    const auto is_wall = [&](const Triangle& t) {
+        return std::ranges::all_of(t, [&](Index v) { return mesh.positions[v].x() == 1; });
+    };
+    const auto first = std::find_if(mesh.triangles.begin() + 12, mesh.triangles.end(), is_wall);
+    const auto second = std::find_if(first + 1, mesh.triangles.end(), is_wall);
+    std::vector<Index> corners(first->begin(), first->end());
+    const auto apex =
+        std::ranges::find_if(*second, [&](Index v) { return std::ranges::count(corners, v) == 0; });
+    const auto lone =
+        std::ranges::find_if(*first, [&](Index v) { return std::ranges::count(*second, v) == 0; });
+    const Index from = *lone, to = *apex;
+    std::ranges::rotate(*first, lone);
+    const Index b = (*first)[1], c = (*first)[2];
+    *first = {from, b, to};
+    *second = {from, to, c};
+    const CleanResult clean = remesh::clean_input(mesh.view());
+    EXPECT_EQ(clean.counts.duplicate_faces, 0u);
+    const std::vector<double> volumes = volumes_of(clean.mesh);
+    ASSERT_EQ(volumes.size(), 2u);
+    for (const double volume : volumes) EXPECT_NEAR(volume, 1, 1e-12);
+}
+
 TEST(DuplicateFaces, AWallOfAClosedBodyRepeatedFromItsOtherSideIsDropped) {
     TriangleMesh mesh = shapes::subdivide(shapes::cube());
     const std::vector<Triangle> front = mesh.triangles;

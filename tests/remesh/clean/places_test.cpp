@@ -25,7 +25,7 @@ namespace {
 std::vector<Index> places_of(const TriangleMesh& mesh, const std::vector<bool>& is_wanted) {
     agvd::Poller poller{agvd::Progress()};
     agvd::Ticker ticker(poller);
-    return remesh::detail::find_common_positions(mesh.view(), is_wanted, ticker);
+    return remesh::detail::find_common_positions(mesh.view(), is_wanted, ticker).first;
 }
 
 Vec3 direction(Dice& dice) {

@@ -270,15 +270,19 @@ TEST(CurveNetwork, TheTurnsOfAClosedCreaseAreNodesAsFarAsTheSpacingTellsThemApar
     }
 }
 
-// A loop of 7 edges turns by 51.4 degrees at each vertex, one of 9 edges by 40.
-TEST(CurveNetwork, TurnsFrom45DegreesOnAreNodes) {
-    for (const Index sides : {7u, 9u}) {
+// A loop of n edges turns by 360 / n degrees at each vertex.
+TEST(CurveNetwork, TurnsFrom45DegreesOnAreNodesAndThoseFrom25BetweenStraightSides) {
+    const auto count_nodes = [](Index sides, double edges_per_spacing) {
         const Surface surface = make(shapes::tube(sides, 1));
-        const CurveNetwork network =
-            find(surface, Flags(surface.num_edges(), 0), 0.5 * std::numbers::pi / sides);
-        EXPECT_EQ(network.nodes.size(), sides == 7 ? 14u : 0u);
-        EXPECT_EQ(network.curves.size(), sides == 7 ? 14u : 2u);
+        const double edge = 2 * std::sin(std::numbers::pi / sides);
+        return find(surface, Flags(surface.num_edges(), 0), edges_per_spacing * edge).nodes.size();
+    };
+    for (const Index sides : {7u, 8u}) EXPECT_EQ(count_nodes(sides, 1.5), 2 * sides);
+    for (const Index sides : {9u, 12u, 14u}) {
+        EXPECT_EQ(count_nodes(sides, 0.8), 2 * sides);
+        EXPECT_EQ(count_nodes(sides, 1.2), 0u);
     }
+    EXPECT_EQ(count_nodes(15, 0.25), 0u);
 }
 
 TEST(CurveNetwork, PlacesOfACurveAreTheSameOnBothSides) {

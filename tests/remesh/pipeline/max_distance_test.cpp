@@ -132,6 +132,46 @@ TEST(MaxDistance, TooManyVerticesAreRefused) {
     EXPECT_THROW((void)remesh::remesh(shapes::sphere(2).view(), with_lengths), agvd::InvalidOption);
 }
 
+// Curvature alone would ask for one vertex or two.
+TEST(MaxDistance, FlatPartsGetWhatTopologyAndCurvesNeed) {
+    TriangleMesh roof = shapes::grid(8);
+    for (Vec3& p : roof.positions) p.z() = 0.5 - std::abs(p.x() - 0.5);
+    TriangleMesh open_box = shapes::cube();
+    std::erase_if(open_box.triangles, [&](const agvd::Triangle& t) {
+        return std::ranges::all_of(t, [&](Index v) { return open_box.positions[v].z() == 1; });
+    });
+    // A wall in the middle of a box that is twice as long: all meet in four junctions.
+    TriangleMesh rooms = shapes::cube();
+    const TriangleMesh cube = rooms;
+    for (const agvd::Triangle& t : cube.triangles) {
+        const auto is_at = [&](double x) {
+            return std::ranges::all_of(t, [&](Index v) { return cube.positions[v].x() == x; });
+        };
+        if (is_at(0)) continue;
+        agvd::Triangle beyond;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vec3 p = cube.positions[t[k]] + Vec3(1, 0, 0);
+            beyond[k] =
+                static_cast<Index>(std::ranges::find(rooms.positions, p) - rooms.positions.begin());
+            if (beyond[k] == rooms.positions.size()) rooms.positions.push_back(p);
+        }
+        rooms.triangles.push_back(beyond);
+    }
+    for (const auto& [mesh, count] :
+         {std::pair{shapes::grid(8), 4u}, {roof, 6u}, {open_box, 8u}, {rooms, 12u}}) {
+        SCOPED_TRACE(count);
+        const RemeshResult result = remeshed(mesh, 0.02);
+        EXPECT_EQ(result.mesh.positions.size(), count);
+        EXPECT_LE(crease_checks::farthest_from_surface(mesh, result.mesh), 1e-9);
+    }
+    const RemeshResult welded =
+        remesh::remesh(rooms.view(), {.sizing = {.count = remesh::MaxDistance{0.02}},
+                                      .junctions = remesh::Junctions::Keep,
+                                      .num_threads = 1});
+    EXPECT_EQ(welded.junctions.apart_edges, 0u);
+    EXPECT_LE(welded.mesh.positions.size(), 16u);
+}
+
 TEST(MeasureDistance, EqualSurfacesAreProvedWhateverTheirTriangles) {
     const auto found = measure(shapes::grid(7), shapes::grid(4), 1e-3);
     EXPECT_TRUE(found.is_within);

@@ -134,6 +134,18 @@ TEST(Remesh, TooFewSamplesForTheTopologyAreRefused) {
     EXPECT_THROW((void)remesh::remesh(shapes::cube().view(), {.num_samples = 0}), InvalidOption);
 }
 
+TEST(Remesh, ANumberThatMayBeRaisedIsRaisedToWhatTheTopologyNeeds) {
+    for (const auto may : {remesh::VertexCount::Raise, remesh::VertexCount::Add}) {
+        const auto size = [&](const TriangleMesh& mesh, Index count) {
+            return remesh::remesh(mesh.view(), {.num_samples = count, .vertex_count = may})
+                .mesh.positions.size();
+        };
+        EXPECT_EQ(size(shapes::grid(8), 1), 4u);
+        EXPECT_EQ(size(shapes::sphere(2), 2), 4u);
+        EXPECT_EQ(size(shapes::sphere(2), 20), 20u);
+    }
+}
+
 // Of a mesh that is coarsened by the number of samples.
 TEST(Remesh, ANumberOfSamplesThatIsSaidToWorkDoes) {
     const TriangleMesh mesh = remesh::read_mesh(files::find_mesh("data/organic.ply")).mesh;

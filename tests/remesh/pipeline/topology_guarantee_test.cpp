@@ -127,6 +127,30 @@ TEST_P(Guarantee, Holds) {
 
 }  // namespace
 
+// Few vertices of a flat body may turn it inside out.
+TEST(TopologyGuarantee, VolumesOfBodiesKeepTheirSign) {
+    TriangleMesh mesh;
+    for (const Vec3& radii : {Vec3(1, .6, .5), Vec3(1, .5, .4), Vec3(1, .8, .3), Vec3(1, .3, .3)}) {
+        TriangleMesh body = shapes::sphere(1);
+        for (Vec3& p : body.positions) p = p.cwiseProduct(radii);
+        const bool is_inside_out = radii.y() == .5;
+        for (agvd::Triangle& t : body.triangles) {
+            if (is_inside_out) std::swap(t[1], t[2]);
+        }
+        const double place = 3 * static_cast<double>(mesh.triangles.size());
+        mesh = shapes::join(mesh, shapes::moved(body, {place, 0, 0}));
+    }
+    for (const Index count : {16u, 20u}) {
+        for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6}) {
+            const remesh::RemeshResult result =
+                remesh::remesh(mesh.view(), {.num_samples = count, .seed = seed, .num_threads = 1});
+            const remesh::BodyCounts& bodies = result.verdict.bodies;
+            EXPECT_EQ(bodies.closed, 4u);
+            EXPECT_EQ(bodies.inside_out, 1u) << count << " vertices, seed " << seed;
+        }
+    }
+}
+
 TEST(TopologyGuarantee, APlateOfAThousandthKeepsItsTwoWalls) {
     const TriangleMesh mesh = random_surfaces::plate(40, 40, {}, 0.04);
     const auto result = remesh::remesh(mesh.view(), {.num_samples = 200});

@@ -28,7 +28,7 @@ using remesh::RemeshOptions;
 constexpr double most_index = std::numeric_limits<Index>::max();
 
 const char* topology_name(remesh::VertexCount count) {
-    return count == remesh::VertexCount::Exact ? "exact" : "add";
+    return count == remesh::VertexCount::Add ? "add" : "exact";
 }
 
 // Values of an array, or those of the mesh that an option names; none: the option is not given.

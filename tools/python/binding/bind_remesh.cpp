@@ -20,7 +20,7 @@ using remesh::Sizing;
 using OptionsClass = py::class_<RemeshOptions>;
 
 const char* vertex_count_name(remesh::VertexCount count) {
-    return count == remesh::VertexCount::Exact ? "exact" : "add";
+    return count == remesh::VertexCount::Add ? "add" : "exact";
 }
 
 // Adds a property that takes the name of a choice.
