@@ -109,6 +109,7 @@ def remesh(
     drop_components: float = 0,
     weld: Any = None,
     fill_holes: int = 0,
+    wrap: Any = None,
     region: Any = None,
     lock: Any = None,
     lock_boundary: bool = False,
@@ -249,6 +250,8 @@ def remesh(
     options.drop_components = _arrays.number(drop_components, "drop_components")
     options.weld = 0 if weld is None else _options.length(mesh, weld, "weld")
     options.fill_holes = _arrays.whole(fill_holes, "fill_holes")
+    if wrap is not None and wrap is not False:
+        options.wrap = 0 if wrap is True else _options.length(mesh, wrap, "wrap")
     options.init = init
     options.relax_steps = _arrays.whole(relax, "relax", 0, 1_000_000)
     options.samples_per_tile = _arrays.whole(tile, "tile", 0, 1_000_000_000)
