@@ -51,11 +51,11 @@ std::string describe_crossings(const remesh::RemeshResult& result, const std::st
     if (in_input == 0) return text + "; use " + more;
     if (fresh == 0) {
         return text + "; they are where the input intersects itself, and " + more +
-               " give more; repair the input";
+               " give more; repair the input, or use --wrap";
     }
     return text + "; " + std::to_string(fresh) +
            " are not where the input intersects itself: for these use " + more +
-           ", for the others repair the input";
+           ", for the others repair the input, or use --wrap";
 }
 
 // \throw agvd::ConstraintUnmet  with --strict.
@@ -112,6 +112,15 @@ void warn_of_seams(const remesh::FeatureCounts& counts, Warnings& warnings) {
         "use more --samples");
 }
 
+void warn_of_sheets(const remesh::WrapCounts& wrapped, Warnings& warnings) {
+    constexpr double least_share = 0.05;
+    if (!(wrapped.sheets > least_share)) return;
+    warnings.push_back(
+        std::to_string(std::lround(100 * wrapped.sheets)) +
+        " % of the result are the two sides of sheets: the input is open wider than two radii of "
+        "--wrap; a larger --wrap or --fill-holes closes it, and without --wrap sheets stay single");
+}
+
 double spacing_of(const remesh::RemeshResult& result) {
     double area = 0;
     for (const auto& component : result.input_topology.components) area += component.area;
@@ -134,6 +143,7 @@ std::vector<std::string> shortfalls_of(const remesh::RemeshResult& result,
         warnings.push_back(welded_slit_text(result.welded_slit_length));
     }
     warn_of_junctions(result.junctions, options.junctions, warnings);
+    warn_of_sheets(result.wrapped, warnings);
     warn_of_seams(result.features, warnings);
     warn_of_bounds(result.sizing, options.sizing, warnings);
     return warnings;

@@ -38,99 +38,97 @@ double spacing_for(double area, const RemeshOptions& options) {
     return spacing_of(options.num_samples, area);
 }
 
-// The wrap, and where its elements lie on the mesh.
+// Wraps a mesh, and tells where the wrap lies on it.
 class Wrapper {
 public:
     Wrapper(const MeshView& mesh, const RemeshOptions& options)
-        : mesh_(mesh), options_(options), tree_(mesh, cleaned_progress(options)) {}
-
-    FittedWrap wrap(double& radius) const {
+        : mesh_(mesh), progress_(cleaned_progress(options)), tree_(mesh, progress_) {
         // Balls of half the spacing do not know yet how much of the mesh lies inside.
-        const bool is_given = *options_.wrap > 0;
-        double area = area_of(mesh_);
-        radius = is_given ? *options_.wrap : spacing_for(area, options_) / 2;
-        TriangleMesh wrap = alpha_wrap(mesh_, radius, cleaned_progress(options_));
-        if (!is_given) {
-            const double smaller = spacing_for(std::min(area, area_of(wrap)), options_) / 2;
-            if (smaller < most_excess * radius) {
-                radius = smaller;
-                wrap = alpha_wrap(mesh_, radius, cleaned_progress(options_));
-            }
+        const double area = area_of(mesh);
+        radius_ = *options.wrap > 0 ? *options.wrap : spacing_for(area, options) / 2;
+        TriangleMesh wrap = alpha_wrap(mesh, radius_, progress_);
+        const double smaller = spacing_for(std::min(area, area_of(wrap)), options) / 2;
+        if (*options.wrap == 0 && smaller < most_excess * radius_) {
+            radius_ = smaller;
+            wrap = alpha_wrap(mesh, radius_, progress_);
         }
-        return fit_wrap(wrap, tree_,
-                        {.radius = radius,
-                         .num_threads = options_.num_threads,
-                         .progress = cleaned_progress(options_)});
+        wrap_ = fit_wrap(
+            wrap, tree_,
+            {.radius = radius_, .num_threads = options.num_threads, .progress = progress_});
     }
 
+    [[nodiscard]] const TriangleMesh& mesh() const { return wrap_.mesh; }
+    [[nodiscard]] WrapCounts counts() const { return {radius_, num_faces(), wrap_.sheets}; }
+
     // The nearest point of the mesh as seen from outside.
-    SurfacePoint below(const FittedWrap& wrap, const SurfacePoint& point) const {
-        return tree_.query(position({wrap.outside, wrap.mesh.triangles}, point)).point;
+    [[nodiscard]] SurfacePoint below(const SurfacePoint& point) const {
+        return tree_.query(position({wrap_.outside, wrap_.mesh.triangles}, point)).point;
+    }
+
+    // Values of the mesh for the wrap.
+    template <typename Value>
+    void carry_to_faces(std::vector<Value>& values) const {
+        if (values.empty()) return;
+        std::vector<Value> carried;
+        for (Index f = 0; f < num_faces(); ++f) {
+            const SurfacePoint middle{FaceId(f), {1.0 / 3, 1.0 / 3, 1.0 / 3}};
+            carried.push_back(values[below(middle).face.value()]);
+        }
+        values = std::move(carried);
+    }
+    void carry_to_vertices(std::vector<double>& values) const {
+        std::vector<double> carried;
+        for (const Vec3& outside : wrap_.outside) {
+            const SurfacePoint point = tree_.query(outside).point;
+            double value = 0;
+            for (std::size_t k = 0; k < 3; ++k) {
+                value += point.barycentric[k] * values[mesh_.triangles[point.face.value()][k]];
+            }
+            carried.push_back(value);
+        }
+        values = std::move(carried);
     }
 
 private:
-    static constexpr double most_excess = 0.8;
+    static constexpr double most_excess = 0.8;  // Where the wrap is not made again.
+
+    [[nodiscard]] Index num_faces() const {
+        return static_cast<Index>(wrap_.mesh.triangles.size());
+    }
 
     MeshView mesh_;
-    const RemeshOptions& options_;
+    Progress progress_;
     ClosestPointTree tree_;
+    FittedWrap wrap_;
+    double radius_ = 0;
 };
+
+RemeshOptions options_of_wrap(const RemeshOptions& given, const Wrapper& wrapper) {
+    RemeshOptions options = given;
+    options.wrap.reset();
+    options.texture_seams.clear();
+    wrapper.carry_to_faces(options.face_labels);
+    auto& edges = options.sizing.edges;
+    if (auto* of = std::get_if<FaceLengths>(&edges)) wrapper.carry_to_faces(of->values);
+    if (auto* at = std::get_if<VertexLengths>(&edges)) wrapper.carry_to_vertices(at->values);
+    if (auto* at = std::get_if<VertexDensities>(&edges)) wrapper.carry_to_vertices(at->values);
+    return options;
+}
 
 }  // namespace
 
 RemeshResult run_wrapped(const InputMesh& input, const RemeshOptions& options) {
-    const MeshView& mesh = input.view;
     const auto start = std::chrono::steady_clock::now();
-    {
-        const Progress progress = progress_at(Stage::Clean, options, 0);
-        Poller poller(progress);
-        check_elements(mesh, Ticker(poller));
-    }
-    const Wrapper wrapper(mesh, options);
-    WrapCounts counts;
-    const FittedWrap wrap = wrapper.wrap(counts.radius);
-    counts.faces = static_cast<Index>(wrap.mesh.triangles.size());
-    counts.sheets = wrap.sheets;
-
-    RemeshOptions changed = options;
-    changed.wrap.reset();
-    changed.texture_seams.clear();
-    const auto middle = [](Index f) {
-        return SurfacePoint{FaceId(f), {1.0 / 3, 1.0 / 3, 1.0 / 3}};
-    };
-    const auto by_face = [&](auto& values) {
-        if (values.empty()) return;
-        std::remove_reference_t<decltype(values)> carried(counts.faces);
-        for (Index f = 0; f < counts.faces; ++f)
-            carried[f] = values[wrapper.below(wrap, middle(f)).face.value()];
-        values = std::move(carried);
-    };
-    by_face(changed.face_labels);
-    if (auto* lengths = std::get_if<FaceLengths>(&changed.sizing.edges)) by_face(lengths->values);
-    const auto at_vertices = [&](std::vector<double>& values) {
-        std::vector<double> carried(wrap.mesh.positions.size());
-        for (Index f = 0; f < counts.faces; ++f) {
-            for (std::size_t k = 0; k < 3; ++k) {
-                SurfacePoint corner{FaceId(f), {0, 0, 0}};
-                corner.barycentric[k] = 1;
-                const SurfacePoint below = wrapper.below(wrap, corner);
-                double value = 0;
-                for (std::size_t i = 0; i < 3; ++i)
-                    value += below.barycentric[i] * values[mesh.triangles[below.face.value()][i]];
-                carried[wrap.mesh.triangles[f][k]] = value;
-            }
-        }
-        values = std::move(carried);
-    };
-    if (auto* lengths = std::get_if<VertexLengths>(&changed.sizing.edges))
-        at_vertices(lengths->values);
-    if (auto* densities = std::get_if<VertexDensities>(&changed.sizing.edges))
-        at_vertices(densities->values);
+    const Progress progress = cleaned_progress(options);
+    Poller poller(progress);
+    check_elements(input.view, Ticker(poller));
+    const Wrapper wrapper(input.view, options);
+    const RemeshOptions of_wrap = options_of_wrap(options, wrapper);
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
-    RemeshResult result = run_stages({wrap.mesh.view(), nullptr}, changed);
-    for (SurfacePoint& site : result.sites) site = wrapper.below(wrap, site);
-    result.wrapped = counts;
-    result.seconds.front().second += spent.count();
+    RemeshResult result = run_stages({wrapper.mesh(), nullptr}, of_wrap);
+    for (SurfacePoint& site : result.sites) site = wrapper.below(site);
+    result.wrapped = wrapper.counts();
+    result.seconds.front().second += spent.count();  // Of cleaning.
     return result;
 }
 

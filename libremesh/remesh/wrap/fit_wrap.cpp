@@ -29,9 +29,10 @@ constexpr double tolerance_share = 1.0 / 40;
 constexpr double same_share = 1e-5;
 // No crease is looked for farther away: where faces meet at 40 degrees balls stay as far from it.
 constexpr double most_reach = 2;
-// Cosines. Faces that meet at a smaller angle, or fold back, make no crease, or no corner.
-const double crease_cosine = std::cos(20 * degree), folded_cosine = std::cos(165 * degree),
-             corner_cosine = std::cos(40 * degree);
+// Cosines of 20, 165 and 40 degrees. Faces that meet at a smaller angle, or fold back, make no
+// crease, or no corner.
+constexpr double crease_cosine = 0.9396926207859084, folded_cosine = -0.9659258262890683,
+                 corner_cosine = 0.766044443118978;
 // A vertex goes to a crease if it is nearer to it than this share of the edge across, and to a
 // corner from twice as far.
 constexpr double snap_share = 0.2;
@@ -69,21 +70,28 @@ public:
         find_sheets();
     }
 
-    FittedWrap run() {
+    // \param has_creases  whether edges follow creases and curved faces.
+    // \return nothing if faces intersect.
+    std::optional<FittedWrap> run(bool has_creases) {
         move_to_feet();
-        for (int round = 0; round < most_rounds && split_at_creases(); ++round) {
-        }
-        add_corners();
         collapse_short_edges();
-        straighten();
-        for (int round = 0; round < most_rounds && split_far_edges(); ++round) {
-        }
-        straighten();
-        if (move_apart()) return result();
-        return {wrap_, wrap_.positions, 1};
+        if (has_creases) follow_input();
+        return move_apart() ? std::optional(result()) : std::nullopt;
     }
 
 private:
+    void follow_input() {
+        for (int round = 0; round < most_rounds && split_at_creases(); ++round) {
+        }
+        collapse_short_edges();
+        add_corners();
+        straighten();
+        add_corners();
+        for (int round = 0; round < most_rounds && split_far_edges(); ++round) {
+        }
+        straighten();
+    }
+
     struct Edge {
         Index from, to;
         std::array<Index, 2> apexes;
@@ -308,16 +316,19 @@ private:
             }
         }
         if (nearest < same()) return;
-        const bool is_moved =
-            nearest < 2 * snap_share * mesh_->length(across) && mesh_.move(near, x);
-        if (is_moved) {
-            vertices_[near].foot = {x, Vec3::Zero()};
-            vertices_[near].is_sharp = true;
-            return;
-        }
-        const Vec3 outside = middle_outside(mesh_->tail(across), mesh_->head(across));
+        const double length = mesh_->length(across);
+        const FitVertex corner{
+            middle_outside(mesh_->tail(across), mesh_->head(across)), {x, Vec3::Zero()}, true};
+        const auto move_from = [&](double reach) {
+            const bool is_moved = nearest < reach && mesh_.move(near, x);
+            if (is_moved) vertices_[near] = {vertices_[near].outside, corner.foot, true};
+            return is_moved;
+        };
+        if (move_from(2 * snap_share * length)) return;
         if (mesh_.edit([&](SpaceMesh& mesh) { mesh.split(across, x); })) {
-            vertices_.push_back({outside, {x, Vec3::Zero()}, true});
+            vertices_.push_back(corner);
+        } else {
+            move_from(length);
         }
     }
 
@@ -325,17 +336,29 @@ private:
     [[nodiscard]] std::optional<Vec3> corner_near(Index f, std::span<const Foot> below) const {
         const Triangle& t = mesh_->face(f).corner;
         const Vec3 middle = (at(t[0]) + at(t[1]) + at(t[2])) / 3;
-        std::vector<Foot> planes;
+        std::vector<Index> around;
         double reach = 0;
         for (const Index v : t) {
             if (vertices_[v].stays) return std::nullopt;
             reach = std::max(reach, (at(v) - middle).norm());
-            for (const Index g : mesh_->faces_at(v)) {
-                const auto is_like = [&](const Foot& plane) {
-                    return plane.normal.dot(below[g].normal) > corner_cosine;
-                };
-                if (std::none_of(planes.begin(), planes.end(), is_like)) planes.push_back(below[g]);
-            }
+            around.insert(around.end(), mesh_->faces_at(v).begin(), mesh_->faces_at(v).end());
+        }
+        around = distinct(std::move(around));
+        // Those that most others are like come first: normals at edges are between those of faces.
+        const auto num_like = [&](Index g) {
+            return std::count_if(around.begin(), around.end(), [&](Index other) {
+                return below[g].normal.dot(below[other].normal) > crease_cosine;
+            });
+        };
+        std::vector<std::pair<std::ptrdiff_t, Index>> order;
+        for (const Index g : around) order.emplace_back(-num_like(g), g);
+        std::sort(order.begin(), order.end());
+        std::vector<Foot> planes;
+        for (const auto& [count, g] : order) {
+            const auto is_like = [&, g = g](const Foot& plane) {
+                return plane.normal.dot(below[g].normal) > corner_cosine;
+            };
+            if (std::none_of(planes.begin(), planes.end(), is_like)) planes.push_back(below[g]);
         }
         constexpr double least_volume = 0.2;  // Between the normals.
         double best = least_volume;
@@ -427,7 +450,7 @@ private:
             for (const auto& [f, g] : *pairs) {
                 for (const Index face : {f, g}) {
                     const Triangle& t = mesh.triangles[face];
-                    crossing.insert(crossing.end(), t.begin(), t.end());
+                    if (!collapse_shortest(t)) crossing.insert(crossing.end(), t.begin(), t.end());
                 }
             }
             for (const Index v : distinct(std::move(crossing))) {
@@ -435,6 +458,17 @@ private:
             }
         }
         return false;
+    }
+
+    // If that edge is shorter than what counts as far.
+    bool collapse_shortest(const Triangle& t) {
+        std::size_t k = 0;
+        const auto length = [&](std::size_t i) { return (at(t[i]) - at(t[(i + 1) % 3])).norm(); };
+        for (const std::size_t i : {1, 2}) {
+            if (length(i) < length(k)) k = i;
+        }
+        const Index a = t[k], b = t[(k + 1) % 3];
+        return length(k) < tolerance() && (collapse(a, b) || collapse(b, a));
     }
 
     [[nodiscard]] TriangleMesh triangles() const {
@@ -470,7 +504,10 @@ private:
 
 FittedWrap fit_wrap(const TriangleMesh& wrap, const ClosestPointTree& tree,
                     const FitWrapOptions& options) {
-    return WrapFitter(wrap, tree, options).run();
+    for (const bool has_creases : {true, false}) {
+        if (auto fitted = WrapFitter(wrap, tree, options).run(has_creases)) return *fitted;
+    }
+    return {wrap, wrap.positions, 1};
 }
 
 }  // namespace remesh::detail

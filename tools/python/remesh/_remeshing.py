@@ -170,6 +170,10 @@ def remesh(
     - ``weld``: vertices of the boundary within this length (``"0.1%"`` of the diagonal), and within
       less than half of each edge there, become one. ``fill_holes``: holes of at most so many edges
       are filled. Neither with ``region``.
+    - ``wrap``: the outside of the mesh as balls of this radius (``"1%"`` of the diagonal; True:
+      half the spacing) see it is remeshed: one closed surface without intersections for each part,
+      whatever the mesh. Not with ``sites``, ``feature_edges``, ``lock``, ``region`` or
+      ``max_distance``.
     - ``region``: only these faces are remeshed: something other than 0 (or False) for each of them,
       or the name of such values of the mesh. All others stay, bit for bit, and are the first ones
       of the result (Result.kept_faces). ``n``, ``faces`` and lengths count in the region, the
