@@ -17,6 +17,7 @@ void add_region_options(CLI::App& app, RegionArguments& arguments) {
         ->excludes(app.get_option("--sites"))
         ->excludes(app.get_option("--drop-components"))
         ->excludes(app.get_option("--weld"))
+        ->excludes(app.get_option("--wrap"))
         ->excludes(app.get_option("--fill-holes"));
     app.add_option("--lock", arguments.lock,
                    "Vertices that stay where they are: lines of one vertex, counted from 0")

@@ -50,6 +50,9 @@ constexpr const char* footer =
 constexpr const char* batch_exit_code_help =
     "\n  6  some meshes of --out-dir failed, all others are done";
 
+// Of --wrap without a value.
+constexpr const char* automatic = "auto";
+
 struct Arguments : cli::DiagramArguments {
     std::vector<fs::path> further;  // Positional arguments after IN.
     fs::path output;
@@ -64,6 +67,7 @@ struct Arguments : cli::DiagramArguments {
     remesh::VertexCount vertex_count = remesh::VertexCount::Exact;
     double drop_components = 0;
     std::optional<cli::Amount> weld;
+    std::optional<cli::Amount> wrap;  // 0: half a spacing.
     bool strict = false;
     remesh::Delaunay delaunay = remesh::RemeshOptions{}.delaunay;
     remesh::Features features = remesh::RemeshOptions{}.features;
@@ -196,6 +200,24 @@ void add_options(CLI::App& app, Arguments& arguments) {
         ->check(CLI::Range(0, 1'000'000).description(""))
         ->type_name("N")
         ->capture_default_str();
+    const auto take_wrap = [&arguments](const std::string& text) {
+        arguments.wrap = text == automatic ? cli::Amount{} : cli::parse_amount(text);
+        if (arguments.wrap) return;
+        throw CLI::ValidationError(
+            "--wrap", "the value is '" + text + "'; use a length above 0, or a percentage");
+    };
+    app.add_option_function<std::string>("--wrap", take_wrap,
+                                         "Remesh the outside of the mesh as balls of this radius "
+                                         "see it, in mesh units or percent "
+                                         "of the diagonal: one closed surface without "
+                                         "intersections, whatever the mesh; holes and "
+                                         "gaps narrower than two radii are closed, what lies "
+                                         "inside is gone. Without a value half "
+                                         "the spacing of the samples")
+        ->type_name("[L|L%]")
+        ->excludes(app.get_option("--sites"))
+        ->excludes(app.get_option("--feature-edges"))
+        ->excludes(app.get_option("--max-distance"));
     cli::add_region_options(app, arguments.region);
     cli::start_group(app, cli::heading::running);
     app.add_flag(
@@ -223,6 +245,20 @@ void add_options(CLI::App& app, Arguments& arguments) {
     app.add_flag_callback(
            "--no-fit", [&arguments] { arguments.fit = false; }, "Vertices stay on the surface")
         ->excludes(fit);
+}
+
+// Whether --wrap has a value is told by what follows it: it may be a file.
+std::vector<const char*> with_value_of_wrap(std::span<char* const> arguments) {
+    std::vector<const char*> result;
+    for (std::size_t i = 0; i < arguments.size(); ++i) {
+        result.push_back(arguments[i]);
+        if (std::string_view(arguments[i]) != "--wrap") continue;
+        const bool has_value =
+            i + 1 < arguments.size() && (cli::parse_amount(arguments[i + 1]) ||
+                                         std::string_view(arguments[i + 1]) == automatic);
+        if (!has_value) result.push_back(automatic);
+    }
+    return result;
 }
 
 void add_output_options(CLI::App& app, Arguments& arguments) {
@@ -405,6 +441,7 @@ Input prepare(const Arguments& arguments, cli::Console& console) {
     if (arguments.weld) {
         options.cleaning.weld = cli::length_of(*arguments.weld, input.mesh.view());
     }
+    if (arguments.wrap) options.wrap = cli::length_of(*arguments.wrap, input.mesh.view());
     if (!arguments.sites.empty()) {
         remesh::SitesFile given = cli::read_given_sites(arguments, input, console);
         cli::require_plain_points(arguments.sites, given.points, given.shapes.size(),
@@ -616,7 +653,9 @@ int main(int argc, char** argv) {
     add_output_options(app, arguments);
     app.footer(std::string(footer) + cli::exit_code_help + batch_exit_code_help);
     arguments.page.command = page::to_shell(argc, argv, "remesh");
-    return cli::run(app, argc, argv, [&] {
+    const std::vector<const char*> given =
+        with_value_of_wrap({argv, static_cast<std::size_t>(argc)});
+    return cli::run(app, static_cast<int>(given.size()), given.data(), [&] {
         cli::check_levels(arguments.levels, arguments.sizing);
         if (arguments.folder.empty()) {
             run_one(arguments);

@@ -34,10 +34,10 @@ std::string describe_crossings(const remesh::RemeshResult& result, const std::st
     if (in_input == 0) return text + (fresh > 0 ? where : "") + "; use " + more;
     if (fresh == 0) {
         return text + "; they are where the input intersects itself, and " + more +
-               " give more; repair the input";
+               " give more; repair the input, or use --wrap";
     }
     return text + "; " + std::to_string(fresh) + " are not where the input intersects itself" +
-           where + ": for these use " + more + ", for the others repair the input";
+           where + ": for these use " + more + ", for the others repair the input, or use --wrap";
 }
 
 // Of the vertices in the part that was remeshed.
@@ -123,6 +123,15 @@ void warn_of_seams(const remesh::FeatureCounts& counts, Warnings& warnings) {
         "use more --samples");
 }
 
+void warn_of_sheets(const remesh::WrapCounts& wrapped, Warnings& warnings) {
+    constexpr double least_share = 0.05;
+    if (!(wrapped.sheets > least_share)) return;
+    warnings.push_back(
+        std::to_string(std::lround(100 * wrapped.sheets)) +
+        " % of the result are the two sides of sheets: the input is open wider than two radii of "
+        "--wrap; a larger --wrap or --fill-holes closes it, and without --wrap sheets stay single");
+}
+
 }  // namespace
 
 std::string coarseness_text(const remesh::RemeshResult& result) {
@@ -175,6 +184,7 @@ std::vector<std::string> shortfalls_of(const remesh::RemeshResult& result,
     if (result.loose_vertices > 0) warnings.push_back(loose_vertices_text(result.loose_vertices));
     warn_of_bodies(result.verdict.bodies, warnings);
     warn_of_junctions(result.junctions, options.junctions, warnings);
+    warn_of_sheets(result.wrapped, warnings);
     warn_of_seams(result.features, warnings);
     warn_of_bounds(result.sizing, options.sizing, warnings);
     return warnings;

@@ -22,8 +22,8 @@ namespace cli {
 [[nodiscard]] std::string loose_vertices_text(agvd::Index count);
 
 //! \return warnings of slits longer than the spacing that were welded, of self-intersections that the input does not have, of sheets that should be
-//!         welded but could not be, of lost seams of texture coordinates, and of bounds of the
-//!         edges that give way to the number of vertices.
+//!         welded but could not be, of sheets that --wrap gave two sides, of lost seams of texture
+//!         coordinates, and of bounds of the edges that give way to the number of vertices.
 //! \param options  as passed to remesh().
 //! \param strict   value of --strict.
 //! \throw agvd::ConstraintUnmet  with --strict: the result has more self-intersections than the

@@ -147,7 +147,7 @@ TEST_F(Remesh, WhereTheInputIntersectsItselfMoreSamplesAreNoAdvice) {
     const auto told = remesh({in, at("out.off"), "-n", "400", "-q"});
     EXPECT_EQ(told.exit_code, 0) << told.err;
     EXPECT_NE(told.err.find("where the input intersects itself, and more --samples give more; "
-                            "repair the input\n"),
+                            "repair the input, or use --wrap\n"),
               std::string::npos)
         << told.err;
     EXPECT_EQ(told.err.find("use more"), std::string::npos) << told.err;
@@ -162,7 +162,7 @@ TEST_F(Remesh, WhereTheInputIntersectsItselfMoreSamplesAreNoAdvice) {
                 at("out.off"), "-n", "60", "-q"});
     EXPECT_EQ(both.exit_code, 0) << both.err;
     EXPECT_NE(both.err.find(" are not where the input intersects itself: for these use more "
-                            "--samples, for the others repair the input\n"),
+                            "--samples, for the others repair the input, or use --wrap\n"),
               std::string::npos)
         << both.err;
 }

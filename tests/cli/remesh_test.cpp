@@ -92,6 +92,23 @@ TEST_F(Remesh, GapsAreWeldedAndHolesFilledIfAskedFor) {
     EXPECT_EQ(loops(), 0);
 }
 
+TEST_F(Remesh, AWrapHasAValueOnlyIfALengthFollows) {
+    const agvd::TriangleMesh cubes =
+        shapes::join(shapes::cube(), shapes::moved(shapes::cube(), {0.3, 0.35, 0.4}));
+    const std::string in = put("in.off", cubes);
+    const auto wrapped = remesh({"--wrap", in, at("out.off"), "-n", "60", "-q"});
+    if (wrapped.err.find("CGAL") != std::string::npos) {
+        EXPECT_EQ(wrapped.exit_code, 2);
+        GTEST_SKIP() << "without CGAL";
+    }
+    EXPECT_EQ(wrapped.exit_code, 0) << wrapped.err;
+    const agvd::TriangleMesh result = remesh::read_mesh(at("out.off")).mesh;
+    EXPECT_EQ(remesh::analyze_topology(result.view()).components.size(), 1u);
+    EXPECT_EQ(remesh({in, at("out.off"), "-n", "60", "--wrap", "9%"}).exit_code, 0);
+    EXPECT_NE(remesh::read_mesh(at("out.off")).mesh.positions, result.positions);
+    EXPECT_EQ(remesh({in, at("out.off"), "--wrap", "--max-distance", "1%"}).exit_code, 2);
+}
+
 TEST_F(Remesh, MoreSamplesThanVerticesWork) {
     const std::string in = put("in.off", shapes::icosahedron());
     EXPECT_EQ(remesh({in, at("out.off"), "-n", "300"}).exit_code, 0);

@@ -321,7 +321,7 @@ TEST(RemeshReport, TextIsForAnyUser) {
         "triangles: 12.5 % narrow (an angle below 30 degrees), smallest angle 22.5 degrees "
         "(51 faces below 30: 12 at acute corners, 13 at walls thinner than the edges, 14 between "
         "close creases); "
-        "17 pairs cross (16 in the input)\n"
+        "17 pairs cross (16 in the input; --wrap makes one closed surface)\n"
         "distance: farthest at least 37.5 % of the size, from the input's vertex at 5 6 7\n"
         "too small for edges of 0.5: creases of length 2.75 (too few of the given sites lie "
         "on 24 creases or on the boundary; with creases no good mesh was found), creases of "

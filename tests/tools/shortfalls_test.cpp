@@ -39,7 +39,7 @@ TEST(Shortfalls, CrossingsAreWarnedOfAndRefusedIfStrict) {
     EXPECT_EQ(cli::shortfalls_of(result, {}, false),
               Warnings{"the result has 3 pairs of intersecting faces, the input has 1; 2 are not "
                        "where the input intersects itself, one near 1 2.5 -3: for these use more "
-                       "--samples, for the others repair the input"});
+                       "--samples, for the others repair the input, or use --wrap"});
     result.input_self_intersections = 3;
     EXPECT_EQ(cli::shortfalls_of(result, {}, true), Warnings());
 }

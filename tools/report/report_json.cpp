@@ -275,6 +275,13 @@ std::optional<double> max_error_of(const PropagationOptions& options) {
     return default_max_error;
 }
 
+Json to_json(const WrapCounts& wrapped) {
+    if (wrapped.faces == 0) return {};
+    return {{"radius_mesh_units", wrapped.radius},
+            {"faces", wrapped.faces},
+            {"sheet_percent", 100 * wrapped.sheets}};
+}
+
 // With the defaults that were taken.
 Json to_json(const RemeshOptions& options, Index num_samples) {
     const std::optional<double> max_error = max_error_of(options.propagation);
@@ -288,6 +295,7 @@ Json to_json(const RemeshOptions& options, Index num_samples) {
     object["drop_components"] = options.drop_components;
     object["weld"] = options.cleaning.weld;
     object["fill_holes"] = options.cleaning.fill_holes;
+    object["wrap"] = options.wrap ? Json(*options.wrap) : Json();
     object["features"] = features_name(options.features);
     object["feature_angle_degrees"] = options.feature_angle;
     object["given_feature_edges"] = options.feature_edges.size();
@@ -338,6 +346,7 @@ std::string to_json(const RemeshResult& result, const RunInfo& info) {
     Json object = begin_report("done", {}, info);
     object["options"] = to_json(info.options, result.sizing.num_samples);
     object["attributes"] = to_json(info.attributes);
+    object["wrapped"] = to_json(result.wrapped);
     object["input_repair"] = to_json(result.cleaned);
     object["welded_slit_length_mesh_units"] = result.welded_slit_length;
     object["input_faces"] = result.input_topology.face_component.size();

@@ -190,7 +190,8 @@ std::string describe_crossings(const RemeshResult& result) {
     if (!result.self_intersections) return "crossings not counted";
     if (*result.self_intersections == 0) return "no crossing";
     return std::to_string(*result.self_intersections) + " pairs cross (" +
-           std::to_string(result.input_self_intersections) + " in the input)";
+           std::to_string(result.input_self_intersections) + " in the input" +
+           (result.input_self_intersections > 0 ? "; --wrap makes one closed surface)" : ")");
 }
 
 // Empty if there are none.

@@ -53,6 +53,13 @@ struct RemeshOptions {
     Index num_samples = 2000;  //!< Sites to place, >= 1: one output vertex each.
     //! How the input is repaired. Its num_threads and progress are ignored: those below count.
     CleanOptions cleaning = {};
+    //! The radius of balls, mesh units, >= 0: what is remeshed is the outside of the mesh as far as
+    //! they can reach it, one closed surface for each part, without intersections, whatever the
+    //! mesh. Holes and gaps narrower than two radii are closed; what lies inside is gone; an open
+    //! sheet gets two sides. 0: half the spacing of the samples, which makes it quick. Labels and
+    //! lengths are those of the nearest face; texture_seams do not count. Needs CGAL. Not with
+    //! `sites`, feature_edges, locked elements, a region or MaxDistance.
+    std::optional<double> wrap = {};
     //! How long edges are, and where. Some of its fields decide the number of samples instead.
     Sizing sizing = {};
     VertexCount vertex_count = VertexCount::Exact;  //!< What gives way.
@@ -188,6 +195,15 @@ struct KeptPart {
     Index rim_edges = 0;          //!< Edges between kept and remeshed faces.
 };
 
+//! The outside of the mesh with RemeshOptions::wrap.
+struct WrapCounts {
+    double radius = 0;  //!< Of the balls, in mesh units; 0: the mesh was not wrapped.
+    Index faces = 0;    //!< Of the surface that was remeshed.
+    //! The share of its area that keeps a distance from the mesh, as its two sides would meet
+    //! there: of sheets.
+    double sheets = 0;
+};
+
 //! Pairs of faces of a result that intersect.
 struct CrossingCounts {
     Index all = 0;    //!< See RemeshResult::self_intersections.
@@ -203,6 +219,7 @@ struct RemeshResult {
     KeptPart kept = {};               //!< With a region.
     std::vector<SurfacePoint> sites;  //!< One per output vertex: where it lies on the input
                                       //!< (faces are the caller's).
+    WrapCounts wrapped = {};          //!< With RemeshOptions::wrap.
     CleanCounts cleaned;              //!< What cleaning repaired.
     double welded_slit_length = 0;    //!< See CleanResult::slit_length.
     Index loose_vertices = 0;         //!< See CleanResult.

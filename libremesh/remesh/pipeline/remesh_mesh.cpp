@@ -8,6 +8,7 @@
 #include "agvd/mesh/scale.h"
 #include "remesh/pipeline/region.h"
 #include "remesh/pipeline/run.h"
+#include "remesh/pipeline/run_wrapped.h"
 #include "remesh/tiles/tiling.h"
 
 namespace remesh {
@@ -78,6 +79,18 @@ void check_bounds(const ShapeBounds& bounds) {
             "longest_edge is " + std::to_string(bounds.longest_edge) + "; use a length above 0");
 }
 
+void check_wrap(const RemeshOptions& options) {
+    if (!options.wrap) return;
+    require(*options.wrap >= 0 && std::isfinite(*options.wrap),
+            "wrap is " + std::to_string(*options.wrap) + "; use a length of 0 or more");
+    require(!options.sites && options.feature_edges.empty() && options.locked.empty() &&
+                options.locked_edges.empty() && !options.lock_boundary,
+            "wrap is given, and sites, feature_edges or locked elements, which a wrap does not "
+            "have; leave out one of them");
+    require(!std::holds_alternative<MaxDistance>(options.sizing.count),
+            "wrap excludes max_distance, which is not proved to the mesh that is wrapped");
+}
+
 void check_options(const RemeshOptions& options, const MeshView& mesh) {
     require(options.num_samples >= 1, "num_samples is 0; use 1 or more");
     require(options.relax_steps >= 0,
@@ -99,6 +112,7 @@ void check_options(const RemeshOptions& options, const MeshView& mesh) {
     require(!options.sites ||
                 (options.locked.empty() && options.locked_edges.empty() && !options.lock_boundary),
             "sites are given, and vertices or edges are locked; use one of them");
+    check_wrap(options);
     check_sizing(options.sizing, mesh);
     check_bounds(options.bounds);
     check_num_threads(options.num_threads);
@@ -124,10 +138,10 @@ void scale_back(RemeshResult& result, int exponent) {
     result.mesh = scaled(result.mesh.view(), exponent);
     Verdict& verdict = result.verdict;
     for (double* length :
-         {&result.features.length, &result.features.close_length, &result.features.dropped_length,
-          &result.features.freed_length, &result.features.seam_length,
-          &result.features.dropped_seam_length, &result.sizing.mean_edge,
-          &result.sizing.least_target, &result.sizing.largest_target,
+         {&result.wrapped.radius, &result.features.length, &result.features.close_length,
+          &result.features.dropped_length, &result.features.freed_length,
+          &result.features.seam_length, &result.features.dropped_seam_length,
+          &result.sizing.mean_edge, &result.sizing.least_target, &result.sizing.largest_target,
           &result.sizing.largest_distance, &verdict.spacing, &verdict.thinnest_wall,
           &verdict.largest_distance, &verdict.diagonal}) {
         *length = std::ldexp(*length, exponent);
@@ -153,9 +167,9 @@ bool is_part(const MeshView& mesh, const RemeshOptions& options) {
             "region has " + std::to_string(region.size()) + " values, but the mesh has " +
                 std::to_string(mesh.triangles.size()) + " faces; give one for each, or none");
     require(!options.sites && !(options.drop_components > 0) && !(options.cleaning.weld > 0) &&
-                options.cleaning.fill_holes == 0,
-            "a region is given, and sites, drop_components, weld or fill_holes as well; leave out "
-            "one of them");
+                options.cleaning.fill_holes == 0 && !options.wrap,
+            "a region is given, and sites, drop_components, weld, fill_holes or wrap as well; "
+            "leave out one of them");
     if (std::find(region.begin(), region.end(), 0) == region.end()) return false;
     check_options(options, mesh);
     return true;
@@ -164,14 +178,16 @@ bool is_part(const MeshView& mesh, const RemeshOptions& options) {
 RemeshResult run(const detail::InputMesh& input, const RemeshOptions& options) {
     check_options(options, input.view);
     const double size = box_of(input.view, options.num_threads).longest_side();
-    if (is_in_scale(size)) return detail::run_stages(input, options);
+    const auto run_stages = options.wrap ? detail::run_wrapped : detail::run_stages;
+    if (is_in_scale(size)) return run_stages(input, options);
     const int exponent = std::ilogb(size);
     TriangleMesh normal = scaled(input.view, -exponent);
     RemeshOptions scaled_options = options;
     scale_lengths(scaled_options.sizing, -exponent);
     scaled_options.bounds.longest_edge = std::ldexp(options.bounds.longest_edge, -exponent);
     scaled_options.cleaning.weld = std::ldexp(options.cleaning.weld, -exponent);
-    RemeshResult result = detail::run_stages({normal.view(), &normal}, scaled_options);
+    if (options.wrap) scaled_options.wrap = std::ldexp(*options.wrap, -exponent);
+    RemeshResult result = run_stages({normal.view(), &normal}, scaled_options);
     scale_back(result, exponent);
     return result;
 }

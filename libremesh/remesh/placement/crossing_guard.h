@@ -1,5 +1,5 @@
 //! \file
-//! Keeps the edits of a mesh from adding intersections. Private to repair_shape().
+//! Keeps the edits of a mesh from adding intersections. Private to remeshing.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,8 @@
 #include <utility>
 #include <vector>
 
-#include "remesh/placement/edited_mesh.h"
+#include "agvd/mesh/scale.h"
+#include "remesh/placement/shape_quality.h"
 
 namespace remesh::detail {
 
@@ -33,10 +34,12 @@ namespace remesh::detail {
 
 //! Knows the pairs of faces that intersect, up to rounding, or are folds (is_fold). Others that
 //! share an edge, or lie in one plane, do not count.
+//! \tparam Mesh  such as EditedMesh.
+template <typename Mesh>
 class CrossingGuard {
 public:
     //! \param mesh  outlives this. Cost: O(#faces).
-    explicit CrossingGuard(const EditedMesh& mesh) : mesh_(mesh), cell_(mesh.mean_length()) {
+    explicit CrossingGuard(const Mesh& mesh) : mesh_(mesh), cell_(mesh.mean_length()) {
         for (Index f = 0; f < mesh.num_faces(); ++f) insert(f);
         for (Index f = 0; f < mesh.num_faces(); ++f) {
             for (const Index other : faces_through(f)) pairs_.emplace(f, other);
@@ -133,7 +136,7 @@ private:
         const MeshBox box = mesh_.box_of(f);
         std::vector<Index> found = faces_near(box);
         std::erase_if(found, [&](Index g) {
-            if (g == f || !mesh_.face(g).is_there) return true;
+            if (g == f || g >= mesh_.num_faces() || !mesh_.face(g).is_there) return true;
             return !box.meets(mesh_.box_of(g)) || !do_cross(f, g);
         });
         return found;
@@ -158,7 +161,7 @@ private:
         return false;
     }
 
-    const EditedMesh& mesh_;
+    const Mesh& mesh_;
     const double cell_;
     std::unordered_map<std::int64_t, std::vector<Index>> faces_;  // By cell.
     std::vector<Index> large_;

@@ -311,7 +311,7 @@ private:
     const DistanceLimit& limit_;
     const double aim_;
     BoundGuard bound_;
-    CrossingGuard crossings_;
+    CrossingGuard<EditedMesh> crossings_;
     ShapeSteps steps_;
     Rule rule_ = rules[0];
     std::size_t num_slides_ = 0;      // Beside each new vertex.

@@ -54,7 +54,7 @@ public:
 
 private:
     const EditedMesh& mesh_;
-    CrossingGuard crossings_;
+    CrossingGuard<EditedMesh> crossings_;
     DistanceGuard distances_;
 };
 

@@ -178,6 +178,7 @@ void bind_remesh(py::module_& module) {
     options.def_property(
         "fill_holes", [](const RemeshOptions& self) { return self.cleaning.fill_holes; },
         [](RemeshOptions& self, agvd::Index edges) { self.cleaning.fill_holes = edges; });
+    options.def_readwrite("wrap", &RemeshOptions::wrap);
     options.def_readwrite("feature_angle", &RemeshOptions::feature_angle);
     options.def_readwrite("feature_edges", &RemeshOptions::feature_edges);
     options.def_readwrite("texture_seams", &RemeshOptions::texture_seams);

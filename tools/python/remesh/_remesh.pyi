@@ -31,6 +31,7 @@ class Options:
     lock_boundary: bool
     weld: float
     fill_holes: int
+    wrap: float | None
     feature_angle: float
     feature_edges: list[list[int]]
     texture_seams: list[list[int]]

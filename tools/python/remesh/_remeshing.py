@@ -116,6 +116,7 @@ def remesh(
     drop_components: float = 0,
     weld: Any = None,
     fill_holes: int = 0,
+    wrap: Any = None,
     region: Any = None,
     lock: Any = None,
     lock_boundary: bool = False,
@@ -183,6 +184,10 @@ def remesh(
     - ``weld``: vertices of the boundary within this length (``"0.1%"`` of the diagonal), and within
       less than half of each edge there, become one. ``fill_holes``: holes of at most so many edges
       are filled. Neither with ``region``.
+    - ``wrap``: the outside of the mesh as balls of this radius (``"1%"`` of the diagonal; True:
+      half the spacing) see it is remeshed: one closed surface without intersections for each part,
+      whatever the mesh. Not with ``sites``, ``feature_edges``, ``lock``, ``region`` or
+      ``max_distance``.
     - ``region``: only these faces are remeshed: something other than 0 (or False) for each of them,
       or the name of such values of the mesh. All others stay, bit for bit, and are the first ones
       of the result (Result.kept_faces). ``n``, ``faces`` and lengths count in the region, the
@@ -264,6 +269,8 @@ def remesh(
     options.drop_components = _arrays.number(drop_components, "drop_components")
     options.weld = 0 if weld is None else _options.length(mesh, weld, "weld")
     options.fill_holes = _arrays.whole(fill_holes, "fill_holes")
+    if wrap is not None and wrap is not False:
+        options.wrap = 0 if wrap is True else _options.length(mesh, wrap, "wrap")
     options.init = init
     options.relax_steps = _arrays.whole(relax, "relax", 0, 1_000_000)
     options.samples_per_tile = _arrays.whole(tile, "tile", 0, 1_000_000_000)

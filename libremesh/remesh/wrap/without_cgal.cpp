@@ -1,0 +1,13 @@
+// What needs CGAL, for a build without it.
+#include "agvd/core/error.h"
+#include "remesh/wrap/wrap.h"
+
+namespace remesh::detail {
+
+TriangleMesh alpha_wrap(const MeshView&, double, const Progress&) {
+    throw InvalidOption(
+        "the wrap is computed by CGAL, and this build is without it; leave out wrap, or build with "
+        "AGVD_WITH_CGAL=ON");
+}
+
+}  // namespace remesh::detail
