@@ -169,8 +169,7 @@ std::string loose_vertices_text(agvd::Index count) {
     return std::to_string(count) + (count == 1 ? " vertex" : " vertices") + " of the boundary " +
            (count == 1 ? "lies" : "lie") +
            " beside an edge of the boundary, with a gap between them; use --weld of remesh with "
-           "the "
-           "width of the gap to close it, unless it is meant to be there";
+           "the width of the gap to close it, unless it is meant to be there";
 }
 
 std::vector<std::string> shortfalls_of(const remesh::RemeshResult& result,
