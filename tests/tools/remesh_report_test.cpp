@@ -229,6 +229,7 @@ TEST(RemeshReport, AnErrorNotAskedForOrNotCertifiedIsNull) {
 TEST(RemeshReport, AllKeysAreDocumentedAndNoOthers) {
     remesh::RemeshResult result = example_result();
     result.kept.faces = {0};
+    result.wrapped.faces = 1;
     remesh::RunInfo info;
     info.attributes.declined = {{"vt", "no place"}};
     info.output = remesh::measure_figures(shapes::cube().view());
