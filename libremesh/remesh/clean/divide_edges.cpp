@@ -23,8 +23,10 @@ std::vector<Division> find_chains(const MeshView& mesh, std::span<const Index> o
         length += (p[b] - p[a]).norm();
     }
     const CommonPositions common = find_common_positions(mesh, is_boundary, ticker, tolerance);
-    // Points along an edge are less than half a cell apart.
-    const double cell = std::max(length / static_cast<double>(open.size()), 20 * common.limit);
+    // Points along an edge are less than half a cell apart; larger cells would hold many vertices.
+    const double cell = length / static_cast<double>(open.size());
+    const double limit = std::min(common.limit, cell / 5);
+    if (!(cell > 0)) return {};
     PointGrid grid(box_of(mesh).low, cell, open.size());
     for (Index v = 0; v < p.size(); ++v) {
         if (common.first[v] == v) grid.add(p[v], v);
@@ -40,11 +42,10 @@ std::vector<Division> find_chains(const MeshView& mesh, std::span<const Index> o
         const auto num_points = static_cast<Index>(2.5 * way.norm() / cell) + 1;
         for (Index i = 0; i < num_points; ++i) {
             ticker.tick();
-            grid.visit_near(p[from] + (i + 0.5) / num_points * way, 0.3 * cell, [&](Index v) {
+            grid.visit_near(p[from] + (i + 0.5) / num_points * way, 0.45 * cell, [&](Index v) {
                 const double share = way.dot(p[v] - p[from]) / way.squaredNorm();
                 if (!(share > 0 && share < 1) || v == from || v == to || v == apex) return;
-                const double reach =
-                    std::min({common.limit, common.reach[v], common.share * way.norm()});
+                const double reach = std::min({limit, common.reach[v], common.share * way.norm()});
                 if ((p[from] + share * way - p[v]).norm() <= reach) chains.push_back({h, share, v});
             });
         }
@@ -58,7 +59,7 @@ std::vector<Division> find_divisions(const MeshView& mesh, std::span<const Index
                                      double tolerance, Ticker& ticker) {
     if (open.empty()) return {};
     const std::vector<Division> chains = find_chains(mesh, open, tolerance, ticker);
-    if (chains.size() == 2 * open.size()) return {};
+    if (chains.size() <= 2 * open.size()) return {};
     const auto piece = [&](std::size_t i) {
         return edge_key(chains[i].vertex, chains[i + 1].vertex);
     };
