@@ -21,10 +21,10 @@ namespace {
 
 // The folders in the order in which the data passes through them.
 constexpr const char* folders[] = {
-    "agvd/core",       "agvd/mesh",       "agvd/intrinsic",   "agvd/propagation", "agvd/diagram",
-    "agvd/paths",      "remesh",          "remesh/meshfile",  "remesh/clean",     "remesh/curves",
-    "remesh/dual",     "remesh/sites",    "remesh/tiles",     "remesh/placement", "remesh/quality",
-    "remesh/transfer", "remesh/wrap",     "remesh/pipeline",  "remesh/tilefiles",
+    "agvd/core",       "agvd/mesh",    "agvd/intrinsic",  "agvd/propagation", "agvd/diagram",
+    "agvd/paths",      "remesh",       "remesh/meshfile", "remesh/clean",     "remesh/curves",
+    "remesh/dual",     "remesh/sites", "remesh/tiles",    "remesh/placement", "remesh/quality",
+    "remesh/transfer", "remesh/wrap",  "remesh/pipeline", "remesh/tilefiles",
 };
 
 struct Package {
@@ -35,7 +35,8 @@ struct Package {
 constexpr Package packages[] = {
     {"Eigen/", R"(agvd/core/types\.h)"},
     {"tbb/", R"(agvd/core/shared_loop\.cpp)"},
-    {"CGAL/", R"(remesh/clean/hole_triangles\.cpp|remesh/quality/.*\.cpp|remesh/wrap/alpha_wrap\.cpp)"},
+    {"CGAL/",
+     R"(remesh/clean/hole_triangles\.cpp|remesh/quality/.*\.cpp|remesh/wrap/alpha_wrap\.cpp)"},
     {"OpenMesh/", R"(remesh/meshfile/(.*\.cpp|openmesh_exchange\.h))"},
     {"nlohmann/",
      R"(remesh/meshfile/(.*\.cpp|gltf_document\.h|materials\.h)|remesh/tilefiles/tile_file\.cpp)"},
