@@ -188,7 +188,8 @@ TEST_F(AgvdDiagram, SitesMayLieInDirtyMeshes) {
 }
 
 TEST_F(AgvdDiagram, AComponentWithoutASiteIsToldAndWritten) {
-    const std::string in = put("in.off", shapes::join(shapes::sphere(1), shapes::sphere(1)));
+    const std::string in =
+        put("in.off", shapes::join(shapes::sphere(1), shapes::moved(shapes::sphere(1), {3, 0, 0})));
     const auto outcome = diagram({in, "--sites", put("s", "v 0\n"), "-q", "-o", at("d.ply")});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_NE(outcome.err.find("42 vertices"), std::string::npos) << outcome.err;

@@ -228,7 +228,6 @@ TEST_F(Remesh, WrongNumbersAndLengthsAreRefused) {
                                               {"-n", "-3"},
                                               {"-n", "ten"},
                                               {"-n", "0%"},
-                                              {"-n", "1e-5%"},
                                               {"--faces", "0"},
                                               {"--faces", "10%"},
                                               {"--edge-length", "0"},

@@ -5,6 +5,7 @@
 
 #include "remesh/meshfile/mesh_file.h"
 #include "support/scratch.h"
+#include "support/shapes.h"
 
 using agvd::Index;
 
@@ -94,16 +95,19 @@ TEST_F(RemeshTexture, FormatsThatCannotHoldItWarn) {
 TEST_F(RemeshTexture, SeamsThatAreTooCloseGiveAWarning) {
     const std::string err = warnings_of("out.ply");
     EXPECT_EQ(err.find("warning"), std::string::npos) << err;
-    std::string charts = "v 0 0 0\n";
-    for (int i = 0; i < 40; ++i) {  // A disc with a chart for each triangle.
-        charts += "v " + std::to_string(std::cos(0.157079632679 * i)) + ' ' +
-                  std::to_string(std::sin(0.157079632679 * i)) + " 0\nvt " + std::to_string(i) +
-                  " 0\nvt " + std::to_string(i) + ".5 0\nvt " + std::to_string(i) + " .5\n";
+    std::string charts;
+    const agvd::TriangleMesh grid = shapes::grid(8);  // A chart for each triangle.
+    for (const agvd::Vec3& p : grid.positions) {
+        charts += "v " + std::to_string(p.x()) + ' ' + std::to_string(p.y()) + " 0\n";
     }
-    for (int i = 0; i < 40; ++i) {
-        charts += "f 1/" + std::to_string(3 * i + 1) + ' ' + std::to_string(i + 2) + '/' +
-                  std::to_string(3 * i + 2) + ' ' + std::to_string((i + 1) % 40 + 2) + '/' +
-                  std::to_string(3 * i + 3) + '\n';
+    for (agvd::Index f = 0; f < grid.triangles.size(); ++f) {
+        const std::string chart = std::to_string(f);
+        charts += "vt " + chart + " 0\nvt " + chart + ".5 0\nvt " + chart + " .5\nf";
+        for (agvd::Index k = 0; k < 3; ++k) {
+            charts += ' ' + std::to_string(grid.triangles[f][k] + 1) + '/' +
+                      std::to_string(3 * f + k + 1);
+        }
+        charts += '\n';
     }
     const std::string input = put("charts.obj", charts);
     const auto outcome = run(REMESH_PROGRAM, {input, at("charts.ply"), "-n", "60"});

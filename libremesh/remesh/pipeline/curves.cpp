@@ -70,7 +70,8 @@ void find_all_creases(const CleanedInput& cleaned, double spacing, CloseCreases 
 }
 
 // Vertices all of whose edges are seams, such as the pole of a sphere, where each face has its own
-// coordinates: without these edges faces there differ by what one of them is wide.
+// coordinates: without these edges faces there differ by what one of them is wide. Where each face
+// is a chart of its own, neighbours are such vertices, too: an edge at one of them is a spoke.
 std::vector<bool> find_poles(const Surface& surface, std::span<const std::uint8_t> is_seam) {
     std::vector<bool> is_pole(surface.num_vertices(), true);
     for (Index e = 0; e < surface.num_edges(); ++e) {
@@ -93,7 +94,7 @@ void find_seams(const CleanedInput& cleaned, double spacing, const RemeshOptions
     const std::vector<bool> is_pole = find_poles(surface, found.is_seam);
     for (Index e = 0; e < surface.num_edges(); ++e) {
         const Index h = surface.edge_half[e];
-        const bool is_at_pole = is_pole[surface.tail(h)] || is_pole[surface.head(h)];
+        const bool is_at_pole = is_pole[surface.tail(h)] != is_pole[surface.head(h)];
         if (is_at_pole && surface.length[e] < spoke_length * spacing) found.is_wide[e] = 0;
     }
     const Progress progress = cleaned_progress(options);
@@ -150,7 +151,7 @@ void count_seams(const Surface& surface, const NetworkPlan& plan, const FoundCur
             (is_kept[e] != 0 ? counts.length : counts.dropped_length) += length;
         }
         const Index h = surface.edge_half[e];
-        const bool is_at_pole = is_pole[surface.tail(h)] || is_pole[surface.head(h)];
+        const bool is_at_pole = is_pole[surface.tail(h)] != is_pole[surface.head(h)];
         if (found.is_seam[e] == 0 || (is_kept[e] == 0 && is_at_pole)) continue;
         (is_kept[e] != 0 ? counts.seam_length : counts.dropped_seam_length) += length;
     }

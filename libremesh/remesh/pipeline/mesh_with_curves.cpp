@@ -78,6 +78,16 @@ bool check_mesh(const CleanedInput& cleaned, const CurvedSurface& curved,
     }
     result.verdict = judge_result(curved.cleaned->mesh.view(), mesh.view(), topology,
                                   options.num_threads, progress);
+    BodyCounts& bodies = result.verdict.bodies;
+    if (bodies.inside_out > 0) {
+        // Coarse shells may stick out of one another, where a cavity looks like a body.
+        Poller poller(progress);
+        const BodyCounts of_input =
+            count_bodies(curved.cleaned->mesh.view(), cleaned.finest().topology, Ticker(poller));
+        bodies.inside_out = of_input.inside_out;
+        bodies.cavities = of_input.cavities;
+        bodies.inner_bodies = of_input.inner_bodies;
+    }
     return true;
 }
 

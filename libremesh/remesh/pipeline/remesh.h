@@ -18,7 +18,6 @@
 #include "remesh/clean/clean_input.h"
 #include "remesh/curves/find_creases.h"
 #include "remesh/dual/build_dual.h"
-#include "remesh/placement/shape_bounds.h"
 #include "remesh/quality/evaluate.h"
 #include "remesh/sites/sites.h"
 #include "remesh/sites/sizing.h"

@@ -10,7 +10,7 @@
 #include "agvd/mesh/mesh.h"
 #include "remesh/curves/curve_sites.h"
 #include "remesh/curves/glue.h"
-#include "remesh/placement/shape_bounds.h"
+#include "remesh/sites/sizing.h"
 #include "remesh/sites/prepared_surface.h"
 #include "remesh/sites/sites.h"
 

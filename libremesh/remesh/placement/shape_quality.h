@@ -10,7 +10,7 @@
 
 #include "agvd/core/portable_math.h"
 #include "agvd/mesh/mesh.h"
-#include "remesh/placement/shape_bounds.h"
+#include "remesh/sites/sizing.h"
 
 namespace remesh::detail {
 

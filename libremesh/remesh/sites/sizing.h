@@ -1,8 +1,8 @@
 //! \file
 //! The options of sizing: how long the edges of the result are, and where. The result follows them
-//! as far as topology and bounds allow.
-//! Held by Sizing.EdgesFollowAFieldThatVariesTenfold and the other tests of Sizing in
-//! tests/remesh/pipeline.
+//! as far as topology and bounds allow. And what no triangle is to exceed.
+//! Held by Sizing.EdgesFollowAFieldThatVariesTenfold, Bounds.AllAnglesKeepThem and the other tests
+//! of Sizing and Bounds in tests/remesh/pipeline.
 #pragma once
 
 #include <variant>
@@ -68,6 +68,19 @@ struct Sizing {
     [[nodiscard]] bool is_even() const { return std::holds_alternative<EvenEdges>(edges); }
     //! Whether `edges` is AdaptiveEdges.
     [[nodiscard]] bool is_adaptive() const { return std::holds_alternative<AdaptiveEdges>(edges); }
+};
+
+//! What no triangle is to exceed. Each is a promise: where it cannot be kept there is no result.
+//! Angles that the input forces are told: see RemeshResult::forced.
+struct ShapeBounds {
+    double min_angle = 0;            //!< Degrees, 0 to 30: no angle is smaller.
+    double max_angle = 180;          //!< Degrees, 90 to 180: no angle is larger.
+    double longest_edge = infinity;  //!< > 0, mesh units: no edge is longer.
+
+    //! Whether an angle is bounded.
+    [[nodiscard]] bool has_angles() const { return min_angle > 0 || max_angle < 180; }
+    //! Whether anything is bounded.
+    [[nodiscard]] bool has_any() const { return has_angles() || longest_edge < infinity; }
 };
 
 }  // namespace remesh
