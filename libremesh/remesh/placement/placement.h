@@ -10,9 +10,9 @@
 #include "agvd/mesh/mesh.h"
 #include "remesh/curves/curve_sites.h"
 #include "remesh/curves/glue.h"
-#include "remesh/sites/sizing.h"
 #include "remesh/sites/prepared_surface.h"
 #include "remesh/sites/sites.h"
+#include "remesh/sites/sizing.h"
 
 namespace remesh {
 
