@@ -27,6 +27,12 @@ std::vector<agvd::SiteShape> carry_shapes(std::span<const remesh::GivenShape> sh
 std::vector<Index> vertices_of_least(const agvd::MeshView& mesh, const remesh::CleanedView& clean,
                                      const agvd::Surface& surface, std::span<const double> value) {
     std::vector<Index> result(mesh.positions.size(), agvd::no_index);
+    if (surface.has_own_lengths) {  // Positions tell nothing.
+        for (const agvd::Triangle& t : mesh.triangles) {
+            for (const Index v : t) result[v] = v;
+        }
+        return result;
+    }
     const auto& there = surface.mesh.positions;
     const std::span<const agvd::Vec3> here = clean.welded(mesh).positions;
     for (Index f = 0; f < surface.num_faces(); ++f) {

@@ -230,6 +230,3 @@ def test_what_the_program_warns_of_are_warnings():
         result = remesh.remesh(plate, F, 100)
     assert [str(one.message) for one in told] == result.report["warnings"]
     assert told[0].filename == __file__
-    three = np.vstack([F[:3], [F[0, [1, 0, 2]] * [1, 1, 0] + [0, 0, len(V)]]])
-    with pytest.warns(UserWarning, match="repaired: "):
-        remesh.remesh(np.vstack([V, [[3, 0, 0]]]), three, 60, features="off")

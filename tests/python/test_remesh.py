@@ -69,7 +69,7 @@ def test_sizing_gives_lengths_and_number(sphere):
 
 def test_bounds_of_all_triangles(organic):
     V, F = organic
-    result = remesh.remesh(V, F, 1000, min_angle=25, max_angle=100, longest_edge="9%")
+    result = remesh.remesh(V, F, 1000, min_angle=25, max_angle=100, longest_edge="3%")
     assert len(result.V) > 1000 and result.report["forced_faces"] == []
     edges = result.V[result.F] - result.V[np.roll(result.F, -1, axis=1)]
     longest = result.report["options"]["bounds"]["longest_edge_mesh_units"]
