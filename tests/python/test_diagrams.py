@@ -301,7 +301,7 @@ def test_lengths_may_stand_for_positions():
         remesh.voronoi(V, F, [0], edge_lengths=lengths[:3])
     with pytest.raises(remesh.InvalidOption, match="do not go together"):
         remesh.voronoi(V, F, [0], edge_lengths=lengths, barriers=[[0, 1]])
-    with pytest.raises(remesh.InvalidInput, match="has no area"):
+    with pytest.raises(remesh.InvalidInput, match="make no triangle"):
         remesh.voronoi(V[[0, 1, 14]], [[0, 1, 2]], [0], edge_lengths=[[1, 1, 3]])
 
 
