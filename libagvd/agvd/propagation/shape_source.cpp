@@ -132,7 +132,8 @@ std::vector<Index> all_edges_of(const Surface& surface, const SiteShape& shape) 
 }
 
 SurfaceSites on_all_sides(const Surface& whole, const Surface& opened, SurfaceSites sites) {
-    auto& [points, roles, shapes] = sites;
+    std::vector<SurfacePoint>& points = sites.points;  // clang 14 captures no structured binding.
+    SitePoints& roles = sites.roles;
     const std::size_t num_given = points.size();
     std::vector<Index> site;
     std::vector<double> start;
@@ -153,7 +154,7 @@ SurfaceSites on_all_sides(const Surface& whole, const Surface& opened, SurfaceSi
     };
     for (std::size_t i = 0; i < num_given; ++i)
         add_others(SurfacePoint(points[i]), site[i], start[i]);
-    for (SiteShape& shape : shapes) {
+    for (SiteShape& shape : sites.shapes) {
         std::vector<Index> edges = shape.edges;
         for (const Index edge : shape.edges) {
             const Index h = opened.edge_half[edge];
