@@ -103,8 +103,7 @@ struct CleanedView {
 //!    and by a hundredth of each edge there; the first one stays. Zero-length edges collapse. With
 //!    keep_slits only the latter happens. CleanOptions::weld widens this.
 //! 2. Faces with a repeated corner and duplicate faces (the first stays) are dropped; so are
-//! patches
-//!    that lie on others within such a millionth, whatever their vertices and diagonals. Of
+//!    patches that lie on others within such a millionth, whatever their vertices and diagonals. Of
 //!    duplicates of opposite orientation two stay where they are the walls of bodies that touch:
 //!    where most edges at the rim of such faces have two faces of each body; and none where they
 //!    are a flap, without vertices inside, on a body that is closed without it. Faces lower than a

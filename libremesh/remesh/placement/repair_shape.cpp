@@ -35,8 +35,8 @@ constexpr std::size_t most_trials = 4;
 // Of the slides, to add what vertices are left over.
 constexpr std::size_t share_of_balance = 8;
 constexpr int most_rounds_of_repair = 6;
-// With bounds these come first, as often as that helps, but not more often; then triangles beside
-// them that got narrow.
+// With bounds: passes over the triangles that exceed them. A last pass repairs the triangles around
+// that got narrow.
 constexpr int most_passes = 4;
 constexpr double narrow_within_bounds = detail::ShapeMeasure::within_bounds(goals[1]);
 
