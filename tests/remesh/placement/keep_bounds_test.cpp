@@ -103,7 +103,7 @@ TEST(KeepBounds, ALongestEdgeAddsVertices) {
     EXPECT_LE(shape_of(mesh).longest_edge, 0.95 * longest);
     EXPECT_GE(shape_of(mesh).min_angle, 25);
     EXPECT_GT(mesh.positions.size(), start.placed.points.size());
-    EXPECT_LT(mesh.positions.size(), 1.6 * start.placed.points.size());
+    EXPECT_LT(mesh.positions.size(), 1.6 * static_cast<double>(start.placed.points.size()));
 }
 
 }  // namespace
