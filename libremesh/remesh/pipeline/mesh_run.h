@@ -1,5 +1,5 @@
 //! \file
-//! A run after cleaning: the stages once, and again only where these do not give a good mesh.
+//! A run after cleaning: the stages once, and once more for what a good mesh needs in places.
 #pragma once
 
 #include <span>
@@ -18,9 +18,9 @@ struct TooFewSamples {
     Index for_all;  //!< Vertices that may suffice for all curves, too.
 };
 
-//! Runs the stages from the network of curves on (mesh_with_curves). Where no mesh has the curves,
-//! or faces still intersect, they run again with others; where the result does not reach a narrow
-//! part, or faces still intersect then, with shorter edges there.
+//! Runs the stages from the network of curves on (mesh_with_curves), without creases only if no
+//! mesh has them. Where faces intersect beside creases that were left out, or the result does not
+//! reach a narrow part, they run once more, with these creases and with shorter edges there.
 //! \param after_cleaning  what the result says so far.
 //! \param lengths  on the cleaned surface: how long edges are at most.
 //! \param bound    see mesh_with_curves.
@@ -30,10 +30,5 @@ struct TooFewSamples {
                                               const RemeshOptions& options,
                                               std::span<const SizedPoint> lengths,
                                               const DistanceBound* bound);
-
-//! Whether that run would have a mesh; without shorter edges.
-//! \throw TooFewSamples  it would not.
-void require_mesh(const CleanedInput& cleaned, RemeshResult after_cleaning,
-                  const RemeshOptions& options);
 
 }  // namespace remesh::detail

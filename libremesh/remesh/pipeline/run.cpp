@@ -65,7 +65,7 @@ EnoughSamples find_enough(const CleanedInput& cleaned, const RemeshResult& after
         const std::optional<CleanedInput> coarse =
             coarse_input(cleaned, spacing_for(cleaned, more), {more, result});
         try {
-            require_mesh(coarse ? *coarse : cleaned, result, more);
+            (void)run_after_cleaning(coarse ? *coarse : cleaned, result, more, {}, nullptr);
             return {.count = reached, .is_tried = true};
         } catch (const TooFewSamples& failure) {
             reached = next_count(failure, reached);
