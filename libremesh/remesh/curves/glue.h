@@ -3,6 +3,7 @@
 //! sheets. Private to remeshing.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <span>
 #include <utility>
@@ -55,6 +56,12 @@ bool flip_repeated(std::vector<Triangle>& triangles, std::span<const Index> vert
 bool flip_repeated(std::vector<Triangle>& triangles, std::span<const Index> group);
 
 using DirectedEdge = std::pair<Index, Index>;  //!< From, to.
+
+//! Whether ascending edges hold one, in either direction. Cost: O(log n).
+[[nodiscard]] inline bool has_edge(std::span<const DirectedEdge> sorted, Index a, Index b) {
+    return std::ranges::binary_search(sorted, DirectedEdge(a, b)) ||
+           std::ranges::binary_search(sorted, DirectedEdge(b, a));
+}
 
 //! The sides without a triangle on their right, ascending. Their own triangle lies on their left.
 //! Cost: O(n log n).

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "remesh/pipeline/curves.h"
+#include "remesh/placement/mesh_curves.h"
 #include "remesh/sites/prepared_surface.h"
 
 namespace remesh::detail {
@@ -20,6 +21,8 @@ struct CurvedSurface {
 
     //! The surface, cut along the curves.
     [[nodiscard]] const Surface& cut() const { return plan->network.cut.surface(); }
+    //! Refers to this surface. Cost: O(#surface).
+    [[nodiscard]] MeshCurves curves() const { return {*whole, cut(), plan->network.network}; }
     [[nodiscard]] bool has_junctions() const { return !plan->network.junctions.empty(); }
     [[nodiscard]] bool has_locked() const { return !plan->network.locked.empty(); }
 };

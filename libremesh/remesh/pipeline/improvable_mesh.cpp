@@ -59,7 +59,7 @@ std::vector<Mobility> find_mobility(const CurvedSurface& curved, const MeshCurve
 void improve_in_places(const CurvedSurface& curved, std::span<const std::uint8_t> stays,
                        PlacedMesh& mesh, const StageContext& context) {
     const StageClock clock(Stage::Place, context.result);
-    const MeshCurves curves(*curved.whole, curved.cut(), curved.plan->network.network);
+    const MeshCurves curves = curved.curves();
     std::vector<Index> seeds;
     const auto at = [&](Index v) { return mesh.position(curved.whole->mesh.view(), v); };
     for (const auto& [a, b, c] : mesh.triangles) {
@@ -136,16 +136,15 @@ void improve_in_places(const CurvedSurface& curved, std::span<const std::uint8_t
     }
     for (const auto& [a, b, c] : part.triangles) all.push_back({place[a], place[b], place[c]});
     mesh.triangles = std::move(all);
-    const auto is_in = [](std::span<const DirectedEdge> sorted, const DirectedEdge& edge) {
-        return std::ranges::binary_search(sorted, edge) ||
-               std::ranges::binary_search(sorted, DirectedEdge(edge.second, edge.first));
+    const auto was_hard = [&](const DirectedEdge& edge) {
+        return has_edge(hard_before, edge.first, edge.second);
     };
-    std::erase_if(mesh.hard, [&](const DirectedEdge& edge) { return is_in(hard_before, edge); });
+    std::erase_if(mesh.hard, was_hard);
     const std::vector<DirectedEdge> rim_before = number_all(rim, vertices);
     const std::vector<DirectedEdge> rim_now = rim_of(mesh.triangles);
     for (const DirectedEdge& edge : number_all(part.hard, place)) {
-        const bool is_of_part_only = is_in(rim_before, edge) && !is_in(hard_before, edge) &&
-                                     !std::ranges::binary_search(rim_now, edge);
+        const bool is_of_part_only = has_edge(rim_before, edge.first, edge.second) &&
+                                     !was_hard(edge) && !std::ranges::binary_search(rim_now, edge);
         if (!is_of_part_only) mesh.hard.push_back(edge);
     }
 }
@@ -157,7 +156,7 @@ bool is_improvable(const CurvedSurface& curved, const RemeshOptions& options) {
 void improve(const CurvedSurface& curved, CrossingFinder& finder, PlacedMesh& mesh,
              std::optional<CrossingFaces>& crossings, const StageContext& context,
              const ShapeBounds* bounds) {
-    const MeshCurves curves(*curved.whole, curved.cut(), curved.plan->network.network);
+    const MeshCurves curves = curved.curves();
     std::vector<Mobility> mobility = find_mobility(curved, curves, mesh);
     for (int round = 0; round < most_tries; ++round) {
         PlacedMesh improved = mesh;
@@ -189,7 +188,7 @@ void part_faces(const CurvedSurface& curved, CrossingFinder& finder, PlacedMesh&
     for (int round = 0; round < most_partings; ++round) {
         const FacePairs pairs = pairs_to_part(crossings, mesh);
         if (pairs.empty()) return;
-        const MeshCurves curves(*curved.whole, curved.cut(), curved.plan->network.network);
+        const MeshCurves curves = curved.curves();
         PlacedMesh parted = mesh;
         {
             const StageClock clock(Stage::Place, context.result);
@@ -224,12 +223,9 @@ bool free_creases(const CurvedSurface& curved, const std::optional<CrossingFaces
     double longest = 0;
     const double before = counts.freed_length;
     std::erase_if(mesh.hard, [&](const DirectedEdge& edge) {
-        const DirectedEdge back{edge.second, edge.first};
-        if ((is_bad[edge.first] == 0 && is_bad[edge.second] == 0) ||
-            std::ranges::binary_search(rim, edge) || std::ranges::binary_search(rim, back)) {
-            return false;
-        }
-        const Vec3 &a = whole.positions[edge.first], &b = whole.positions[edge.second];
+        const auto [from, to] = edge;
+        if ((is_bad[from] == 0 && is_bad[to] == 0) || has_edge(rim, from, to)) return false;
+        const Vec3 &a = whole.positions[from], &b = whole.positions[to];
         const double length = (b - a).norm();
         counts.freed_length += length / 2;  // Inner edges come once for each side.
         if (length > longest) {

@@ -6,7 +6,6 @@
 #include "remesh/pipeline/domain.h"
 #include "remesh/pipeline/stage_context.h"
 #include "remesh/placement/keep_distance.h"
-#include "remesh/placement/mesh_curves.h"
 #include "remesh/quality/area_samples.h"
 
 namespace remesh::detail {
@@ -36,7 +35,7 @@ std::optional<double> bring_near(const CurvedSurface& curved, PlacedMesh& mesh,
     for (Index i = 0; i < num_samples; ++i) {
         limit.points.push_back(position(bound.input, samples.at(i, num_samples)));
     }
-    const MeshCurves curves(*curved.whole, curved.cut(), curved.plan->network.network);
+    const MeshCurves curves = curved.curves();
     return keep_distance(curves, find_mobility(curved, curves, mesh), limit, mesh,
                          progress_at(Stage::Place, options, 1));
 }

@@ -7,7 +7,6 @@
 #include "agvd/core/number_text.h"
 #include "remesh/pipeline/domain.h"
 #include "remesh/pipeline/improvable_mesh.h"
-#include "remesh/placement/mesh_curves.h"
 #include "remesh/placement/shape_quality.h"
 
 namespace remesh::detail {
@@ -56,15 +55,11 @@ std::vector<ForcedFace> find_forced_faces(const CurvedSurface& curved, const Pla
                                           const ShapeBounds& bounds) {
     std::vector<ForcedFace> forced;
     if (!bounds.has_angles()) return forced;
-    const MeshCurves curves(*curved.whole, curved.cut(), curved.plan->network.network);
+    const MeshCurves curves = curved.curves();
     const std::vector<Mobility> mobility = find_mobility(curved, curves, mesh);
     const TriangleMesh whole = whole_mesh(*curved.whole, mesh);
     std::vector<DirectedEdge> hard = mesh.hard;
     std::ranges::sort(hard);
-    const auto is_hard = [&](Index a, Index b) {
-        return std::ranges::binary_search(hard, DirectedEdge(a, b)) ||
-               std::ranges::binary_search(hard, DirectedEdge(b, a));
-    };
     for (Index f = 0; f < mesh.triangles.size(); ++f) {
         const Triangle& t = mesh.triangles[f];
         const std::array<Vec3, 3> corners = corners_of(whole.view(), f);
@@ -78,7 +73,7 @@ std::vector<ForcedFace> find_forced_faces(const CurvedSurface& curved, const Pla
         // Vertices along a curve could be farther apart.
         const bool may_slide =
             mobility[a] == Mobility::Boundary || mobility[b] == Mobility::Boundary;
-        if (may_slide && is_hard(a, b)) continue;
+        if (may_slide && has_edge(hard, a, b)) continue;
         forced.push_back({f, extremes.min_angle, extremes.max_angle});
     }
     return forced;

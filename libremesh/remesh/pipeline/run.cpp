@@ -37,9 +37,11 @@ struct EnoughSamples {
     bool is_too_few = false;  // A run with so many has given none.
 };
 
-// The number to try after one that is too few.
+// The number to try after one that is too few: a quarter more than what is missing, or than was
+// tried, as more sites need more vertices.
 Index next_count(const TooFewSamples& failure, Index tried) {
-    return failure.reached > tried + 1 ? failure.reached : tried + tried / 4 + 1;
+    return failure.reached > tried + 1 ? failure.reached + (failure.reached - tried) / 4
+                                       : tried + tried / 4 + 1;
 }
 
 // From 1 on, they lead to 40 000 samples and more.

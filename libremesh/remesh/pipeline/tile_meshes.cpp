@@ -146,7 +146,7 @@ PlacedMesh join(const CurvedSurface& curved, std::vector<MeshedTile>& tiles, Ind
     }
     // Borders become free where they are no curves.
     const std::vector<DirectedEdge> boundary = rim_of(joined.triangles);
-    const MeshCurves curves(*curved.whole, curved.cut(), curved.plan->network.network);
+    const MeshCurves curves = curved.curves();
     const auto place = [&](Index v) { return curves.place_of(joined.points[v]); };
     for (const auto& [a, b] : all.hard) {
         const DirectedEdge edge{glued.vertex[a], glued.vertex[b]};

@@ -42,7 +42,7 @@ void reduce(const MeshView& surface, Index count, DualMesh& dual, const Progress
 
 // Adds vertices in the middle of the longest edges off the curves.
 void divide_edges(const Domain& domain, Index count, DualMesh& dual) {
-    const MeshCurves curves(*domain.whole, domain.cut(), domain.plan->network.network);
+    const MeshCurves curves = domain.curves();
     EditedMesh edited(curves, dual.mesh, find_mobility(domain, curves, dual.mesh));
     auto num_vertices = static_cast<Index>(dual.mesh.points.size());
     for (bool is_changed = true; is_changed && num_vertices < count;) {
