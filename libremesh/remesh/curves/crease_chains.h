@@ -131,9 +131,8 @@ void prune(CreaseSet& set, const std::vector<double>& weights, const PruningRule
 
 namespace remesh {
 
-//! Edges that a mesh within a distance of the surface needs: the surface is straight on both sides
-//! of the edge up to where the chord across it is that far from its middle. So are no edges of a
-//! mesh that is fine for the distance, whatever their angle.
+//! Edges that a mesh within a distance of the surface needs (LostDistance), whatever their angle.
+//! No edges of a mesh that is fine for the distance are such.
 //! \param spacing   of the sites, mesh units: see find_creases.
 //! \param distance  mesh units, > 0.
 //! \return #E: 1 for these edges.

@@ -8,7 +8,6 @@
 
 #include "agvd/core/error.h"
 #include "agvd/core/parallel.h"
-#include "agvd/mesh/closest_point.h"
 #include "agvd/mesh/scale.h"
 #include "agvd/mesh/surface_points.h"
 #include "remesh/curves/crease_chains.h"
@@ -104,32 +103,7 @@ detail::PruningRules pruning_rules(double spacing, const Noise& noise) {
             .least_density = between(&NetworkRule::least_density)};
 }
 
-// A leg is straight if its middle is nearer to its chord than this share of the distance: those of
-// a fine mesh of a round surface are not.
-constexpr double most_bend = 0.25;
-// The chord of straight legs that leave out the distance, at any angle, lies this share of it away.
-constexpr double least_hidden = 0.9;
-// The first length at which a leg is looked at, as a share of the whole.
-constexpr double first_part = 1.0 / 32;
 constexpr Index hinges_per_task = 256;
-
-// The end of a leg that goes from the middle of an edge straight over the face of one half-edge and
-// on; unset: the surface bends there.
-std::optional<Vec3> end_of_leg(const Surface& surface, Index h, double length, double bend) {
-    const auto& p = surface.mesh.positions;
-    const Vec3 axis = (p[surface.head(h)] - p[surface.tail(h)]).normalized();
-    const Vec3 up = p[surface.tail(Surface::previous(h))] - p[surface.tail(h)];
-    const Vec3 inward = (up - axis.dot(up) * axis).normalized();
-    const Vec3 from = (p[surface.tail(h)] + p[surface.head(h)]) / 2;
-    Vec3 end = from;
-    for (double part = first_part; part <= 1; part *= 2) {
-        const detail::Walk walk =
-            detail::walk_straight(surface, point_on(h, 0.5), part * length * inward);
-        const Vec3 middle = std::exchange(end, position(surface.mesh.view(), walk.end));
-        if (walk.is_cut_off || distance_to_segment(middle, from, end) > bend) return std::nullopt;
-    }
-    return end;
-}
 
 // Prunes the edges above the angle and adds the weak edges that continue them.
 void apply_scale(detail::CreaseSet& set, const std::vector<double>& angles, double angle,
@@ -173,18 +147,25 @@ std::vector<std::uint8_t> find_hinges(const Surface& surface, double spacing, do
         detail::edge_angles(surface, narrow * spacing, num_threads, poller);
     const MeshBox box = box_of(surface.mesh.view(), num_threads);
     const double longest = (box.high - box.low).norm() / 2;
+    const detail::LostDistance lost{distance};
     std::vector<std::uint8_t> is_hinge(surface.num_edges(), 0);
     const auto look_at = [&](Index e) {
-        const Index h = surface.edge_half[e];
-        // Half the angle is at most pi / 2 times its sine.
-        const double leg = 2 * distance / angles[e];
-        if (!(angles[e] > 0 && leg <= longest)) return;
-        const auto a = end_of_leg(surface, h, leg, most_bend * distance);
-        const auto b = a ? end_of_leg(surface, surface.twin[h], leg, most_bend * distance) : a;
-        if (!b) return;
-        const Vec3 middle =
-            (surface.mesh.positions[surface.tail(h)] + surface.mesh.positions[surface.head(h)]) / 2;
-        is_hinge[e] = distance_to_segment(middle, *a, *b) > least_hidden * distance ? 1 : 0;
+        if (!(angles[e] > 0 && lost.leg(angles[e]) <= longest)) return;
+        const Index half_edge = surface.edge_half[e];
+        // From the middle of the edge straight over the face of a half-edge and on.
+        const auto leg_over = [&](Index h) {
+            const auto& p = surface.mesh.positions;
+            const Vec3 axis = (p[surface.head(h)] - p[surface.tail(h)]).normalized();
+            const Vec3 up = p[surface.tail(Surface::previous(h))] - p[surface.tail(h)];
+            const Vec3 inward = (up - axis.dot(up) * axis).normalized();
+            return [&surface, h, inward](double way) {
+                const SurfacePoint from = point_on(h, 0.5);
+                return position(surface.mesh.view(),
+                                detail::walk_straight(surface, from, way * inward).end);
+            };
+        };
+        is_hinge[e] = lost.is_lost(lost.leg(angles[e]), leg_over(half_edge),
+                                   leg_over(surface.twin[half_edge]));
     };
     parallel_each(surface.num_edges(), hinges_per_task, num_threads, look_at, poller);
     return is_hinge;

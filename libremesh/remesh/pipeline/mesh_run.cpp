@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "remesh/curves/crease_chains.h"
 #include "remesh/pipeline/crossings.h"
 #include "remesh/pipeline/curves.h"
 #include "remesh/pipeline/mesh_with_curves.h"
@@ -63,11 +62,9 @@ public:
           bound_(bound),
           result_(std::move(after_cleaning)) {
         find_lengths();
-        check_count(sizes_.num_samples);
         if (sizes_.num_samples != options_.num_samples) {
             options_.num_samples = sizes_.num_samples;
             find_lengths();
-            check_count(sizes_.num_samples);
             options_.num_samples = sizes_.num_samples;
         }
     }
@@ -127,27 +124,19 @@ private:
                                    : refines         ? CloseCreases::GoOrRefine
                                                      : CloseCreases::Go;
         found_ = find_curves(cleaned_, spacing, close, {options_, result_});
+        const bool has_hinges = bound_ != nullptr && !bound_->hinges.empty();
+        if (has_hinges) {
+            found_.is_crease.assign(bound_->hinges.begin(), bound_->hinges.end());
+            found_.distance = bound_->limit;
+        }
         sizes_ = find_sizes(cleaned_, found_, spacing, {}, lengths_, {options_, result_});
-        if (bound_ != nullptr && options_.features == Features::Auto) add_hinges(spacing);
-    }
-
-    // Edges that the distance needs become creases where such a mesh has no more vertices than the
-    // lengths ask for: with a small distance, those of the input.
-    void add_hinges(double spacing) {
-        const Surface& surface = cleaned_.surface;
-        FoundCurves with = found_;
-        const std::vector<std::uint8_t> hinges =
-            find_hinges(surface, spacing, bound_->limit, options_.num_threads,
-                        cleaned_progress(options_));
-        for (Index e = 0; e < hinges.size(); ++e) with.is_crease[e] |= hinges[e];
-        if (with.is_crease == found_.is_crease) return;
-        RunSizes sizes = find_sizes(cleaned_, with, spacing, {}, lengths_, {options_, result_});
-        sizes.num_samples = std::max(
-            sizes.num_samples, fewest_network_vertices(surface, with.is_crease, spacing,
-                                                       with.junctions, cleaned_.locked));
-        if (sizes.num_samples > sizes_.num_samples) return;
-        found_ = std::move(with);
-        sizes_ = std::move(sizes);
+        if (has_hinges) {
+            sizes_.num_samples = std::max(
+                sizes_.num_samples,
+                fewest_network_vertices(cleaned_.surface, found_.is_crease, spacing,
+                                        found_.junctions, cleaned_.locked, found_.distance));
+        }
+        check_count(sizes_.num_samples);
     }
 
     // Close creases leave needles between them.

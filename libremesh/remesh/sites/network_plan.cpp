@@ -119,10 +119,10 @@ void drop_shortest(const Surface& surface, const CurveNetwork& network, double s
 
 Index fewest_network_vertices(const Surface& surface, std::vector<std::uint8_t> is_crease,
                               double spacing, const JunctionSet& junctions,
-                              const LockedElements& locked) {
+                              const LockedElements& locked, double distance) {
     mark_locked(surface, locked, is_crease);
     leave_out(junctions, is_crease);
-    return fewest_vertices(find_network(surface, is_crease, spacing, junctions, locked));
+    return fewest_vertices(find_network(surface, is_crease, spacing, junctions, locked, distance));
 }
 
 double length_of(const Surface& surface, std::span<const std::uint8_t> is_crease) {
@@ -135,7 +135,8 @@ double length_of(const Surface& surface, std::span<const std::uint8_t> is_crease
 
 NetworkPlan plan_network(const Surface& surface, std::vector<std::uint8_t> is_crease,
                          Index num_vertices, JunctionSet junctions, int num_threads,
-                         const Progress& progress, const SizeField* sizes, LockedElements locked) {
+                         const Progress& progress, const SizeField* sizes, LockedElements locked,
+                         double distance) {
     double spacing = detail::spacing_of(num_vertices, surface_area(surface));
     const MeshBox box = box_of(surface.mesh.view());
     NetworkPlan plan;
@@ -143,7 +144,8 @@ NetworkPlan plan_network(const Surface& surface, std::vector<std::uint8_t> is_cr
     plan.locked = std::move(locked);
     mark_locked(surface, plan.locked, is_crease);
     const auto find = [&] {
-        plan.network = find_network(surface, is_crease, spacing, plan.junctions, plan.locked);
+        plan.network =
+            find_network(surface, is_crease, spacing, plan.junctions, plan.locked, distance);
         const Index needed = fewest_vertices(plan.network);
         if (plan.sites_for_all == 0) plan.sites_for_all = needed;
         return needed;
@@ -151,7 +153,7 @@ NetworkPlan plan_network(const Surface& surface, std::vector<std::uint8_t> is_cr
     if (!plan.junctions.empty()) {
         plan.sites_for_junctions =
             fewest_network_vertices(surface, std::vector<std::uint8_t>(surface.num_edges(), 0),
-                                    spacing, plan.junctions, plan.locked);
+                                    spacing, plan.junctions, plan.locked, distance);
         if (plan.sites_for_junctions > num_vertices) plan.junctions = {};
         leave_out(plan.junctions, is_crease);
     }
