@@ -89,8 +89,8 @@ public:
         entries_[slot] = {face, chart};
     }
 
-    //! Makes a chart again after its lengths have changed, with its neighbours' turns: charts across
-    //! its sides know the directions that it had.
+    //! Makes a chart again after its lengths have changed, with its neighbours' turns: charts
+    //! across its sides know the directions that it had.
     void renew(Index face) {
         FaceChart& chart = of(face);
         for (Index k = 0; k < 3; ++k) {

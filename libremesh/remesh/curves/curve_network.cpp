@@ -67,9 +67,8 @@ public:
         const double leg = angle > 0 ? lost.leg(angle) : infinity;
         if (!(leg <= curve_.length() / 2)) return false;
         const auto side = [&](int direction) {
-            return [&, direction](double way) {
-                return position(curve_.up_to[i] + direction * way);
-            };
+            return
+                [&, direction](double way) { return position(curve_.up_to[i] + direction * way); };
         };
         return lost.is_lost(leg, side(-1), side(1));
     }

@@ -140,8 +140,8 @@ private:
 // lose all of it were too far away beside others.
 constexpr double hinge_share = 0.25;
 
-// Creases, and edges that a distance needs, if they take less than half of the vertices that lengths
-// ask for; or none. With a small distance they are all edges that are not flat.
+// Creases, and edges that a distance needs, if they take less than half of the vertices that
+// lengths ask for; or none. With a small distance they are all edges that are not flat.
 // \param[out] most_vertices  that lengths ask for.
 std::vector<std::uint8_t> find_needed_edges(const CleanedInput& cleaned,
                                             const RemeshOptions& options, double limit,
@@ -149,11 +149,9 @@ std::vector<std::uint8_t> find_needed_edges(const CleanedInput& cleaned,
     if (options.features != Features::Auto) return {};
     RemeshResult unused;
     const double spacing = spacing_for(cleaned, options);
-    const FoundCurves found =
-        find_curves(cleaned, spacing, CloseCreases::Stay, {options, unused});
-    std::vector<std::uint8_t> needed =
-        find_hinges(cleaned.surface, spacing, hinge_share * limit, options.num_threads,
-                    cleaned_progress(options));
+    const FoundCurves found = find_curves(cleaned, spacing, CloseCreases::Stay, {options, unused});
+    std::vector<std::uint8_t> needed = find_hinges(cleaned.surface, spacing, hinge_share * limit,
+                                                   options.num_threads, cleaned_progress(options));
     for (Index e = 0; e < needed.size(); ++e) needed[e] |= found.is_crease[e];
     if (needed == found.is_crease) return {};
     most_vertices = find_sizes(cleaned, found, spacing, {}, {}, {options, unused}).num_samples;
@@ -208,7 +206,8 @@ RemeshResult meet_distance(const CleanedInput& cleaned, const RemeshOptions& opt
         return found;
     };
     Index most_vertices = 0;
-    const std::vector<std::uint8_t> needed = find_needed_edges(cleaned, finer, limit, most_vertices);
+    const std::vector<std::uint8_t> needed =
+        find_needed_edges(cleaned, finer, limit, most_vertices);
     bound.hinges = needed;
     for (int round = 0; round < max_rounds; ++round) {
         RemeshResult result = run(finer, lengths, &bound);

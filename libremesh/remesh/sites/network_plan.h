@@ -37,8 +37,8 @@ struct NetworkPlan {
 [[nodiscard]] NetworkPlan plan_network(const Surface& surface, std::vector<std::uint8_t> is_crease,
                                        Index num_vertices, JunctionSet junctions = {},
                                        int num_threads = 0, const Progress& progress = {},
-                                       const SizeField* sizes = nullptr,
-                                       LockedElements locked = {}, double distance = 0);
+                                       const SizeField* sizes = nullptr, LockedElements locked = {},
+                                       double distance = 0);
 
 //! The fewest vertices of a network of boundary, junctions, what is locked, and these creases.
 //! \param is_crease  #E.

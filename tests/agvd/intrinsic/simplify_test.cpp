@@ -115,7 +115,8 @@ TEST(Simplify, AFlatSquareGetsThePlanesDelaunayTriangulation) {
 
 // Vertices of the sides go whose faces no flip has changed yet, while those beside them have been.
 TEST(Simplify, AFlatStripWithDividedSidesIsNotFolded) {
-    const TriangleMesh strip{{{0, 0, 0}, {100, 0, 0}, {98, 3, 0}, {2, 3, 0}}, {{0, 1, 2}, {0, 2, 3}}};
+    const TriangleMesh strip{{{0, 0, 0}, {100, 0, 0}, {98, 3, 0}, {2, 3, 0}},
+                             {{0, 1, 2}, {0, 2, 3}}};
     const Surface surface = build_surface(strip.view());
     for (const Index n : {5u, 20u, 100u}) {
         SCOPED_TRACE(n);

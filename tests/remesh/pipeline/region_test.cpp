@@ -483,9 +483,10 @@ class RegionOfRealMesh : public testing::TestWithParam<const char*> {};
 TEST(Region, ABevelRingIsNotFolded) {
     TriangleMesh box;
     for (const auto& [inset, z] : {std::pair{0., 0.}, {0., 18.}, {2., 20.}}) {
-        for (const auto& [x, y] :
-             {std::pair{inset, inset}, {100 - inset, inset}, {100 - inset, 60 - inset},
-              {inset, 60 - inset}}) {
+        for (const auto& [x, y] : {std::pair{inset, inset},
+                                   {100 - inset, inset},
+                                   {100 - inset, 60 - inset},
+                                   {inset, 60 - inset}}) {
             box.positions.emplace_back(x, y, z);
         }
     }
@@ -498,16 +499,16 @@ TEST(Region, ABevelRingIsNotFolded) {
         }
     }
     const Mask ring = mask_of(box, [](const Vec3& p) { return p.z() > 18 && p.z() < 20; });
-    for (const Index n : {100u, 400u, 1000u}) {
+    for (const auto& [n, relax_steps] : {std::pair{20u, 60}, {100u, 60}, {400u, 0}}) {
         SCOPED_TRACE(n);
-        const RemeshResult result =
-            remesh::remesh(box.view(), {.num_samples = n, .region = ring, .num_threads = 1});
+        const RemeshResult result = remesh::remesh(
+            box.view(),
+            {.num_samples = n, .region = ring, .relax_steps = relax_steps, .num_threads = 1});
         EXPECT_EQ(result.self_intersections.value_or(0), 0u);
         double area = 0;
         for (auto f = static_cast<Index>(result.kept.faces.size());
              f < result.mesh.triangles.size(); ++f) {
-            const Vec3 normal =
-                doubled_normal(result.mesh.positions, result.mesh.triangles[f]);
+            const Vec3 normal = doubled_normal(result.mesh.positions, result.mesh.triangles[f]);
             EXPECT_GT(normal.z(), 0);
             area += normal.norm() / 2;
         }
