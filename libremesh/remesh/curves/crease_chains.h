@@ -131,8 +131,9 @@ void prune(CreaseSet& set, const std::vector<double>& weights, const PruningRule
 
 namespace remesh {
 
-//! Edges that a mesh within a distance of the surface needs (LostDistance), whatever their angle.
-//! No edges of a mesh that is fine for the distance are such.
+//! Edges that a mesh within a distance of the surface needs, whatever their angle: the chord across
+//! them, as far as the surface is straight on both sides, is too far from them. No edges of a mesh
+//! that is fine for the distance are such.
 //! \param spacing   of the sites, mesh units: see find_creases.
 //! \param distance  mesh units, > 0.
 //! \return #E: 1 for these edges.

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "agvd/mesh/surface_points.h"
-#include "remesh/curves/walk.h"
 
 namespace remesh {
 namespace {
@@ -61,18 +60,6 @@ public:
         return has_straight_sides(i, here_turn, side_length * spacing) ? here_turn : 0;
     }
 
-    // Whether a course without a vertex is that far from it.
-    [[nodiscard]] bool is_lost(std::size_t i, const detail::LostDistance& lost) const {
-        const double angle = turn_at(i);
-        const double leg = angle > 0 ? lost.leg(angle) : infinity;
-        if (!(leg <= curve_.length() / 2)) return false;
-        const auto side = [&](int direction) {
-            return
-                [&, direction](double way) { return position(curve_.up_to[i] + direction * way); };
-        };
-        return lost.is_lost(leg, side(-1), side(1));
-    }
-
 private:
     [[nodiscard]] double turn_at(std::size_t i) const {
         return turn(at_[i == 0 ? curve_.num_edges() - 1 : i - 1], at_[i], at_[i + 1]);
@@ -117,20 +104,16 @@ Curve curve_of_loop(const Surface& surface, std::vector<Index> loop) {
 }
 
 std::vector<std::size_t> corners_of_curve(const Surface& surface, const Curve& curve,
-                                          double spacing, double distance) {
+                                          double spacing) {
     const double reach = corner_reach * spacing;
     const Course course(surface, curve);
     std::vector<std::pair<double, std::size_t>> candidates;  // (minus sharpness, vertex)
-    const std::size_t first = curve.is_closed() ? 0 : 1;
-    for (std::size_t i = first; i < curve.num_edges(); ++i) {
+    for (std::size_t i = curve.is_closed() ? 0 : 1; i < curve.num_edges(); ++i) {
         const double sharp = course.sharpness(i, spacing);
         if (sharp > 0) candidates.emplace_back(-sharp, i);
     }
     std::sort(candidates.begin(), candidates.end());
     std::vector<std::size_t> corners;
-    for (std::size_t i = first; i < curve.num_edges() && distance > 0; ++i) {
-        if (course.is_lost(i, {distance})) corners.push_back(i);
-    }
     const auto is_free = [&](double at) {
         if (!curve.is_closed() && std::min(at, curve.length() - at) < reach) return false;
         return std::none_of(corners.begin(), corners.end(), [&](std::size_t corner) {

@@ -109,13 +109,12 @@ struct CurveNetwork {
 //! \param is_crease  #E: 1 for the edges of creases. Boundary edges and junctions always belong to
 //!                   the network.
 //! \param spacing    > 0, mesh units: of the sites.
-//! \param distance   see corners_of_curve.
 //! \param locked     its edges that are neither boundary nor junctions must be marked as creases.
 //! Cost: O(#V + #E).
 [[nodiscard]] CurveNetwork find_network(const Surface& surface,
                                         std::span<const std::uint8_t> is_crease, double spacing,
                                         const JunctionSet& junctions = {},
-                                        const LockedElements& locked = {}, double distance = 0);
+                                        const LockedElements& locked = {});
 
 //! A loop of boundary_loops as a closed curve that begins at its first vertex. Cost: O(n).
 [[nodiscard]] Curve curve_of_loop(const Surface& surface, std::vector<Index> loop);
@@ -123,13 +122,11 @@ struct CurveNetwork {
 //! The vertices (see Curve::vertex) where a curve turns by at least 45 degrees, both at the vertex
 //! and between the chords to half a spacing before and after it: a rough curve has none; and on the
 //! boundary those of at least 25 degrees where it turns by less than half of that over a spacing on
-//! both sides. Of several within half a spacing the sharpest counts; so near to an end, none. And
-//! all vertices without which a course along the curve is too far from it.
-//! \param distance  mesh units: no more may be lost; 0: that does not count.
+//! both sides. Of several within half a spacing the sharpest counts; so near to an end, none.
 //! \return ascending.
 //! Cost: O(k log k + k c), c = corners.
 [[nodiscard]] std::vector<std::size_t> corners_of_curve(const Surface& surface, const Curve& curve,
-                                                        double spacing, double distance = 0);
+                                                        double spacing);
 
 //! The share of [begin, end] before a position, in [0, 1]; 0 if the interval is empty, such as an
 //! edge that is shorter than the rounding of its curve's length.

@@ -218,9 +218,9 @@ std::unique_ptr<const CurvePlan> plan_curves(const CleanedInput& cleaned, const 
         plan->network = std::move(given.plan);
         plan->given = std::move(given);
     } else {
-        plan->network = plan_network(
-            cleaned.surface, std::move(is_crease), options.num_samples, std::move(junctions),
-            options.num_threads, cleaned_progress(options), sizes, cleaned.locked, found.distance);
+        plan->network = plan_network(cleaned.surface, std::move(is_crease), options.num_samples,
+                                     std::move(junctions), options.num_threads,
+                                     cleaned_progress(options), sizes, cleaned.locked);
     }
     count_plan(plan->network, result);
     result.features.dropped_length += left_out;

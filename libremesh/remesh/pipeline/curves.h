@@ -25,7 +25,6 @@ struct FoundCurves {
     //! #E: texture seams; empty: there are none. Those of `is_wide` can be curves at the spacing.
     std::vector<std::uint8_t> is_seam, is_wide;
     JunctionSet junctions;
-    double distance = 0;  //!< Vertices of curves that it needs are nodes (corners_of_curve).
 };
 
 //! What becomes of creases that are closer than sites can be (select_creases).

@@ -155,8 +155,8 @@ std::vector<std::uint8_t> find_needed_edges(const CleanedInput& cleaned,
     for (Index e = 0; e < needed.size(); ++e) needed[e] |= found.is_crease[e];
     if (needed == found.is_crease) return {};
     most_vertices = find_sizes(cleaned, found, spacing, {}, {}, {options, unused}).num_samples;
-    const Index num_needed = fewest_network_vertices(cleaned.surface, needed, spacing,
-                                                     found.junctions, cleaned.locked, limit);
+    const Index num_needed =
+        fewest_network_vertices(cleaned.surface, needed, spacing, found.junctions, cleaned.locked);
     if (num_needed > most_vertices / 2) return {};
     return needed;
 }

@@ -125,16 +125,13 @@ private:
                                                      : CloseCreases::Go;
         found_ = find_curves(cleaned_, spacing, close, {options_, result_});
         const bool has_hinges = bound_ != nullptr && !bound_->hinges.empty();
-        if (has_hinges) {
-            found_.is_crease.assign(bound_->hinges.begin(), bound_->hinges.end());
-            found_.distance = bound_->limit;
-        }
+        if (has_hinges) found_.is_crease.assign(bound_->hinges.begin(), bound_->hinges.end());
         sizes_ = find_sizes(cleaned_, found_, spacing, {}, lengths_, {options_, result_});
         if (has_hinges) {
-            sizes_.num_samples = std::max(
-                sizes_.num_samples,
-                fewest_network_vertices(cleaned_.surface, found_.is_crease, spacing,
-                                        found_.junctions, cleaned_.locked, found_.distance));
+            sizes_.num_samples =
+                std::max(sizes_.num_samples,
+                         fewest_network_vertices(cleaned_.surface, found_.is_crease, spacing,
+                                                 found_.junctions, cleaned_.locked));
         }
         check_count(sizes_.num_samples);
     }

@@ -119,10 +119,10 @@ void drop_shortest(const Surface& surface, const CurveNetwork& network, double s
 
 Index fewest_network_vertices(const Surface& surface, std::vector<std::uint8_t> is_crease,
                               double spacing, const JunctionSet& junctions,
-                              const LockedElements& locked, double distance) {
+                              const LockedElements& locked) {
     mark_locked(surface, locked, is_crease);
     leave_out(junctions, is_crease);
-    return fewest_vertices(find_network(surface, is_crease, spacing, junctions, locked, distance));
+    return fewest_vertices(find_network(surface, is_crease, spacing, junctions, locked));
 }
 
 double length_of(const Surface& surface, std::span<const std::uint8_t> is_crease) {
@@ -135,8 +135,7 @@ double length_of(const Surface& surface, std::span<const std::uint8_t> is_crease
 
 NetworkPlan plan_network(const Surface& surface, std::vector<std::uint8_t> is_crease,
                          Index num_vertices, JunctionSet junctions, int num_threads,
-                         const Progress& progress, const SizeField* sizes, LockedElements locked,
-                         double distance) {
+                         const Progress& progress, const SizeField* sizes, LockedElements locked) {
     double spacing = detail::spacing_of(num_vertices, surface_area(surface));
     const MeshBox box = box_of(surface.mesh.view());
     NetworkPlan plan;
@@ -144,8 +143,7 @@ NetworkPlan plan_network(const Surface& surface, std::vector<std::uint8_t> is_cr
     plan.locked = std::move(locked);
     mark_locked(surface, plan.locked, is_crease);
     const auto find = [&] {
-        plan.network =
-            find_network(surface, is_crease, spacing, plan.junctions, plan.locked, distance);
+        plan.network = find_network(surface, is_crease, spacing, plan.junctions, plan.locked);
         const Index needed = fewest_vertices(plan.network);
         if (plan.sites_for_all == 0) plan.sites_for_all = needed;
         return needed;
@@ -153,7 +151,7 @@ NetworkPlan plan_network(const Surface& surface, std::vector<std::uint8_t> is_cr
     if (!plan.junctions.empty()) {
         plan.sites_for_junctions =
             fewest_network_vertices(surface, std::vector<std::uint8_t>(surface.num_edges(), 0),
-                                    spacing, plan.junctions, plan.locked, distance);
+                                    spacing, plan.junctions, plan.locked);
         if (plan.sites_for_junctions > num_vertices) plan.junctions = {};
         leave_out(plan.junctions, is_crease);
     }

@@ -31,22 +31,20 @@ struct NetworkPlan {
 //! \param is_crease     #E: 1 for the edges of creases.
 //! \param num_vertices  of the result: see num_curve_vertices.
 //! \param sizes           spacings are in local lengths; null: in mesh units.
-//! \param distance      see corners_of_curve.
 //! \throw Cancelled  the progress callback returned false.
 //! Cost: O(n), once more for each tenth of the creases that is dropped.
 [[nodiscard]] NetworkPlan plan_network(const Surface& surface, std::vector<std::uint8_t> is_crease,
                                        Index num_vertices, JunctionSet junctions = {},
                                        int num_threads = 0, const Progress& progress = {},
-                                       const SizeField* sizes = nullptr, LockedElements locked = {},
-                                       double distance = 0);
+                                       const SizeField* sizes = nullptr,
+                                       LockedElements locked = {});
 
 //! The fewest vertices of a network of boundary, junctions, what is locked, and these creases.
-//! \param is_crease  #E.
-//! \param distance   see corners_of_curve. Cost: O(n).
+//! \param is_crease  #E. Cost: O(n).
 [[nodiscard]] Index fewest_network_vertices(const Surface& surface,
                                             std::vector<std::uint8_t> is_crease, double spacing,
                                             const JunctionSet& junctions,
-                                            const LockedElements& locked, double distance = 0);
+                                            const LockedElements& locked);
 
 //! Whether an edge is marked.
 [[nodiscard]] inline bool has_creases(std::span<const std::uint8_t> is_crease) {
