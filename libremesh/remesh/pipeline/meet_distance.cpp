@@ -22,8 +22,9 @@ namespace {
 constexpr Index samples_per_surface = 100'000;
 constexpr Index query_grain = 1024;
 constexpr int max_rounds = 16;
-// Then rounding is what keeps a mesh of the input's edges from being proved.
-constexpr int most_hinge_rounds = 5;
+// Where a mesh of the input's edges takes so many times its vertices, rounding keeps it from being
+// proved.
+constexpr Index most_growth = 4;
 
 using Corners = std::array<Vec3, 3>;
 
@@ -142,7 +143,7 @@ constexpr double hinge_share = 0.25;
 
 // Creases, and edges that a distance needs, if they take less than half of the vertices that
 // lengths ask for; or none. With a small distance they are all edges that are not flat.
-// \param[out] most_vertices  that lengths ask for.
+// \param[out] most_vertices  of a mesh with them.
 std::vector<std::uint8_t> find_needed_edges(const CleanedInput& cleaned,
                                             const RemeshOptions& options, double limit,
                                             Index& most_vertices) {
@@ -158,6 +159,7 @@ std::vector<std::uint8_t> find_needed_edges(const CleanedInput& cleaned,
     const Index num_needed =
         fewest_network_vertices(cleaned.surface, needed, spacing, found.junctions, cleaned.locked);
     if (num_needed > most_vertices / 2) return {};
+    most_vertices = std::min(most_vertices, most_growth * num_needed);
     return needed;
 }
 
@@ -212,8 +214,7 @@ RemeshResult meet_distance(const CleanedInput& cleaned, const RemeshOptions& opt
     for (int round = 0; round < max_rounds; ++round) {
         RemeshResult result = run(finer, lengths, &bound);
         const MeasuredDistance found = measure(result);
-        if (!bound.hinges.empty() &&
-            (result.mesh.positions.size() > most_vertices || round == most_hinge_rounds)) {
+        if (!bound.hinges.empty() && result.mesh.positions.size() > most_vertices) {
             bound.hinges = {};
             lengths.clear();
             continue;

@@ -508,7 +508,8 @@ TEST(Region, ABevelRingIsNotFolded) {
         double area = 0;
         for (auto f = static_cast<Index>(result.kept.faces.size());
              f < result.mesh.triangles.size(); ++f) {
-            const Vec3 normal = doubled_normal(result.mesh.positions, result.mesh.triangles[f]);
+            const Vec3 normal =
+                agvd::doubled_normal(result.mesh.positions, result.mesh.triangles[f]);
             EXPECT_GT(normal.z(), 0);
             area += normal.norm() / 2;
         }
