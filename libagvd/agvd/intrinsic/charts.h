@@ -89,10 +89,10 @@ public:
         entries_[slot] = {face, chart};
     }
 
-    //! Makes a chart again after its lengths have changed, with its neighbours' turns.
+    //! Makes a chart again after its lengths have changed, with its neighbours' turns: charts
+    //! across its sides know the directions that it had.
     void renew(Index face) {
-        if (!has(face)) return;
-        FaceChart& chart = entries_[slot_[face]].chart;
+        FaceChart& chart = of(face);
         for (Index k = 0; k < 3; ++k) {
             chart.side[k] = surface_.length_of(3 * face + k) * direction(3 * face + k);
         }

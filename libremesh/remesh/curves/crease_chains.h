@@ -131,6 +131,17 @@ void prune(CreaseSet& set, const std::vector<double>& weights, const PruningRule
 
 namespace remesh {
 
+//! Edges that a mesh within a distance of the surface needs, whatever their angle: the chord across
+//! them, as far as the surface is straight on both sides, is too far from them. No edges of a mesh
+//! that is fine for the distance are such.
+//! \param spacing   of the sites, mesh units: see find_creases.
+//! \param distance  mesh units, > 0.
+//! \return #E: 1 for these edges.
+//! Cost: for each edge that of the faces along these legs, which end where the surface bends.
+[[nodiscard]] std::vector<std::uint8_t> find_hinges(const Surface& surface, double spacing,
+                                                    double distance, int num_threads,
+                                                    const Progress& progress);
+
 //! Leaves out seams around charts narrower than 2.5 spacings (twice the area over the length), the
 //! narrowest first; then chains with a free end shorter than two spacings.
 //! \param is_crease  #E: a chain that ends on these, or on the boundary, has no free end there;

@@ -8,7 +8,11 @@
 
 #include "agvd/core/error.h"
 #include "agvd/core/parallel.h"
+#include "agvd/mesh/closest_point.h"
+#include "agvd/mesh/scale.h"
+#include "agvd/mesh/surface_points.h"
 #include "remesh/curves/crease_chains.h"
+#include "remesh/curves/walk.h"
 
 namespace remesh {
 namespace {
@@ -100,6 +104,37 @@ detail::PruningRules pruning_rules(double spacing, const Noise& noise) {
             .least_density = between(&NetworkRule::least_density)};
 }
 
+constexpr Index hinges_per_task = 256;
+// Beside a hinge the surface counts as straight up to where the middle of the way is farther from
+// its chord than this share of the distance. A round surface that is meshed finely for the distance
+// then loses a quarter of it.
+constexpr double most_bend = 1.0 / 16;
+// This share of the distance counts as lost: half an angle is more than its sine.
+constexpr double least_lost = 0.9;
+
+// The end of the way from the middle of an edge over the face of a half-edge and on, at most so
+// long, as far as the surface is straight.
+Vec3 straight_end(const Surface& surface, Index h, double length, double bend) {
+    const auto& p = surface.mesh.positions;
+    const SurfacePoint from = point_on(h, 0.5);
+    const Vec3 axis = (p[surface.head(h)] - p[surface.tail(h)]).normalized();
+    const Vec3 up = p[surface.tail(Surface::previous(h))] - p[surface.tail(h)];
+    const Vec3 way = length * (up - axis.dot(up) * axis).normalized();
+    const auto at = [&](double part) {
+        return position(surface.mesh.view(), detail::walk_straight(surface, from, part * way).end);
+    };
+    const auto is_straight = [&](double part) {
+        return distance_to_segment(at(part / 2), at(0), at(part)) <= bend;
+    };
+    double straight = 0, bent = 1.0 / 32;
+    for (; straight < 1 && is_straight(bent); bent *= 2) straight = bent;
+    for (int i = 0; i < 3 && straight > 0 && straight < 1; ++i) {
+        const double middle = (straight + bent) / 2;
+        (is_straight(middle) ? straight : bent) = middle;
+    }
+    return at(straight);
+}
+
 // Prunes the edges above the angle and adds the weak edges that continue them.
 void apply_scale(detail::CreaseSet& set, const std::vector<double>& angles, double angle,
                  double spacing, Poller& poller) {
@@ -133,6 +168,28 @@ std::vector<std::uint8_t> find_creases(const Surface& surface, const CreaseOptio
     }
     if (options.is_automatic) apply_scale(set, angles, angle, options.spacing, poller);
     return set.take_flags();
+}
+
+std::vector<std::uint8_t> find_hinges(const Surface& surface, double spacing, double distance,
+                                      int num_threads, const Progress& progress) {
+    Poller poller(progress);
+    const std::vector<double> angles =
+        detail::edge_angles(surface, narrow * spacing, num_threads, poller);
+    const MeshBox box = box_of(surface.mesh.view(), num_threads);
+    const double longest = (box.high - box.low).norm() / 2;
+    const double bend = most_bend * distance;
+    std::vector<std::uint8_t> is_hinge(surface.num_edges(), 0);
+    const auto look_at = [&](Index e) {
+        const double leg = 2 * distance / angles[e];  // Loses the distance, at least.
+        if (!(angles[e] > 0 && leg <= longest)) return;
+        const Index h = surface.edge_half[e];
+        const Vec3 a = straight_end(surface, h, leg, bend);
+        const Vec3 b = straight_end(surface, surface.twin[h], leg, bend);
+        const Vec3 middle = position(surface.mesh.view(), point_on(h, 0.5));
+        is_hinge[e] = distance_to_segment(middle, a, b) > least_lost * distance;
+    };
+    parallel_each(surface.num_edges(), hinges_per_task, num_threads, look_at, poller);
+    return is_hinge;
 }
 
 const char* junctions_name(Junctions junctions) {

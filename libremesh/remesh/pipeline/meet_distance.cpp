@@ -8,6 +8,11 @@
 
 #include "agvd/core/parallel.h"
 #include "agvd/mesh/scale.h"
+#include "remesh/curves/crease_chains.h"
+#include "remesh/pipeline/curves.h"
+#include "remesh/pipeline/mesh_with_curves.h"
+#include "remesh/pipeline/sizes.h"
+#include "remesh/pipeline/stage_context.h"
 #include "remesh/placement/far_points.h"
 #include "remesh/quality/area_samples.h"
 
@@ -17,6 +22,9 @@ namespace {
 constexpr Index samples_per_surface = 100'000;
 constexpr Index query_grain = 1024;
 constexpr int max_rounds = 16;
+// Where a mesh of the input's edges takes so many times its vertices, rounding keeps it from being
+// proved.
+constexpr Index most_growth = 4;
 
 using Corners = std::array<Vec3, 3>;
 
@@ -129,6 +137,32 @@ private:
     MeasuredDistance farthest_;
 };
 
+// Edges without which this share of the distance is lost count as creases: meshes with those that
+// lose all of it were too far away beside others.
+constexpr double hinge_share = 0.25;
+
+// Creases, and edges that a distance needs, if they take less than half of the vertices that
+// lengths ask for; or none. With a small distance they are all edges that are not flat.
+// \param[out] most_vertices  of a mesh with them.
+std::vector<std::uint8_t> find_needed_edges(const CleanedInput& cleaned,
+                                            const RemeshOptions& options, double limit,
+                                            Index& most_vertices) {
+    if (options.features != Features::Auto) return {};
+    RemeshResult unused;
+    const double spacing = spacing_for(cleaned, options);
+    const FoundCurves found = find_curves(cleaned, spacing, CloseCreases::Stay, {options, unused});
+    std::vector<std::uint8_t> needed = find_hinges(cleaned.surface, spacing, hinge_share * limit,
+                                                   options.num_threads, cleaned_progress(options));
+    for (Index e = 0; e < needed.size(); ++e) needed[e] |= found.is_crease[e];
+    if (needed == found.is_crease) return {};
+    most_vertices = find_sizes(cleaned, found, spacing, {}, {}, {options, unused}).num_samples;
+    const Index num_needed =
+        fewest_network_vertices(cleaned.surface, needed, spacing, found.junctions, cleaned.locked);
+    if (num_needed > most_vertices / 2) return {};
+    most_vertices = std::min(most_vertices, most_growth * num_needed);
+    return needed;
+}
+
 }  // namespace
 
 MeasuredDistance measure_distance(const MeshView& input, const ClosestPointTree& input_tree,
@@ -157,20 +191,33 @@ RemeshResult meet_distance(const CleanedInput& cleaned, const RemeshOptions& opt
     const TriangleMesh& mesh = cleaned.surface.mesh;
     const ClosestPointTree tree(mesh, cleaned_progress(options));
     const MeshBox box = box_of(mesh, options.num_threads);
-    const DistanceBound bound{mesh.view(), tree, limit};
+    DistanceBound bound{mesh.view(), tree, limit};
     finer.sizing.max_edge = std::min(finer.sizing.max_edge, (box.high - box.low).norm());
     std::vector<SizedPoint> lengths;
     MeasuredDistance best{.largest = infinity};
     std::size_t num_vertices = 0;
     finer.sizing.count = aim;
-    for (int round = 0; round < max_rounds; ++round) {
-        RemeshResult result = run(finer, lengths, &bound);
+    const auto measure = [&](RemeshResult& result) {
         MeasuredDistance found{.largest = result.sizing.largest_distance};
         found.is_within = found.largest > 0;  // It is proved.
         if (!found.is_within) {
             found = measure_distance(mesh, tree, result.mesh, result.sizing.targets, limit,
                                      options.num_threads, progress_at(Stage::Check, options, 1));
             result.sizing.largest_distance = found.largest;
+        }
+        return found;
+    };
+    Index most_vertices = 0;
+    const std::vector<std::uint8_t> needed =
+        find_needed_edges(cleaned, finer, limit, most_vertices);
+    bound.hinges = needed;
+    for (int round = 0; round < max_rounds; ++round) {
+        RemeshResult result = run(finer, lengths, &bound);
+        const MeasuredDistance found = measure(result);
+        if (!bound.hinges.empty() && result.mesh.positions.size() > most_vertices) {
+            bound.hinges = {};
+            lengths.clear();
+            continue;
         }
         if (found.largest < best.largest) {
             best = found;

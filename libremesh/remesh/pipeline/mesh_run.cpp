@@ -6,6 +6,7 @@
 #include "remesh/pipeline/crossings.h"
 #include "remesh/pipeline/curves.h"
 #include "remesh/pipeline/mesh_with_curves.h"
+#include "remesh/pipeline/sample_count.h"
 #include "remesh/pipeline/sizes.h"
 #include "remesh/pipeline/stage_context.h"
 
@@ -98,7 +99,16 @@ private:
                                    : refines         ? CloseCreases::GoOrRefine
                                                      : CloseCreases::Go;
         found_ = find_curves(cleaned_, spacing, close, {options_, result_});
+        const bool has_hinges = bound_ != nullptr && !bound_->hinges.empty();
+        if (has_hinges) found_.is_crease.assign(bound_->hinges.begin(), bound_->hinges.end());
         sizes_ = find_sizes(cleaned_, found_, spacing, {}, lengths_, {options_, result_});
+        if (has_hinges) {
+            sizes_.num_samples =
+                std::max(sizes_.num_samples,
+                         fewest_network_vertices(cleaned_.surface, found_.is_crease, spacing,
+                                                 found_.junctions, cleaned_.locked));
+        }
+        check_count(sizes_.num_samples);
     }
 
     MadeMesh try_curves(const KeptCurves& kept, const RemeshOptions& options, RemeshResult& tried) {

@@ -12,6 +12,8 @@ struct DistanceBound {
     MeshView input;
     const ClosestPointTree& tree;  //!< Of the input.
     double limit;                  //!< > 0, mesh units.
+    //! #E of the cleaned surface: creases, and edges that the distance needs; empty: only creases.
+    std::span<const std::uint8_t> hinges = {};
 };
 
 //! Brings a mesh within the distance, and takes vertices away where it is much nearer

@@ -88,21 +88,25 @@ double excess_of(const RemeshOptions& options) {
     return options.relax_steps > 0 ? relaxed_excess : unrelaxed_excess;
 }
 
-// The nearest number of samples, at least 1.
+// The nearest number of samples, at least 1; one too many for any number above the most.
+Index nearest_count(double vertices) {
+    const double most = most_samples + 1;
+    return static_cast<Index>(std::clamp(std::round(vertices <= most ? vertices : most), 1., most));
+}
+
 Index to_count(double vertices) {
-    if (!(vertices <= most_samples)) {
-        throw InvalidOption("the lengths asked for need more than " +
-                            std::to_string(static_cast<Index>(most_samples)) +
-                            " vertices; use longer ones, or a larger distance");
-    }
-    return static_cast<Index>(std::max(1.0, std::round(vertices)));
+    const Index count = nearest_count(vertices);
+    check_count(count);
+    return count;
 }
 
 // What topology and what is locked need; 1 if nothing is locked.
 Index least_samples(const CleanedInput& cleaned, double spacing) {
     if (cleaned.locked.empty()) return 1;
     return std::max(minimum_samples(cleaned.topology),
-                    fewest_locked_vertices(cleaned.surface, spacing, cleaned.locked));
+                    fewest_network_vertices(cleaned.surface,
+                                            std::vector<std::uint8_t>(cleaned.surface.num_edges()),
+                                            spacing, {}, cleaned.locked));
 }
 
 // As the sizing asks for it, whatever is locked.
@@ -122,13 +126,20 @@ Index count_by_sizing(const CleanedInput& cleaned, const RemeshOptions& options)
 
 }  // namespace
 
+void check_count(Index count) {
+    if (count <= most_samples) return;
+    throw InvalidOption("the lengths asked for need more than " +
+                        std::to_string(static_cast<Index>(most_samples)) +
+                        " vertices; use longer ones, or a larger distance");
+}
+
 double most_mean_edge(const ShapeBounds& bounds) { return bounds.longest_edge / longest_over_mean; }
 
 Index count_for_area(double area, const CleanedInput& cleaned, double spacing) {
     // Vertices of locked edges on the boundary count half in the area.
     const double vertices =
         area * 2 / std::numbers::sqrt3 + measure_boundary(cleaned).locked_edges / 2.0;
-    return std::max(to_count(vertices), least_samples(cleaned, spacing));
+    return std::max(nearest_count(vertices), least_samples(cleaned, spacing));
 }
 
 Index sample_count(const CleanedInput& cleaned, const RemeshOptions& options) {

@@ -12,10 +12,13 @@ namespace remesh::detail {
     return lengths.values[cleaned.face_origin.empty() ? face : cleaned.face_origin[face]];
 }
 
+//! \throw InvalidOption  a number of vertices is above 8e8.
+void check_count(Index count);
+
 //! The vertices of a mesh that follows target lengths, and no fewer than what is locked needs.
 //! \param area     of the surface in squares of the local length.
 //! \param spacing  mesh units: of the sites in the mean.
-//! \throw InvalidOption  it is above 8e8. Cost: O(n).
+//! \return a number for check_count. Cost: O(n).
 [[nodiscard]] Index count_for_area(double area, const CleanedInput& cleaned, double spacing);
 
 //! The mean edge of a result of which few edges are longer than the bound.

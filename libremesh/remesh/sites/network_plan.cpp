@@ -117,10 +117,12 @@ void drop_shortest(const Surface& surface, const CurveNetwork& network, double s
 
 }  // namespace
 
-Index fewest_locked_vertices(const Surface& surface, double spacing, const LockedElements& locked) {
-    std::vector<std::uint8_t> is_crease(surface.num_edges(), 0);
+Index fewest_network_vertices(const Surface& surface, std::vector<std::uint8_t> is_crease,
+                              double spacing, const JunctionSet& junctions,
+                              const LockedElements& locked) {
     mark_locked(surface, locked, is_crease);
-    return fewest_vertices(find_network(surface, is_crease, spacing, {}, locked));
+    leave_out(junctions, is_crease);
+    return fewest_vertices(find_network(surface, is_crease, spacing, junctions, locked));
 }
 
 double length_of(const Surface& surface, std::span<const std::uint8_t> is_crease) {
@@ -147,11 +149,9 @@ NetworkPlan plan_network(const Surface& surface, std::vector<std::uint8_t> is_cr
         return needed;
     };
     if (!plan.junctions.empty()) {
-        std::vector<std::uint8_t> no_crease(surface.num_edges(), 0);
-        mark_locked(surface, plan.locked, no_crease);
-        const CurveNetwork bare =
-            find_network(surface, no_crease, spacing, plan.junctions, plan.locked);
-        plan.sites_for_junctions = fewest_vertices(bare);
+        plan.sites_for_junctions =
+            fewest_network_vertices(surface, std::vector<std::uint8_t>(surface.num_edges(), 0),
+                                    spacing, plan.junctions, plan.locked);
         if (plan.sites_for_junctions > num_vertices) plan.junctions = {};
         leave_out(plan.junctions, is_crease);
     }

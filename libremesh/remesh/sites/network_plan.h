@@ -39,9 +39,12 @@ struct NetworkPlan {
                                        const SizeField* sizes = nullptr,
                                        LockedElements locked = {});
 
-//! The fewest vertices of a network of boundary and what is locked. Cost: O(n).
-[[nodiscard]] Index fewest_locked_vertices(const Surface& surface, double spacing,
-                                           const LockedElements& locked);
+//! The fewest vertices of a network of boundary, junctions, what is locked, and these creases.
+//! \param is_crease  #E. Cost: O(n).
+[[nodiscard]] Index fewest_network_vertices(const Surface& surface,
+                                            std::vector<std::uint8_t> is_crease, double spacing,
+                                            const JunctionSet& junctions,
+                                            const LockedElements& locked);
 
 //! Whether an edge is marked.
 [[nodiscard]] inline bool has_creases(std::span<const std::uint8_t> is_crease) {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include <algorithm>
 #include <set>
@@ -110,6 +111,36 @@ TEST(Simplify, AFlatSquareGetsThePlanesDelaunayTriangulation) {
     }
     EXPECT_NEAR(area, 1, 1e-12);
     EXPECT_EQ(remesh::measure_triangles(mesh.view()).non_delaunay_edges, 0u);
+}
+
+// Vertices of the sides go whose faces no flip has changed yet, while those beside them have been.
+TEST(Simplify, AFlatStripWithDividedSidesIsNotFolded) {
+    const TriangleMesh strip{{{0, 0, 0}, {100, 0, 0}, {98, 3, 0}, {2, 3, 0}},
+                             {{0, 1, 2}, {0, 2, 3}}};
+    const Surface surface = build_surface(strip.view());
+    for (const Index n : {5u, 20u, 100u}) {
+        SCOPED_TRACE(n);
+        const double spacing = std::sqrt(294.0 / n);
+        const IntrinsicTriangulation base(surface,
+                                          {.max_length = 0.85 * spacing, .most_splits = 100'000});
+        std::vector<SurfacePoint> points{point_on(0, 0), point_on(1, 0), point_on(2, 0),
+                                         point_on(5, 0)};
+        const std::vector<SurfacePoint> inner = uniform_points(surface, n, 7);
+        points.insert(points.end(), inner.begin(), inner.end());
+        std::vector<Index> faces(base.surface().num_faces());
+        std::iota(faces.begin(), faces.end(), Index{0});
+        const SimplifiedMesh simplified =
+            simplify(base.surface(), faces, base.to_intrinsic(points));
+        EXPECT_TRUE(simplified.extra.empty());
+        const TriangleMesh mesh = drawn(surface, points, simplified);
+        double area = 0;
+        for (const Triangle& t : mesh.triangles) {
+            const Vec3 normal = doubled_normal(mesh.positions, t);
+            EXPECT_GT(normal.z(), 0);
+            area += normal.z() / 2;
+        }
+        EXPECT_NEAR(area, 294, 1e-9);
+    }
 }
 
 TEST(Simplify, PointsOnVerticesAreTheMeshItselfWhereTheseAreAll) {

@@ -132,6 +132,46 @@ TEST(MaxDistance, TooManyVerticesAreRefused) {
     EXPECT_THROW((void)remesh::remesh(shapes::sphere(2).view(), with_lengths), agvd::InvalidOption);
 }
 
+// A closed cylinder of n flat sides, their edges divided, in the middle of its caps a vertex.
+TriangleMesh faceted_cylinder(Index n, Index rows) {
+    TriangleMesh mesh;
+    for (Index row = 0; row <= rows; ++row) {
+        for (Index i = 0; i < n; ++i) {
+            const double turn = 2 * std::numbers::pi * i / n;
+            mesh.positions.emplace_back(std::cos(turn), std::sin(turn), 3.0 * row / rows);
+        }
+    }
+    mesh.positions.emplace_back(0, 0, 0);
+    mesh.positions.emplace_back(0, 0, 3);
+    const Index top = rows * n, low = top + n, high = low + 1;
+    for (Index i = 0; i < n; ++i) {
+        const Index next = (i + 1) % n;
+        for (Index a = 0; a < top; a += n) {
+            mesh.triangles.push_back({a + i, a + next, a + n + next});
+            mesh.triangles.push_back({a + i, a + n + next, a + n + i});
+        }
+        mesh.triangles.push_back({low, next, i});
+        mesh.triangles.push_back({high, top + i, top + next});
+    }
+    return mesh;
+}
+
+// A distance far below what edges of 5.6 degrees hide, and one of half of that: all vertices of the
+// outline are needed, and no others, however the sides are divided.
+TEST(MaxDistance, EdgesOfFacetsAreKeptWhereTheDistanceNeedsThem) {
+    const Index n = 64;
+    const double hidden = std::pow(std::numbers::pi / n, 2) / 2;
+    for (const Index rows : {1u, 20u}) {
+        const TriangleMesh input = faceted_cylinder(n, rows);
+        for (const double limit : {hidden / 2, hidden / 100}) {
+            SCOPED_TRACE(std::to_string(rows) + " rows, " + std::to_string(limit));
+            const RemeshResult result = remeshed(input, limit);
+            EXPECT_EQ(result.mesh.positions.size(), 2 * n);
+            EXPECT_LE(crease_checks::farthest_from_surface(input, result.mesh), 1e-9);
+        }
+    }
+}
+
 // Curvature alone would ask for one vertex or two.
 TEST(MaxDistance, FlatPartsGetWhatTopologyAndCurvesNeed) {
     TriangleMesh roof = shapes::grid(8);

@@ -479,6 +479,44 @@ TEST(Region, IntersectionsWithFacesThatStayCount) {
 
 class RegionOfRealMesh : public testing::TestWithParam<const char*> {};
 
+// The ring around the top of a box: strips of which each long side is one edge that stays.
+TEST(Region, ABevelRingIsNotFolded) {
+    TriangleMesh box;
+    for (const auto& [inset, z] : {std::pair{0., 0.}, {0., 18.}, {2., 20.}}) {
+        for (const auto& [x, y] : {std::pair{inset, inset},
+                                   {100 - inset, inset},
+                                   {100 - inset, 60 - inset},
+                                   {inset, 60 - inset}}) {
+            box.positions.emplace_back(x, y, z);
+        }
+    }
+    box.triangles = {{0, 2, 1}, {0, 3, 2}, {8, 9, 10}, {8, 10, 11}};
+    for (Index row = 0; row < 8; row += 4) {
+        for (Index k = 0; k < 4; ++k) {
+            const Index a = row + k, b = row + (k + 1) % 4;
+            box.triangles.push_back({a, b, b + 4});
+            box.triangles.push_back({a, b + 4, a + 4});
+        }
+    }
+    const Mask ring = mask_of(box, [](const Vec3& p) { return p.z() > 18 && p.z() < 20; });
+    for (const auto& [n, relax_steps] : {std::pair{20u, 60}, {100u, 60}, {400u, 0}}) {
+        SCOPED_TRACE(n);
+        const RemeshResult result = remesh::remesh(
+            box.view(),
+            {.num_samples = n, .region = ring, .relax_steps = relax_steps, .num_threads = 1});
+        EXPECT_EQ(result.self_intersections.value_or(0), 0u);
+        double area = 0;
+        for (auto f = static_cast<Index>(result.kept.faces.size());
+             f < result.mesh.triangles.size(); ++f) {
+            const Vec3 normal =
+                agvd::doubled_normal(result.mesh.positions, result.mesh.triangles[f]);
+            EXPECT_GT(normal.z(), 0);
+            area += normal.norm() / 2;
+        }
+        EXPECT_NEAR(area, 2 * std::numbers::sqrt2 * 2 * (98 + 58), 1e-6);
+    }
+}
+
 TEST_P(RegionOfRealMesh, HalfIsRemeshed) {
     const std::filesystem::path path = files::find_mesh(GetParam());
     if (!std::filesystem::exists(path)) {
