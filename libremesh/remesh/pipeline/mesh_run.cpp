@@ -70,7 +70,12 @@ public:
 
     RemeshResult run() {
         MadeMesh made = find_mesh();
-        if (may_shorten(options_)) shorten_edges(std::move(made));
+        if (!may_shorten(options_)) return std::move(result_);
+        shorten_edges(std::move(made));
+        if (options_.wrap && has_own_crossings(result_)) {
+            best_kept_.is_crease.assign(best_kept_.is_crease.size(), 0);
+            shorten_edges(run_shorter({}, {}));
+        }
         return std::move(result_);
     }
 
@@ -117,7 +122,7 @@ private:
         const double spacing = spacing_for(cleaned_, options_);
         // A crease left out costs distance. With a mean edge given, shorter edges between close
         // creases would make the others longer.
-        const bool refines = has_strips_ && may_shorten(options_) &&
+        const bool refines = has_strips_ && !options_.wrap && may_shorten(options_) &&
                              !std::holds_alternative<MeanEdge>(options_.sizing.count);
         const CloseCreases close = bound_ != nullptr ? CloseCreases::Stay
                                    : refines         ? CloseCreases::GoOrRefine
@@ -134,15 +139,16 @@ private:
     }
 
     // Other curves are for faces that still intersect, fewer ones only where there is no good mesh.
-    static bool is_worth_trying(Choice choice, const std::optional<RemeshResult>& best) {
+    [[nodiscard]] bool is_worth_trying(Choice choice,
+                                       const std::optional<RemeshResult>& best) const {
         switch (choice) {
             case Choice::Selected:
                 return true;
             case Choice::CloseToo:
-                return best && has_own_crossings(*best);
+                return best && has_own_crossings(*best) && !options_.wrap;
             case Choice::NoStrips:
             case Choice::None:
-                return !best || is_crushed(*best);
+                return !best || is_crushed(*best) || (options_.wrap && has_own_crossings(*best));
         }
         return false;
     }
@@ -178,11 +184,14 @@ private:
     // intersect. Keeps the best result.
     void shorten_edges(MadeMesh made) {
         // A rod that is narrower than the spacing gets shorter by some edges.
-        const std::vector<SurfacePoint> narrow =
-            has_lost_part(result_) ? std::move(made.narrow_points) : std::vector<SurfacePoint>();
+        const std::vector<SurfacePoint> narrow = has_lost_part(result_) || options_.wrap
+                                                     ? std::move(made.narrow_points)
+                                                     : std::vector<SurfacePoint>();
         double length = result_.verdict.spacing;
+        if (options_.wrap) found_.is_crease = best_kept_.is_crease;  // Others divide rods.
         std::vector<SizedPoint> points;
-        for (int round = 0; round < most_shortenings; ++round) {
+        // Wraps have collapses instead.
+        for (int round = 0; round < (options_.wrap ? 1 : most_shortenings); ++round) {
             const bool crosses = has_own_crossings(result_) && !is_crushed(result_);
             if (!crosses && (round > 0 || narrow.empty())) return;
             length /= 2;
@@ -204,7 +213,9 @@ private:
         result_.seconds = again.seconds;
         const Index crossings = num_more_crossings(again), before = num_more_crossings(result_);
         const bool is_nearer = again.verdict.largest_distance < result_.verdict.largest_distance;
-        if (made.has_mesh && (crossings < before || (crossings == before && is_nearer))) {
+        // Faces around rods of wraps are narrow.
+        const bool is_better = is_nearer || (options_.wrap && points.empty());
+        if (made.has_mesh && (crossings < before || (crossings == before && is_better))) {
             again.features.gave_up = result_.features.gave_up;
             again.features.samples_for_all = result_.features.samples_for_all;
             result_ = std::move(again);
@@ -230,6 +241,16 @@ RemeshResult run_after_cleaning(const CleanedInput& cleaned, RemeshResult after_
                                 const RemeshOptions& options, std::span<const SizedPoint> lengths,
                                 const DistanceBound* bound) {
     return MeshRun(cleaned, std::move(after_cleaning), options, lengths, bound).run();
+}
+
+RemeshResult run_by_collapses(const CleanedInput& cleaned, RemeshResult before,
+                              const RemeshOptions& options) {
+    InputCrossings of_input;
+    RemeshResult result = before;
+    const MadeMesh made = mesh_with_curves(cleaned, {}, {.has_junctions = false}, nullptr, nullptr,
+                                           of_input, {options, result}, Vertices::Surface);
+    return made.has_mesh && num_more_crossings(result) < num_more_crossings(before) ? result
+                                                                                    : before;
 }
 
 void require_mesh(const CleanedInput& cleaned, RemeshResult after_cleaning,

@@ -105,7 +105,6 @@ private:
 
 RemeshOptions options_of_wrap(const RemeshOptions& given, const Wrapper& wrapper) {
     RemeshOptions options = given;
-    options.wrap.reset();
     options.texture_seams.clear();
     wrapper.carry_to_faces(options.face_labels);
     auto& edges = options.sizing.edges;
