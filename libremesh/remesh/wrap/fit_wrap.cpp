@@ -27,8 +27,8 @@ constexpr int most_rounds = 3;
 constexpr double tolerance_share = 1.0 / 40;
 // Points so near each other, or to a plane, are one, or lie on it.
 constexpr double same_share = 1e-5;
-// Of their distance from sheets, vertices keep this share: less, and a coarse mesh of a curved sheet
-// has no room for its two sides.
+// Of their distance from sheets, vertices keep this share: less, and a coarse mesh of a curved
+// sheet has no room for its two sides.
 constexpr double sheet_share = 0.5;
 // No crease is looked for farther away: where faces meet at 40 degrees balls stay as far from it.
 constexpr double most_reach = 2;
