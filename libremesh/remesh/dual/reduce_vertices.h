@@ -9,8 +9,7 @@
 
 #include "agvd/core/progress.h"
 #include "agvd/intrinsic/simplify.h"
-#include "agvd/mesh/mesh.h"
-#include "remesh/names.h"
+#include "remesh/dual/fan_mesh.h"
 
 namespace remesh {
 
@@ -29,10 +28,6 @@ namespace remesh {
                                                  std::vector<Triangle>& triangles, Index target,
                                                  std::span<const std::uint8_t> keep = {},
                                                  const Progress& progress = {});
-
-namespace detail {
-class FanMesh;
-}
 
 //! The same, but the caller does the collapses, and may refuse some.
 //! \param collapse  collapse(gone, into) edits `mesh` so, and gives true; or does nothing.

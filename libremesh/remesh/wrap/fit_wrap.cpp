@@ -87,7 +87,6 @@ private:
         for (int round = 0; round < most_rounds && split_at_creases(); ++round) {
         }
         collapse_short_edges();
-        add_corners();
         straighten();
         add_corners();
         for (int round = 0; round < most_rounds && split_far_edges(); ++round) {
