@@ -92,7 +92,6 @@ private:
         for (int round = 0; round < most_rounds && split_far_edges(); ++round) {
         }
         straighten();
-        collapse_short_edges();
     }
 
     struct Edge {
@@ -435,9 +434,7 @@ private:
         for (Index h = 0; h < 3 * mesh_->num_faces(); ++h) {
             if (!mesh_->face(h / 3).is_there || mesh_->length(h) > least) continue;
             const Index a = mesh_->tail(h), b = mesh_->head(h);
-            if (!collapse(a, b) && !collapse(b, a)) {
-                mesh_.move(a, (at(a) + vertices_[a].outside) / 2);
-            }
+            if (!collapse(a, b)) collapse(b, a);
         }
     }
     bool collapse(Index gone, Index into) {
