@@ -165,6 +165,45 @@ TriangleMesh random_soup(Index vertices, Index faces, std::uint64_t seed) {
     return mesh;
 }
 
+TriangleMesh dirty_solids(std::uint64_t seed) {
+    Dice dice(seed);
+    const auto vector = [&](double size) {
+        return Vec3(dice.number(-size, size), dice.number(-size, size), dice.number(-size, size));
+    };
+    const auto size = [&] { return dice.magnitude(0.05, 1); };
+    TriangleMesh soup;
+    for (Index parts = dice.count(1, 8); parts > 0; --parts) {
+        TriangleMesh part;
+        switch (dice.count(0, 3)) {
+            case 0:
+                part = sphere(static_cast<int>(dice.count(0, 2)));
+                break;
+            case 1:
+                part = grid(dice.count(1, 3));
+                break;
+            case 2:
+                for (Index i = dice.count(1, 5); i > 0; --i) {  // Needles.
+                    const Vec3 from = vector(1), to = vector(1);
+                    const Vec3 beside = to + vector(dice.magnitude(1e-9, 1e-2));
+                    part = join(part, {{from, to, beside}, {{0, 1, 2}}});
+                }
+                break;
+            default:
+                part = cube();
+        }
+        if (dice.one_in(3)) part = jitter(unweld(part), dice.magnitude(1e-6, 1e-2), seed);
+        const Vec3 scale(size(), size(), size()), axis = vector(1), middle = vector(1);
+        const bool is_turned = dice.one_in(2);  // Else boxes may have planes in common.
+        const Eigen::AngleAxisd turn(is_turned ? dice.number(0, 3) : 0, axis.normalized());
+        for (Vec3& p : part.positions) p = turn * p.cwiseProduct(scale) + middle;
+        soup = join(soup, dice.one_in(6) ? join(part, part) : part);
+    }
+    for (agvd::Triangle& t : soup.triangles) {
+        if (dice.one_in(50)) std::swap(t[0], t[1]);
+    }
+    return soup;
+}
+
 TriangleMesh spiked(std::uint64_t seed, agvd::Index most) {
     TriangleMesh mesh = subdivide(cube());
     mesh.triangles.resize(mesh.triangles.size() * 3 / 4);

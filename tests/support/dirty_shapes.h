@@ -34,6 +34,10 @@ namespace shapes {
 [[nodiscard]] agvd::TriangleMesh random_soup(agvd::Index vertices, agvd::Index faces,
                                              std::uint64_t seed);
 
+//! A soup of up to 2000 faces, most of them of closed solids: boxes and balls that cross, planes,
+//! needles, loose faces with gaps, faces twice and turned over.
+[[nodiscard]] agvd::TriangleMesh dirty_solids(std::uint64_t seed);
+
 //! Three quarters of a cube of 48 faces, some of its coordinates times up to 10^most: spikes. With
 //! 17 their width is a rounding of their length.
 [[nodiscard]] agvd::TriangleMesh spiked(std::uint64_t seed, agvd::Index most = 17);

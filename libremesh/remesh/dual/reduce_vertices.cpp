@@ -54,11 +54,14 @@ std::vector<Index> ring_of(const FanMesh& mesh, Index v) {
 
 class Reducer {
 public:
-    Reducer(std::span<const Vec3> positions, FanMesh& mesh, std::span<const std::uint8_t> keep,
-            Ticker ticker)
+    using DoCollapse = std::function<bool(Index, Index)>;
+
+    Reducer(std::span<const Vec3> positions, const FanMesh& mesh,
+            std::span<const std::uint8_t> keep, const DoCollapse& collapse, Ticker ticker)
         : ticker_(ticker),
           positions_(positions),
           mesh_(mesh),
+          collapse_(collapse),
           keep_(keep),
           stamp_(positions.size(), 0) {
         for (Index v = 0; v < mesh.num_vertices(); ++v) {
@@ -83,14 +86,19 @@ private:
             const Collapse next = queue_.top();
             queue_.pop();
             if (next.stamp != stamp_[next.gone] || mesh_.faces_at(next.gone).empty()) continue;
-            apply(next);
+            if (!collapse_(next.gone, next.into)) {
+                judge(next.gone, {next.cost, next.into});
+                continue;
+            }
+            for (const Index w : ring_of(mesh_, next.into)) judge(w);
+            judge(next.into);
             gone_.push_back(next.gone);
             --num_vertices_;
         }
     }
 
-    // Queues the shortest collapse of v that is allowed.
-    void judge(Index v) {
+    // Queues the shortest collapse of v that is allowed, of those after one.
+    void judge(Index v, const std::pair<double, Index>& after = {-1, 0}) {
         ++stamp_[v];
         if (mesh_.faces_at(v).empty()) return;
         if (!keep_.empty() && keep_[v] != 0 && !demands_.releases_kept) return;
@@ -104,6 +112,7 @@ private:
         }
         std::sort(ends.begin(), ends.end());
         for (const auto& [square, w] : ends) {
+            if (std::pair(square, w) <= after) continue;
             if (!mesh_.can_collapse(v, w) || !keeps_shape(v, w)) continue;
             queue_.push({square, v, w, stamp_[v]});
             return;
@@ -135,16 +144,10 @@ private:
         return 2 / std::numbers::sqrt3 * twice_area / longest;
     }
 
-    void apply(const Collapse& collapse) {
-        mesh_.collapse(collapse.gone, collapse.into);
-        mesh_.forget();
-        for (const Index w : ring_of(mesh_, collapse.into)) judge(w);
-        judge(collapse.into);
-    }
-
     Ticker ticker_;
     std::span<const Vec3> positions_;
-    FanMesh& mesh_;
+    const FanMesh& mesh_;
+    const DoCollapse& collapse_;
     std::span<const std::uint8_t> keep_;
     std::vector<std::uint32_t> stamp_;
     Index num_vertices_ = 0;
@@ -188,9 +191,20 @@ std::vector<Index> reduce_vertices(std::span<const Vec3> positions,
                                    std::span<const std::uint8_t> keep, const Progress& progress) {
     Poller poller(progress);
     FanMesh mesh(triangles, static_cast<Index>(positions.size()), Ticker(poller));
-    std::vector<Index> gone = Reducer(positions, mesh, keep, Ticker(poller)).run(target);
+    const Reducer::DoCollapse collapse = [&](Index vertex, Index into) {
+        mesh.collapse(vertex, into);
+        mesh.forget();
+        return true;
+    };
+    std::vector<Index> gone = Reducer(positions, mesh, keep, collapse, Ticker(poller)).run(target);
     triangles = mesh.triangles();
     return gone;
+}
+
+void reduce_vertices(std::span<const Vec3> positions, const FanMesh& mesh, Index target,
+                     const std::function<bool(Index, Index)>& collapse, const Progress& progress) {
+    Poller poller(progress);
+    (void)Reducer(positions, mesh, {}, collapse, Ticker(poller)).run(target);
 }
 
 SimplifiedMesh simplify_patch(const Surface& surface, std::span<const Index> faces,

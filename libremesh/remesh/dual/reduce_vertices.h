@@ -4,12 +4,12 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 
 #include "agvd/core/progress.h"
 #include "agvd/intrinsic/simplify.h"
-#include "agvd/mesh/mesh.h"
-#include "remesh/names.h"
+#include "remesh/dual/fan_mesh.h"
 
 namespace remesh {
 
@@ -28,6 +28,12 @@ namespace remesh {
                                                  std::vector<Triangle>& triangles, Index target,
                                                  std::span<const std::uint8_t> keep = {},
                                                  const Progress& progress = {});
+
+//! The same, but the caller does the collapses, and may refuse some.
+//! \param collapse  collapse(gone, into) edits `mesh` so, and gives true; or does nothing.
+void reduce_vertices(std::span<const Vec3> positions, const detail::FanMesh& mesh, Index target,
+                     const std::function<bool(Index, Index)>& collapse,
+                     const Progress& progress = {});
 
 //! Applies simplify(), then removes as many of the extra vertices that it leaves as can be removed
 //! by collapses, and by flips of edges that are in their way. On a curve no patch may have a vertex

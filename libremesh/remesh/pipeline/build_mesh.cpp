@@ -5,6 +5,7 @@
 
 #include "agvd/mesh/any_mesh.h"
 #include "agvd/mesh/surface_points.h"
+#include "remesh/dual/reduce_vertices.h"
 #include "remesh/pipeline/crossings.h"
 #include "remesh/pipeline/domain.h"
 #include "remesh/pipeline/dual_mesh.h"
@@ -13,12 +14,15 @@
 #include "remesh/pipeline/place_sites.h"
 #include "remesh/pipeline/promises.h"
 #include "remesh/pipeline/stage_context.h"
+#include "remesh/wrap/guarded_mesh.h"
 
 namespace remesh::detail {
 namespace {
 
 // Degrees. Triangles with other angles are worth some distance from the surface.
 constexpr double aimed_min_angle = 15, aimed_max_angle = 150;
+// A wrap is as far from its input as that costs.
+constexpr double aimed_min_angle_of_wraps = 30;
 // Rounds in which creases give way.
 constexpr int most_freeings = 2;
 
@@ -106,6 +110,26 @@ bool place_mesh(Domain& domain, const PlacedSites& sites, BuiltMesh& built,
     return true;
 }
 
+BuiltMesh mesh_by_collapses(const CurvedSurface& curved, const StageContext& context) {
+    const auto& [options, result] = context;
+    const StageClock clock(Stage::Dual, result);
+    const TriangleMesh& surface = curved.whole->mesh;
+    GuardedMesh mesh(surface);
+    reduce_vertices(
+        surface.positions, *mesh, options.num_samples,
+        [&](Index gone, Index into) {
+            return mesh.edit([&](SpaceMesh& edited) { edited.collapse(gone, into); });
+        },
+        progress_of(Stage::Dual, options));
+    BuiltMesh built{.mesh = {{}, {}, mesh->triangles()}, .num_wanted = options.num_samples};
+    for (const Index v : drop_unused(mesh->num_vertices(), built.mesh.triangles)) {
+        built.mesh.points.push_back(point_at(*curved.whole, v));
+    }
+    built.num_vertices = static_cast<Index>(built.mesh.points.size());
+    built.mesh.offsets.assign(built.num_vertices, Vec3::Zero());
+    return built;
+}
+
 void finish_mesh(const CurvedSurface& curved, InputCrossings& of_input, const StageContext& context,
                  BuiltMesh& built) {
     CrossingFinder finder(curved, of_input, context);
@@ -123,7 +147,8 @@ void finish_mesh(const CurvedSurface& curved, InputCrossings& of_input, const St
     }
     const ShapeBounds& bounds = context.options.bounds;
     if ((context.result.tiles == 0 || bounds.has_any()) && is_improvable(curved, context.options)) {
-        const ShapeBounds aims = with_aims(bounds);
+        ShapeBounds aims = with_aims(bounds);
+        if (context.options.wrap) aims.min_angle = aimed_min_angle_of_wraps;
         improve(curved, finder, built.mesh, crossings, context, &aims);
     }
     if (crossings) take_crossings(*crossings, built);

@@ -32,6 +32,10 @@ struct BuiltMesh {
 [[nodiscard]] bool place_mesh(Domain& domain, const PlacedSites& sites, BuiltMesh& built,
                               const StageContext& context);
 
+//! A mesh of the surface's vertices that are left when the others are gone by collapses of edges,
+//! shortest first. None adds an intersection. Cost: O(n log n).
+[[nodiscard]] BuiltMesh mesh_by_collapses(const CurvedSurface& curved, const StageContext& context);
+
 //! Moves vertices of triangles that intersect back onto the surface, improves narrow triangles, and
 //! brings the mesh within the bounds and the distance asked for, if that may be.
 //! \param of_input  searched if the mesh intersects itself.

@@ -24,6 +24,9 @@ namespace {
 constexpr std::size_t least_scale = 300;
 // In spacings. Cells would have to bend around shorter junctions.
 constexpr double least_junction = 2;
+// In spacings: as if the sites were so far apart, creases of wraps are too close to each other.
+// Thin walls are what is wrapped most, and two creases along one force narrow faces between them.
+constexpr double scale_of_wraps = 2;
 // In spacings: given sites this near to a curve are put onto it if sites are relaxed.
 constexpr double on_curve = 0.1;
 // In spacings: shorter spokes of poles are no seams of the result, as they are close to each other.
@@ -63,7 +66,7 @@ void find_all_creases(const CleanedInput& cleaned, double spacing, CloseCreases 
         return;
     }
     found.is_close = found.is_crease;
-    found.strips = select_creases(surface, spacing,
+    found.strips = select_creases(surface, (options.wrap ? scale_of_wraps : 1) * spacing,
                                   close == CloseCreases::GoOrRefine ? options.num_samples : 0,
                                   found.is_given, options.num_threads, progress, found.is_crease);
     for (Index e = 0; e < found.is_crease.size(); ++e) found.is_close[e] ^= found.is_crease[e];

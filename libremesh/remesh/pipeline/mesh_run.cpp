@@ -92,9 +92,9 @@ private:
     void find_lengths() {
         const double spacing = spacing_for(cleaned_, options_);
         // A crease left out costs distance. With a mean edge given, shorter edges between close
-        // creases would make the others longer.
-        const bool refines =
-            may_shorten(options_) && !std::holds_alternative<MeanEdge>(options_.sizing.count);
+        // creases would make the others longer. Close creases of wraps are those of thin walls.
+        const bool refines = may_shorten(options_) && !options_.wrap &&
+                             !std::holds_alternative<MeanEdge>(options_.sizing.count);
         const CloseCreases close = bound_ != nullptr ? CloseCreases::Stay
                                    : refines         ? CloseCreases::GoOrRefine
                                                      : CloseCreases::Go;
@@ -120,13 +120,14 @@ private:
     }
 
     // Runs once more where faces intersect and creases were left out, which may keep walls apart,
-    // and where the result does not reach a narrow part, with shorter edges there. Keeps the better
-    // result.
+    // and where the result does not reach a narrow part, with shorter edges there; in wraps, which
+    // have other means against intersections, on all narrow parts. Keeps the better result.
     void mend(RemeshResult again, const MadeMesh& made, KeptCurves kept) {
+        const bool is_wrap = options_.wrap.has_value();
         const bool adds_creases = has_own_crossings(result_) && !result_.features.gave_up &&
-                                  std::ranges::count(found_.is_close, 1) > 0;
-        const bool is_lost =
-            has_lost_part(result_) && may_shorten(options_) && !made.narrow_points.empty();
+                                  !is_wrap && std::ranges::count(found_.is_close, 1) > 0;
+        const bool is_lost = (has_lost_part(result_) || is_wrap) && may_shorten(options_) &&
+                             !made.narrow_points.empty();
         if (!adds_creases && !is_lost) return;
         for (Index e = 0; adds_creases && e < found_.is_close.size(); ++e) {
             kept.is_crease[e] |= found_.is_close[e];
@@ -140,10 +141,12 @@ private:
         }
         const bool has_mesh = try_curves(kept, options, again).has_mesh;
         // Close creases leave needles between them: they are worth it if no faces intersect.
-        const bool is_better =
-            adds_creases ? again.new_self_intersections == 0
-                         : num_more_crossings(again) <= num_more_crossings(result_) &&
-                               again.verdict.largest_distance < result_.verdict.largest_distance;
+        const Index crossings = num_more_crossings(again), before = num_more_crossings(result_);
+        const bool is_nearer =
+            is_wrap || again.verdict.largest_distance < result_.verdict.largest_distance;
+        const bool is_better = adds_creases
+                                   ? again.new_self_intersections == 0
+                                   : crossings < before || (crossings == before && is_nearer);
         if (!has_mesh || !is_better) return;
         again.features.gave_up = result_.features.gave_up;
         again.features.samples_for_all =
@@ -168,6 +171,16 @@ RemeshResult run_after_cleaning(const CleanedInput& cleaned, RemeshResult after_
                                 const RemeshOptions& options, std::span<const SizedPoint> lengths,
                                 const DistanceBound* bound) {
     return MeshRun(cleaned, std::move(after_cleaning), options, lengths, bound).run();
+}
+
+RemeshResult run_by_collapses(const CleanedInput& cleaned, RemeshResult before,
+                              const RemeshOptions& options) {
+    InputCrossings of_input;
+    RemeshResult result = before;
+    const MadeMesh made = mesh_with_curves(cleaned, {}, {.has_junctions = false}, nullptr, nullptr,
+                                           of_input, {options, result}, Vertices::Surface);
+    const bool is_better = made.has_mesh && num_more_crossings(result) < num_more_crossings(before);
+    return is_better ? result : before;
 }
 
 }  // namespace remesh::detail

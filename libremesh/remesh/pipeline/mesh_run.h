@@ -31,4 +31,9 @@ struct TooFewSamples {
                                               std::span<const SizedPoint> lengths,
                                               const DistanceBound* bound);
 
+//! A mesh without curves of vertices of the input (Vertices::Surface).
+//! \param before  of that run. \return the result; `before` if it has no more intersections.
+[[nodiscard]] RemeshResult run_by_collapses(const CleanedInput& cleaned, RemeshResult before,
+                                            const RemeshOptions& options);
+
 }  // namespace remesh::detail

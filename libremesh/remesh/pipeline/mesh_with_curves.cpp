@@ -96,7 +96,7 @@ bool check_mesh(const CleanedInput& cleaned, const CurvedSurface& curved,
 MadeMesh mesh_with_curves(const CleanedInput& cleaned, const FoundCurves& found,
                           const KeptCurves& kept, const SizeField* sizes,
                           const DistanceBound* bound, InputCrossings& of_input,
-                          const StageContext& context) {
+                          const StageContext& context, Vertices vertices) {
     const auto& [options, result] = context;
     const double spacing = spacing_for(cleaned, options);
     std::unique_ptr<const CurvePlan> plan =
@@ -122,7 +122,12 @@ MadeMesh mesh_with_curves(const CleanedInput& cleaned, const FoundCurves& found,
         return check_mesh(cleaned, surface, chain, built, context);
     };
     bool has_mesh = false;
-    if (is_tiled(curved, options)) {
+    if (vertices == Vertices::Surface) {
+        built = mesh_by_collapses(curved, context);
+        finish_mesh(curved, of_input, context, built);
+        has_mesh = is_right(curved, {});
+        if (!has_mesh) return {.num_needed = built.num_vertices};
+    } else if (is_tiled(curved, options)) {
         const FeatureCounts planned = result.features;
         if (std::optional<TileMesh> tiled = mesh_in_tiles(curved, context)) {
             built.num_wanted = options.num_samples;

@@ -21,6 +21,13 @@ struct MadeMesh {
     std::vector<SurfacePoint> crossing_corners = {};  //!< See BuiltMesh.
 };
 
+//! Where the vertices of a mesh come from.
+enum class Vertices {
+    Sites,
+    Surface  //!< They are some of the surface's, and no collapse that leads there adds an
+             //!< intersection.
+};
+
 //! Runs all stages from the network of curves on, and sets what they give in the result of the
 //! context. Checks that the mesh has the topology of the input, and the vertex count that was asked
 //! for.
@@ -32,7 +39,8 @@ struct MadeMesh {
 [[nodiscard]] MadeMesh mesh_with_curves(const CleanedInput& cleaned, const FoundCurves& found,
                                         const KeptCurves& kept, const SizeField* sizes,
                                         const DistanceBound* bound, InputCrossings& of_input,
-                                        const StageContext& context);
+                                        const StageContext& context,
+                                        Vertices vertices = Vertices::Sites);
 
 //! The mean distance of the sites that the options ask for, mesh units.
 [[nodiscard]] inline double spacing_for(const CleanedInput& cleaned, const RemeshOptions& options) {

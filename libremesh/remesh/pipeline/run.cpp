@@ -173,6 +173,10 @@ RemeshResult run_stages(const InputMesh& input, const RemeshOptions& given) {
         const auto* distance = std::get_if<MaxDistance>(&options.sizing.count);
         result = distance != nullptr ? meet_distance(cleaned, options, distance->distance, run)
                                      : run(options, {}, nullptr);
+        // The wrap does not intersect itself, and so its remesh must not.
+        if (options.wrap && result.self_intersections.value_or(0) > 0) {
+            result = run_by_collapses(cleaned, std::move(result), options);
+        }
         if (const auto length = corrected_edge_length(result.sizing.mean_edge, options)) {
             options.sizing.count = MeanEdge{*length};
             options.num_samples = sample_count(cleaned, options);

@@ -44,10 +44,13 @@ public:
     Wrapper(const MeshView& mesh, const RemeshOptions& options)
         : mesh_(mesh), progress_(cleaned_progress(options)), tree_(mesh, progress_) {
         // Balls of half the spacing do not know yet how much of the mesh lies inside.
-        const double area = area_of(mesh);
+        // Of needles, which have hardly an area, the vertices would lie along the diagonal.
+        const MeshBox box = box_of(mesh, options.num_threads);
+        const double least = (box.high - box.low).squaredNorm() / options.num_samples;
+        const double area = std::max(area_of(mesh), least);
         radius_ = *options.wrap > 0 ? *options.wrap : spacing_for(area, options) / 2;
         TriangleMesh wrap = alpha_wrap(mesh, radius_, progress_);
-        const double smaller = spacing_for(std::min(area, area_of(wrap)), options) / 2;
+        const double smaller = spacing_for(std::clamp(area_of(wrap), least, area), options) / 2;
         if (*options.wrap == 0 && smaller < most_excess * radius_) {
             radius_ = smaller;
             wrap = alpha_wrap(mesh, radius_, progress_);
@@ -105,7 +108,6 @@ private:
 
 RemeshOptions options_of_wrap(const RemeshOptions& given, const Wrapper& wrapper) {
     RemeshOptions options = given;
-    options.wrap.reset();
     options.texture_seams.clear();
     wrapper.carry_to_faces(options.face_labels);
     auto& edges = options.sizing.edges;

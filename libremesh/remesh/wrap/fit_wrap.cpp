@@ -27,6 +27,9 @@ constexpr int most_rounds = 3;
 constexpr double tolerance_share = 1.0 / 40;
 // Points so near each other, or to a plane, are one, or lie on it.
 constexpr double same_share = 1e-5;
+// Of their distance from sheets, vertices keep this share: less, and a coarse mesh of a curved
+// sheet has no room for its two sides.
+constexpr double sheet_share = 0.5;
 // No crease is looked for farther away: where faces meet at 40 degrees balls stay as far from it.
 constexpr double most_reach = 2;
 // Cosines of 20, 165 and 40 degrees. Faces that meet at a smaller angle, or fold back, make no
@@ -52,7 +55,7 @@ struct FitVertex {
     Vec3 outside;
     Foot foot;
     bool is_sharp = false;  // On a crease.
-    bool stays = false;     // Outside, as it is on a sheet, or faces would intersect.
+    bool stays = false;     // Off the input, as it is on a sheet, or faces would intersect.
 };
 
 class WrapFitter {
@@ -84,7 +87,6 @@ private:
         for (int round = 0; round < most_rounds && split_at_creases(); ++round) {
         }
         collapse_short_edges();
-        add_corners();
         straighten();
         add_corners();
         for (int round = 0; round < most_rounds && split_far_edges(); ++round) {
@@ -134,6 +136,10 @@ private:
         }
         for (int round = 0; round < most_rounds && !waiting.empty(); ++round) {
             std::erase_if(waiting, [&](Index v) { return mesh_.move(v, vertices_[v].foot.point); });
+        }
+        for (Index v = 0; v < vertices_.size(); ++v) {
+            const Vec3& foot = vertices_[v].foot.point;
+            if (vertices_[v].stays) mesh_.move(v, foot + sheet_share * (at(v) - foot));
         }
         for (const Index v : waiting) vertices_[v].stays = true;
     }

@@ -10,13 +10,8 @@
 namespace remesh::detail {
 
 //! Triangles with positions, whose edits can be undone.
-class SpaceMesh : private FanMesh {
+class SpaceMesh : public FanMesh {
 public:
-    using FanMesh::apex, FanMesh::can_collapse, FanMesh::can_flip, FanMesh::changed_since,
-        FanMesh::collapse, FanMesh::face, FanMesh::faces_at, FanMesh::flip, FanMesh::half_edge,
-        FanMesh::has_corner, FanMesh::head, FanMesh::num_faces, FanMesh::num_vertices,
-        FanMesh::tail, FanMesh::triangles, FanMesh::twin;
-
     //! A state to which edits can be undone.
     struct Mark : FanMesh::Mark {
         std::size_t moves = 0;

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <string>
 
 #include "agvd/core/error.h"
@@ -94,7 +95,7 @@ TEST(Wrap, ASheetGetsTwoSides) {
     const FittedWrap wrap = wrapped(shapes::grid(2), radius);
     expect_solid(wrap.mesh, 1);
     EXPECT_GT(wrap.sheets, 0.99);
-    EXPECT_NEAR(shapes::signed_volume(wrap.mesh), 2 * remesh::detail::wrap_offset * radius, 0.01);
+    EXPECT_NEAR(shapes::signed_volume(wrap.mesh), remesh::detail::wrap_offset * radius, 0.004);
 }
 
 TEST(Wrap, HolesBelowTwoRadiiAreClosed) {
@@ -129,6 +130,40 @@ TEST(Wrap, ARunGivesOneSolidOfASoupWithLabelsOfItsOuterFaces) {
         EXPECT_NEAR(result.mesh.positions[v].norm(), 1, 0.02);
     }
     EXPECT_EQ(result.self_intersections, 0u);
+}
+
+TEST(Wrap, NoResultCrossesItselfHoweverFewItsVertices) {
+    if (!can_wrap()) GTEST_SKIP() << "needs CGAL";
+    // Crossed rods and a folded sheet, all thinner than the edges.
+    TriangleMesh lattice = shapes::jitter(shapes::grid(4), 0.2, 3);
+    for (int i = 0; i < 4; ++i) {
+        const double at = 0.3 * i;
+        lattice = shapes::join(lattice, box({at, -0.1, -0.5}, {at + 0.03, 1.1, -0.47}));
+        lattice = shapes::join(lattice, box({-0.1, at, -0.48}, {1.1, at + 0.03, -0.45}));
+    }
+    for (const Index num_samples : {150, 400}) {
+        const RemeshResult result =
+            remesh::remesh(lattice, {.num_samples = num_samples, .wrap = 0});
+        expect_solid(result.mesh, agvd::analyze_topology(result.mesh).components.size());
+        EXPECT_EQ(result.mesh.positions.size(), num_samples);
+        EXPECT_EQ(result.self_intersections, 0u);
+    }
+}
+
+TEST(Wrap, AnySoupBecomesSolids) {
+    if (!can_wrap()) GTEST_SKIP() << "needs CGAL";
+    const std::uint64_t num_seeds = std::getenv("AGVD_LONG") != nullptr ? 1000 : 12;
+    for (std::uint64_t seed = 1; seed <= num_seeds; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        const TriangleMesh soup = shapes::dirty_solids(seed);
+        const RemeshResult result = remesh::remesh(soup, {.num_samples = 400, .wrap = 0});
+        expect_solid(result.mesh, agvd::analyze_topology(result.mesh).components.size());
+        // Vertices lie on the soup, or as far from it as its holes are wide.
+        const agvd::ClosestPointTree tree(soup);
+        for (const Vec3& p : result.mesh.positions) {
+            EXPECT_TRUE(tree.is_within(p, 3 * result.wrapped.radius));
+        }
+    }
 }
 
 TEST(Wrap, ScalesWithTheMesh) {
