@@ -111,6 +111,7 @@ constexpr Index hinges_per_task = 256;
 constexpr double most_bend = 1.0 / 16;
 // This share of the distance counts as lost: half an angle is more than its sine.
 constexpr double least_lost = 0.9;
+constexpr double shortest_leg = 0.1;  // In heights of the lower face.
 
 // The end of the way from the middle of an edge over the face of a half-edge and on, at most so
 // long, as far as the surface is straight.
@@ -180,11 +181,14 @@ std::vector<std::uint8_t> find_hinges(const Surface& surface, double spacing, do
     const double bend = most_bend * distance;
     std::vector<std::uint8_t> is_hinge(surface.num_edges(), 0);
     const auto look_at = [&](Index e) {
-        const double leg = 2 * distance / angles[e];  // Loses the distance, at least.
-        if (!(angles[e] > 0 && leg <= longest)) return;
-        const Index h = surface.edge_half[e];
+        if (!(angles[e] > 0 && 2 * distance <= longest * angles[e])) return;
+        const Index h = surface.edge_half[e], twin = surface.twin[h];
+        // It loses the distance at least. Rounding keeps the ends of shorter legs off the edge.
+        const double leg =
+            std::max(2 * distance / angles[e],
+                     shortest_leg * std::min(surface.apex[h].y(), surface.apex[twin].y()));
         const Vec3 a = straight_end(surface, h, leg, bend);
-        const Vec3 b = straight_end(surface, surface.twin[h], leg, bend);
+        const Vec3 b = straight_end(surface, twin, leg, bend);
         const Vec3 middle = position(surface.mesh.view(), point_on(h, 0.5));
         is_hinge[e] = distance_to_segment(middle, a, b) > least_lost * distance;
     };
