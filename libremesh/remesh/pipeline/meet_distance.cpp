@@ -22,8 +22,7 @@ namespace {
 constexpr Index samples_per_surface = 100'000;
 constexpr Index query_grain = 1024;
 constexpr int max_rounds = 16;
-// Where a mesh of the input's edges takes so many times its vertices, rounding keeps it from being
-// proved.
+// A mesh of the input's edges that takes so many times their vertices is none.
 constexpr Index most_growth = 4;
 
 using Corners = std::array<Vec3, 3>;
@@ -137,8 +136,7 @@ private:
     MeasuredDistance farthest_;
 };
 
-// Edges without which this share of the distance is lost count as creases: meshes with those that
-// lose all of it were too far away beside others.
+// Edges that lose this share of the distance count: beside others, more were too far away.
 constexpr double hinge_share = 0.25;
 // As a share of the size: below, rounding keeps even equal meshes from being proved.
 constexpr double provable_size = 1e-10;
