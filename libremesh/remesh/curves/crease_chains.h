@@ -136,8 +136,7 @@ namespace remesh {
 //! that is fine for the distance are such.
 //! \param spacing   of the sites, mesh units: see find_creases.
 //! \param distance  mesh units, > 0.
-//! \return #E: 1 for these edges.
-//! Cost: for each edge that of the faces along these legs, which end where the surface bends.
+//! \return #E. Cost: for each edge that of the faces up to where the surface bends.
 [[nodiscard]] std::vector<std::uint8_t> find_hinges(const Surface& surface, double spacing,
                                                     double distance, int num_threads,
                                                     const Progress& progress);

@@ -104,13 +104,12 @@ detail::PruningRules pruning_rules(double spacing, const Noise& noise) {
             .least_density = between(&NetworkRule::least_density)};
 }
 
-constexpr Index hinges_per_task = 256;
-// Beside a hinge the surface counts as straight up to where the middle of the way is farther from
-// its chord than this share of the distance. A round surface that is meshed finely for the distance
-// then loses a quarter of it.
+// The surface beside an edge is straight as long as the middle of the way is nearer to its chord
+// than this share of the distance. A round one, meshed finely, then loses a quarter of that.
 constexpr double most_bend = 1.0 / 16;
 // This share of the distance counts as lost: half an angle is more than its sine.
 constexpr double least_lost = 0.9;
+constexpr double shortest_leg = 0.1;  // In heights of the lower face.
 
 // The end of the way from the middle of an edge over the face of a half-edge and on, at most so
 // long, as far as the surface is straight.
@@ -175,20 +174,22 @@ std::vector<std::uint8_t> find_hinges(const Surface& surface, double spacing, do
     Poller poller(progress);
     const std::vector<double> angles =
         detail::edge_angles(surface, narrow * spacing, num_threads, poller);
-    const MeshBox box = box_of(surface.mesh.view(), num_threads);
-    const double longest = (box.high - box.low).norm() / 2;
+    const double longest = box_of(surface.mesh.view(), num_threads).longest_side();
     const double bend = most_bend * distance;
     std::vector<std::uint8_t> is_hinge(surface.num_edges(), 0);
     const auto look_at = [&](Index e) {
-        const double leg = 2 * distance / angles[e];  // Loses the distance, at least.
-        if (!(angles[e] > 0 && leg <= longest)) return;
-        const Index h = surface.edge_half[e];
+        if (!(angles[e] > 0 && 2 * distance <= longest * angles[e])) return;
+        const Index h = surface.edge_half[e], twin = surface.twin[h];
+        // It loses the distance at least. Rounding keeps the ends of shorter legs off the edge.
+        const double leg =
+            std::max(2 * distance / angles[e],
+                     shortest_leg * std::min(surface.apex[h].y(), surface.apex[twin].y()));
         const Vec3 a = straight_end(surface, h, leg, bend);
-        const Vec3 b = straight_end(surface, surface.twin[h], leg, bend);
+        const Vec3 b = straight_end(surface, twin, leg, bend);
         const Vec3 middle = position(surface.mesh.view(), point_on(h, 0.5));
         is_hinge[e] = distance_to_segment(middle, a, b) > least_lost * distance;
     };
-    parallel_each(surface.num_edges(), hinges_per_task, num_threads, look_at, poller);
+    parallel_each(surface.num_edges(), 256, num_threads, look_at, poller);
     return is_hinge;
 }
 

@@ -7,6 +7,7 @@
 #include "remesh/pipeline/crossings.h"
 #include "remesh/pipeline/domain.h"
 #include "remesh/pipeline/mesh_part.h"
+#include "remesh/pipeline/near_mesh.h"
 #include "remesh/pipeline/stage_context.h"
 #include "remesh/placement/mesh_curves.h"
 #include "remesh/placement/shape_quality.h"
@@ -37,13 +38,16 @@ std::vector<Mobility> find_mobility(const CurvedSurface& curved, const MeshCurve
                                     const PlacedMesh& mesh) {
     std::vector<bool> is_on_edge(mesh.points.size(), false);
     for (const auto& [from, to] : mesh.hard) is_on_edge[from] = is_on_edge[to] = true;
+    // Shape is no reason to leave out a node that a distance needs.
+    const bool is_fixed =
+        curved.has_locked() || (curved.bound != nullptr && !curved.bound->hinges.empty());
     std::vector<Mobility> result;
     result.reserve(mesh.points.size());
     for (Index v = 0; v < mesh.points.size(); ++v) {
         const CurvePlace place = curves.place_of(mesh.points[v]);
         Mobility mobility = place.is_free()           ? Mobility::Free
                             : place.curve != no_index ? Mobility::Boundary
-                            : curved.has_locked()     ? Mobility::Fixed
+                            : is_fixed                ? Mobility::Fixed
                                                       : Mobility::Node;
         // A mesh may pass by a vertex on a curve, and a rim may lie off the boundary.
         if (!is_on_edge[v]) {

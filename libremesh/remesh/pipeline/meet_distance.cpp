@@ -22,8 +22,7 @@ namespace {
 constexpr Index samples_per_surface = 100'000;
 constexpr Index query_grain = 1024;
 constexpr int max_rounds = 16;
-// Where a mesh of the input's edges takes so many times its vertices, rounding keeps it from being
-// proved.
+// A mesh of the input's edges that takes so many times their vertices is none.
 constexpr Index most_growth = 4;
 
 using Corners = std::array<Vec3, 3>;
@@ -137,9 +136,10 @@ private:
     MeasuredDistance farthest_;
 };
 
-// Edges without which this share of the distance is lost count as creases: meshes with those that
-// lose all of it were too far away beside others.
+// Edges that lose this share of the distance count: beside others, more were too far away.
 constexpr double hinge_share = 0.25;
+// As a share of the size: below, rounding keeps even equal meshes from being proved.
+constexpr double provable_size = 1e-10;
 
 // Creases, and edges that a distance needs, if they take less than half of the vertices that
 // lengths ask for; or none. With a small distance they are all edges that are not flat.
@@ -147,7 +147,8 @@ constexpr double hinge_share = 0.25;
 std::vector<std::uint8_t> find_needed_edges(const CleanedInput& cleaned,
                                             const RemeshOptions& options, double limit,
                                             Index& most_vertices) {
-    if (options.features != Features::Auto) return {};
+    const double size = box_of(cleaned.surface.mesh, options.num_threads).longest_side();
+    if (options.features != Features::Auto || limit < provable_size * size) return {};
     RemeshResult unused;
     const double spacing = spacing_for(cleaned, options);
     const FoundCurves found = find_curves(cleaned, spacing, CloseCreases::Stay, {options, unused});

@@ -90,8 +90,7 @@ double excess_of(const RemeshOptions& options) {
 
 // The nearest number of samples, at least 1; one too many for any number above the most.
 Index nearest_count(double vertices) {
-    const double most = most_samples + 1;
-    return static_cast<Index>(std::clamp(std::round(vertices <= most ? vertices : most), 1., most));
+    return static_cast<Index>(std::max(1.0, std::round(std::min(most_samples + 1, vertices))));
 }
 
 Index to_count(double vertices) {

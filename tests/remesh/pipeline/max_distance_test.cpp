@@ -124,7 +124,10 @@ TEST(MaxDistance, FacesAreRepairedUntilTheProofFindsNoMore) {
 }
 
 TEST(MaxDistance, TooManyVerticesAreRefused) {
-    EXPECT_THROW((void)remeshed(shapes::sphere(2), 1e-12), agvd::InvalidOption);
+    EXPECT_THROW((void)remesh::remesh(shapes::sphere(2).view(),
+                                      {.sizing = {.count = remesh::MaxDistance{1e-12}},
+                                       .features = remesh::Features::Off}),
+                 agvd::InvalidOption);
     EXPECT_THROW((void)remeshed(shapes::sphere(2), -1), agvd::InvalidOption);
     RemeshOptions with_lengths{.sizing = {.count = remesh::MaxDistance{0.1}}};
     with_lengths.sizing.edges =
