@@ -6,6 +6,7 @@
 #include "remesh/pipeline/crossings.h"
 #include "remesh/pipeline/curves.h"
 #include "remesh/pipeline/mesh_with_curves.h"
+#include "remesh/pipeline/near_mesh.h"
 #include "remesh/pipeline/sample_count.h"
 #include "remesh/pipeline/sizes.h"
 #include "remesh/pipeline/stage_context.h"
@@ -26,6 +27,11 @@ bool has_lost_part(const RemeshResult& result) {
 
 bool has_own_crossings(const RemeshResult& result) {
     return are_mostly_added({result.self_intersections.value_or(0), result.new_self_intersections});
+}
+
+// As where few vertices lie on the creases of one plane.
+bool is_crushed(const RemeshResult& result) {
+    return are_too_many(result.new_self_intersections, result.mesh.triangles.size());
 }
 
 // Whether lengths in places are ours to choose.
@@ -119,25 +125,34 @@ private:
         return made;
     }
 
-    // Runs once more where faces intersect and creases were left out, which may keep walls apart,
-    // and where the result does not reach a narrow part, with shorter edges there; in wraps, which
-    // have other means against intersections, on all narrow parts. Keeps the better result.
+    // Runs once more: where faces intersect, with the creases that were left out, which may keep
+    // walls apart, or with shorter edges there if there are none; where the result does not reach a
+    // narrow part, with shorter edges there. In wraps, which have other means against
+    // intersections, edges are shorter on all narrow parts. Keeps the better result.
     void mend(RemeshResult again, const MadeMesh& made, KeptCurves kept) {
         const bool is_wrap = options_.wrap.has_value();
-        const bool adds_creases = has_own_crossings(result_) && !result_.features.gave_up &&
-                                  !is_wrap && std::ranges::count(found_.is_close, 1) > 0;
-        const bool is_lost = (has_lost_part(result_) || is_wrap) && may_shorten(options_) &&
-                             !made.narrow_points.empty();
-        if (!adds_creases && !is_lost) return;
+        const bool crosses = has_own_crossings(result_) && !result_.features.gave_up && !is_wrap;
+        const bool adds_creases = crosses && std::ranges::count(found_.is_close, 1) > 0;
+        const bool is_lost = has_lost_part(result_) || is_wrap;
+        std::vector<SizedPoint> points(lengths_.begin(), lengths_.end());
+        if (crosses && !adds_creases && !is_crushed(result_)) {
+            const double length = result_.verdict.spacing / 2;
+            for (const SurfacePoint& p : made.crossing_corners) points.push_back({p, length});
+        }
+        const std::vector<SurfacePoint> narrow =
+            is_lost ? made.narrow_points : std::vector<SurfacePoint>();
+        const bool shortens =
+            may_shorten(options_) && (!narrow.empty() || points.size() > lengths_.size());
+        if (!adds_creases && !shortens) return;
         for (Index e = 0; adds_creases && e < found_.is_close.size(); ++e) {
             kept.is_crease[e] |= found_.is_close[e];
         }
         RemeshOptions options = options_;
-        if (is_lost) {
+        if (shortens) {
             // The number stays, whatever it follows from: a mean edge would make the others longer.
             options.sizing.count = NumSamples{};
-            sizes_ = find_sizes(cleaned_, found_, spacing_for(cleaned_, options_),
-                                made.narrow_points, lengths_, {options, result_});
+            sizes_ = find_sizes(cleaned_, found_, spacing_for(cleaned_, options_), narrow, points,
+                                {options, result_});
         }
         const bool has_mesh = try_curves(kept, options, again).has_mesh;
         // Close creases leave needles between them: they are worth it if no faces intersect.
