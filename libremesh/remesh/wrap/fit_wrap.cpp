@@ -470,7 +470,7 @@ private:
     bool collapse_shortest(const Triangle& t) {
         std::size_t k = 0;
         const auto length = [&](std::size_t i) { return (at(t[i]) - at(t[(i + 1) % 3])).norm(); };
-        for (const std::size_t i : {1, 2}) {
+        for (std::size_t i = 1; i < 3; ++i) {
             if (length(i) < length(k)) k = i;
         }
         const Index a = t[k], b = t[(k + 1) % 3];
