@@ -2,13 +2,21 @@
 //! The surface on which sites lie, and what is prepared on it.
 #pragma once
 
+#include "agvd/mesh/closest_point.h"
 #include "remesh/pipeline/curves.h"
 #include "remesh/placement/mesh_curves.h"
 #include "remesh/sites/prepared_surface.h"
 
 namespace remesh::detail {
 
-struct DistanceBound;
+//! A distance that a mesh is to keep from the cleaned input.
+struct DistanceBound {
+    MeshView input;
+    const ClosestPointTree& tree;  //!< Of the input.
+    double limit;                  //!< > 0, mesh units.
+    //! #E of the cleaned surface: creases, and edges that the distance needs; empty: only creases.
+    std::span<const std::uint8_t> hinges = {};
+};
 
 //! A surface and the curves on it.
 struct CurvedSurface {

@@ -7,7 +7,6 @@
 #include "remesh/pipeline/crossings.h"
 #include "remesh/pipeline/domain.h"
 #include "remesh/pipeline/mesh_part.h"
-#include "remesh/pipeline/near_mesh.h"
 #include "remesh/pipeline/stage_context.h"
 #include "remesh/placement/mesh_curves.h"
 #include "remesh/placement/shape_quality.h"

@@ -10,7 +10,7 @@
 #include "agvd/mesh/closest_point.h"
 #include "remesh/curves/select_creases.h"
 #include "remesh/pipeline/cleaned_input.h"
-#include "remesh/pipeline/near_mesh.h"
+#include "remesh/pipeline/domain.h"
 
 namespace remesh::detail {
 

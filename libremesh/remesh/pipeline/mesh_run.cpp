@@ -5,8 +5,8 @@
 
 #include "remesh/pipeline/crossings.h"
 #include "remesh/pipeline/curves.h"
+#include "remesh/pipeline/domain.h"
 #include "remesh/pipeline/mesh_with_curves.h"
-#include "remesh/pipeline/near_mesh.h"
 #include "remesh/pipeline/sample_count.h"
 #include "remesh/pipeline/sizes.h"
 #include "remesh/pipeline/stage_context.h"
