@@ -126,7 +126,8 @@ private:
     }
 
     // Runs once more: where faces intersect, with the creases that were left out, which may keep
-    // walls apart, or with shorter edges there if there are none; where the result does not reach a
+    // walls apart, or with shorter edges there if there are none, or without creases if most do, as
+    // where few vertices lie in one plane; where the result does not reach a
     // narrow part, with shorter edges there. In wraps, which have other means against
     // intersections, edges are shorter on all narrow parts. Keeps the better result.
     void mend(RemeshResult again, const MadeMesh& made, KeptCurves kept) {
@@ -143,7 +144,10 @@ private:
             is_lost ? made.narrow_points : std::vector<SurfacePoint>();
         const bool shortens =
             may_shorten(options_) && (!narrow.empty() || points.size() > lengths_.size());
-        if (!adds_creases && !shortens) return;
+        const bool gives_up = crosses && !adds_creases && is_crushed(result_);
+        if (!adds_creases && !shortens && !gives_up) return;
+        if (gives_up)
+            kept = {kept.has_junctions, false, std::vector<std::uint8_t>(kept.is_crease.size())};
         for (Index e = 0; adds_creases && e < found_.is_close.size(); ++e) {
             kept.is_crease[e] |= found_.is_close[e];
         }
@@ -159,11 +163,11 @@ private:
         const Index crossings = num_more_crossings(again), before = num_more_crossings(result_);
         const bool is_nearer =
             is_wrap || again.verdict.largest_distance < result_.verdict.largest_distance;
-        const bool is_better = adds_creases
+        const bool is_better = adds_creases || gives_up
                                    ? again.new_self_intersections == 0
                                    : crossings < before || (crossings == before && is_nearer);
         if (!has_mesh || !is_better) return;
-        again.features.gave_up = result_.features.gave_up;
+        again.features.gave_up = result_.features.gave_up || gives_up;
         again.features.samples_for_all =
             std::max(again.features.samples_for_all, result_.features.samples_for_all);
         again.seconds = result_.seconds;
