@@ -81,7 +81,7 @@ public:
                 failure.reached = std::max(made.num_needed, options_.num_samples + 1);
                 FeatureCounts& features = tried.features;
                 features.samples_for_all = std::max(features.samples_for_all, for_creases);
-                features.gave_up = !has_creases;
+                features.gave_up = kept.is_crease != found_.is_crease;
                 for_creases = features.samples_for_all;
                 failure.for_all =
                     std::max({failure.for_all, for_creases, tried.junctions.samples_for_all});
@@ -125,11 +125,11 @@ private:
         return made;
     }
 
-    // Runs once more: where faces intersect, with the creases that were left out, which may keep
-    // walls apart, or with shorter edges there if there are none, or without creases if most do, as
-    // where few vertices lie in one plane; where the result does not reach a
-    // narrow part, with shorter edges there. In wraps, which have other means against
-    // intersections, edges are shorter on all narrow parts. Keeps the better result.
+    // Runs once more. Where faces intersect: with the creases that were left out, which may keep
+    // walls apart; if there are none, with shorter edges there, or without curves if most faces
+    // intersect, as where few vertices lie in one plane. Where the result does not reach a narrow
+    // part: with shorter edges there. Other means part the faces of wraps, and their edges are
+    // shorter on all narrow parts. Keeps the better result.
     void mend(RemeshResult again, const MadeMesh& made, KeptCurves kept) {
         const bool is_wrap = options_.wrap.has_value();
         const bool crosses = has_own_crossings(result_) && !result_.features.gave_up && !is_wrap;
@@ -144,7 +144,9 @@ private:
             is_lost ? made.narrow_points : std::vector<SurfacePoint>();
         const bool shortens =
             may_shorten(options_) && (!narrow.empty() || points.size() > lengths_.size());
-        const bool gives_up = crosses && !adds_creases && is_crushed(result_);
+        const bool has_creases = std::ranges::count(kept.is_crease, 1) > 0;
+        const bool gives_up =
+            crosses && !adds_creases && is_crushed(result_) && (has_creases || kept.has_seams);
         if (!adds_creases && !shortens && !gives_up) return;
         if (gives_up)
             kept = {kept.has_junctions, false, std::vector<std::uint8_t>(kept.is_crease.size())};
@@ -167,7 +169,7 @@ private:
                                    ? again.new_self_intersections == 0
                                    : crossings < before || (crossings == before && is_nearer);
         if (!has_mesh || !is_better) return;
-        again.features.gave_up = result_.features.gave_up || gives_up;
+        again.features.gave_up = result_.features.gave_up || (gives_up && has_creases);
         again.features.samples_for_all =
             std::max(again.features.samples_for_all, result_.features.samples_for_all);
         again.seconds = result_.seconds;
