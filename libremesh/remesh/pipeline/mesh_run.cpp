@@ -194,7 +194,7 @@ RemeshResult run_after_cleaning(const CleanedInput& cleaned, RemeshResult after_
     return MeshRun(cleaned, std::move(after_cleaning), options, lengths, bound).run();
 }
 
-RemeshResult run_by_collapses(const CleanedInput& cleaned, RemeshResult before,
+RemeshResult run_by_collapses(const CleanedInput& cleaned, const RemeshResult& before,
                               const RemeshOptions& options) {
     InputCrossings of_input;
     RemeshResult result = before;

@@ -33,7 +33,7 @@ struct TooFewSamples {
 
 //! A mesh without curves of vertices of the input (Vertices::Surface).
 //! \param before  of that run. \return the result; `before` if it has no more intersections.
-[[nodiscard]] RemeshResult run_by_collapses(const CleanedInput& cleaned, RemeshResult before,
+[[nodiscard]] RemeshResult run_by_collapses(const CleanedInput& cleaned, const RemeshResult& before,
                                             const RemeshOptions& options);
 
 }  // namespace remesh::detail

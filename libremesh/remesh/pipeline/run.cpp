@@ -175,7 +175,7 @@ RemeshResult run_stages(const InputMesh& input, const RemeshOptions& given) {
                                      : run(options, {}, nullptr);
         // The wrap does not intersect itself, and so its remesh must not.
         if (options.wrap && result.self_intersections.value_or(0) > 0) {
-            result = run_by_collapses(cleaned, std::move(result), options);
+            result = run_by_collapses(cleaned, result, options);
         }
         if (const auto length = corrected_edge_length(result.sizing.mean_edge, options)) {
             options.sizing.count = MeanEdge{*length};
