@@ -122,8 +122,9 @@ Vec3 straight_end(const Surface& surface, Index h, double length, double bend) {
     const auto at = [&](double part) {
         return position(surface.mesh.view(), detail::walk_straight(surface, from, part * way).end);
     };
+    const Vec3 start = position(surface.mesh.view(), from);
     const auto is_straight = [&](double part) {
-        return distance_to_segment(at(part / 2), at(0), at(part)) <= bend;
+        return distance_to_segment(at(part / 2), start, at(part)) <= bend;
     };
     double straight = 0, bent = 1.0 / 32;
     for (; straight < 1 && is_straight(bent); bent *= 2) straight = bent;

@@ -147,8 +147,7 @@ constexpr double provable_size = 1e-10;
 std::vector<std::uint8_t> find_needed_edges(const CleanedInput& cleaned,
                                             const RemeshOptions& options, double limit,
                                             Index& most_vertices) {
-    const double size = box_of(cleaned.surface.mesh, options.num_threads).longest_side();
-    if (options.features != Features::Auto || limit < provable_size * size) return {};
+    if (options.features != Features::Auto) return {};
     RemeshResult unused;
     const double spacing = spacing_for(cleaned, options);
     const FoundCurves found = find_curves(cleaned, spacing, CloseCreases::Stay, {options, unused});
@@ -198,27 +197,25 @@ RemeshResult meet_distance(const CleanedInput& cleaned, const RemeshOptions& opt
     MeasuredDistance best{.largest = infinity};
     std::size_t num_vertices = 0;
     finer.sizing.count = aim;
-    const auto measure = [&](RemeshResult& result) {
+    Index most_vertices = 0;
+    std::vector<std::uint8_t> needed;
+    if (limit >= provable_size * box.longest_side()) {
+        needed = find_needed_edges(cleaned, finer, limit, most_vertices);
+    }
+    bound.hinges = needed;
+    for (int round = 0; round < max_rounds; ++round) {
+        RemeshResult result = run(finer, lengths, &bound);
+        if (!bound.hinges.empty() && result.mesh.positions.size() > most_vertices) {
+            bound.hinges = {};
+            lengths.clear();
+            continue;
+        }
         MeasuredDistance found{.largest = result.sizing.largest_distance};
         found.is_within = found.largest > 0;  // It is proved.
         if (!found.is_within) {
             found = measure_distance(mesh, tree, result.mesh, result.sizing.targets, limit,
                                      options.num_threads, progress_at(Stage::Check, options, 1));
             result.sizing.largest_distance = found.largest;
-        }
-        return found;
-    };
-    Index most_vertices = 0;
-    const std::vector<std::uint8_t> needed =
-        find_needed_edges(cleaned, finer, limit, most_vertices);
-    bound.hinges = needed;
-    for (int round = 0; round < max_rounds; ++round) {
-        RemeshResult result = run(finer, lengths, &bound);
-        const MeasuredDistance found = measure(result);
-        if (!bound.hinges.empty() && result.mesh.positions.size() > most_vertices) {
-            bound.hinges = {};
-            lengths.clear();
-            continue;
         }
         if (found.largest < best.largest) {
             best = found;

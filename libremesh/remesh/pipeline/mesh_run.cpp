@@ -10,6 +10,7 @@
 #include "remesh/pipeline/sample_count.h"
 #include "remesh/pipeline/sizes.h"
 #include "remesh/pipeline/stage_context.h"
+#include "remesh/sites/network_plan.h"
 
 namespace remesh::detail {
 namespace {
@@ -69,13 +70,13 @@ public:
         TooFewSamples failure{options_.num_samples, 0, 0};
         Index for_creases = 0;
         const std::vector<std::uint8_t> none(found_.is_crease.size(), 0);
-        const bool has_curves = !found_.is_seam.empty() || found_.is_crease != none;
+        const bool has_curves = !found_.is_seam.empty() || has_creases(found_.is_crease);
         for (const bool has_junctions : {true, false}) {
             if (!has_junctions && found_.junctions.empty()) break;
-            for (const bool has_creases : {true, false}) {
-                if (!has_creases && !has_curves) break;
-                KeptCurves kept{has_junctions, has_creases && !found_.is_seam.empty(),
-                                has_creases ? found_.is_crease : none};
+            for (const bool has_all : {true, false}) {
+                if (!has_all && !has_curves) break;
+                KeptCurves kept{has_junctions, has_all && !found_.is_seam.empty(),
+                                has_all ? found_.is_crease : none};
                 RemeshResult tried = start;
                 const MadeMesh made = try_curves(kept, options_, tried);
                 failure.reached = std::max(made.num_needed, options_.num_samples + 1);
@@ -133,20 +134,20 @@ private:
     void mend(RemeshResult again, const MadeMesh& made, KeptCurves kept) {
         const bool is_wrap = options_.wrap.has_value();
         const bool crosses = has_own_crossings(result_) && !result_.features.gave_up && !is_wrap;
-        const bool adds_creases = crosses && std::ranges::count(found_.is_close, 1) > 0;
+        const bool adds_creases = crosses && has_creases(found_.is_close);
         const bool is_lost = has_lost_part(result_) || is_wrap;
         std::vector<SizedPoint> points(lengths_.begin(), lengths_.end());
         if (crosses && !adds_creases && !is_crushed(result_)) {
             const double length = result_.verdict.spacing / 2;
             for (const SurfacePoint& p : made.crossing_corners) points.push_back({p, length});
         }
-        const std::vector<SurfacePoint> narrow =
-            is_lost ? made.narrow_points : std::vector<SurfacePoint>();
+        std::span<const SurfacePoint> narrow;
+        if (is_lost) narrow = made.narrow_points;
         const bool shortens =
             may_shorten(options_) && (!narrow.empty() || points.size() > lengths_.size());
-        const bool has_creases = std::ranges::count(kept.is_crease, 1) > 0;
+        const bool keeps_creases = has_creases(kept.is_crease);
         const bool gives_up =
-            crosses && !adds_creases && is_crushed(result_) && (has_creases || kept.has_seams);
+            crosses && !adds_creases && is_crushed(result_) && (keeps_creases || kept.has_seams);
         if (!adds_creases && !shortens && !gives_up) return;
         if (gives_up)
             kept = {kept.has_junctions, false, std::vector<std::uint8_t>(kept.is_crease.size())};
@@ -169,7 +170,7 @@ private:
                                    ? again.new_self_intersections == 0
                                    : crossings < before || (crossings == before && is_nearer);
         if (!has_mesh || !is_better) return;
-        again.features.gave_up = result_.features.gave_up || (gives_up && has_creases);
+        again.features.gave_up = result_.features.gave_up || (gives_up && keeps_creases);
         again.features.samples_for_all =
             std::max(again.features.samples_for_all, result_.features.samples_for_all);
         again.seconds = result_.seconds;
