@@ -55,6 +55,9 @@ double solve(const std::vector<Corner>& corners, double target, double low, doub
 
 // Radians: a vertex flatter than this counts as flat.
 constexpr double flat_tolerance = 1e-9;
+// Radians: a vertex flatter than this goes as it is where no lengths make it flat, as among
+// slivers.
+constexpr double nearly_flat = 1e-4;
 // Radians: among vertices flatter than this, those in dense regions go first.
 constexpr double small_curvature = 1e-2;
 // The most flips for each edge.
@@ -134,8 +137,9 @@ private:
         const bool is_boundary = surface_.is_boundary_vertex(v);
         collect_spokes(v);
         if (is_boundary && spokes_.size() == 1) return cut_ear(v);
-        if (lengths_ == Lengths::OnSurface && std::abs(angle - wanted) > flat_tolerance &&
-            !flatten(surface_, charts_, v, wanted)) {
+        const double curvature = std::abs(angle - wanted);
+        if (lengths_ == Lengths::OnSurface && curvature > flat_tolerance &&
+            !flatten(surface_, charts_, v, wanted) && curvature > nearly_flat) {
             return;
         }
         const std::size_t fewest = is_boundary ? 2 : 3;

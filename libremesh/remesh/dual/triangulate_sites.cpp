@@ -18,6 +18,25 @@
 namespace remesh::detail {
 namespace {
 
+// The number of sites that are corners of new triangles.
+Index num_touched(std::vector<Triangle> before, std::vector<Triangle> after, Index num_sites) {
+    const auto turn = [](Triangle& t) {
+        std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+    };
+    std::vector<Triangle> added;
+    std::ranges::for_each(before, turn);
+    std::ranges::for_each(after, turn);
+    std::ranges::sort(before);
+    std::ranges::sort(after);
+    std::ranges::set_difference(after, before, std::back_inserter(added));
+    std::vector<Index> touched;
+    for (const Triangle& t : added) {
+        std::ranges::copy_if(t, std::back_inserter(touched),
+                             [&](Index v) { return v < num_sites; });
+    }
+    return static_cast<Index>(distinct(std::move(touched)).size());
+}
+
 class SiteTriangulation {
 public:
     SiteTriangulation(const Surface& surface, const DistanceBounds& labels,
@@ -54,7 +73,9 @@ public:
         if (narrow == Narrow::Simplify && (!result.narrow.empty() || !has_all_components())) {
             const std::vector<Triangle> before = result.triangles;
             simplify_narrow_parts(result);
-            if (cells_ != nullptr) result.counts.sites_of_cells -= num_touched(before, result);
+            if (cells_ != nullptr) {
+                result.counts.sites_of_cells -= num_touched(before, result.triangles, num_sites());
+            }
         }
         if (!chain_.empty() && cells_ == nullptr) open_ears(result);
         return result;
@@ -362,25 +383,6 @@ private:
         return is_right;
     }
 
-    // The number of sites that are corners of new triangles.
-    [[nodiscard]] Index num_touched(std::vector<Triangle> before, const SiteTriangles& now) const {
-        const auto turn = [](Triangle& t) {
-            std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-        };
-        std::vector<Triangle> after = now.triangles, added;
-        std::ranges::for_each(before, turn);
-        std::ranges::for_each(after, turn);
-        std::ranges::sort(before);
-        std::ranges::sort(after);
-        std::ranges::set_difference(after, before, std::back_inserter(added));
-        std::vector<Index> touched;
-        for (const Triangle& t : added) {
-            std::ranges::copy_if(t, std::back_inserter(touched),
-                                 [&](Index v) { return v < num_sites(); });
-        }
-        return static_cast<Index>(distinct(std::move(touched)).size());
-    }
-
     void drop_unused_extra(SiteTriangles& result) const {
         const auto num_vertices = num_sites() + static_cast<Index>(result.extra.size());
         std::vector<Index> number(num_vertices, no_index);
@@ -433,6 +435,22 @@ SiteTriangles triangulate_sites(const Surface& surface, const DistanceBounds& la
                                 const CellComplex* cells, std::span<const SurfacePoint> sites,
                                 std::span<const DirectedEdge> chain, Narrow narrow, Ticker ticker) {
     return SiteTriangulation(surface, labels, cells, sites, chain, ticker).run(narrow);
+}
+
+void remove_dividing(const Surface& surface, std::span<const SurfacePoint> sites, Index num_kept,
+                     SiteTriangles& triangles, Ticker ticker) {
+    std::vector<Vec3> positions;
+    for (const auto some : {sites, std::span<const SurfacePoint>(triangles.extra)}) {
+        for (const SurfacePoint& p : some) positions.push_back(position(surface.mesh.view(), p));
+    }
+    const std::vector<Triangle> before = triangles.triangles;
+    (void)simplify_narrow(positions, num_kept, triangles.triangles, ticker);
+    triangles.extra.insert(triangles.extra.begin(), sites.begin() + num_kept, sites.end());
+    DualCounts& counts = triangles.counts;
+    const Index num_changed = num_touched(before, triangles.triangles, num_kept);
+    const auto num_removed = static_cast<Index>(sites.size()) - num_kept;
+    counts.sites -= num_removed;
+    counts.sites_of_cells -= std::min(counts.sites_of_cells, num_changed + num_removed);
 }
 
 }  // namespace remesh::detail

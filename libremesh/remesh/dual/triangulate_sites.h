@@ -48,4 +48,11 @@ struct SiteTriangles {
                                               std::span<const DirectedEdge> chain, Narrow narrow,
                                               Ticker ticker = {});
 
+//! Removes the last sites, those of dividing points, and what could not be removed before.
+//! \param num_kept  the number of sites without these.
+//! \param sites     all, on the surface.
+//! Cost: that of simplify() for the parts around these.
+void remove_dividing(const Surface& surface, std::span<const SurfacePoint> sites, Index num_kept,
+                     SiteTriangles& triangles, Ticker ticker = {});
+
 }  // namespace remesh::detail

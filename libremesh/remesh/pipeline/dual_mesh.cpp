@@ -19,6 +19,12 @@ namespace {
 // Most rounds that divide edges between patches.
 constexpr int most_divisions = 5;
 
+std::vector<SurfacePoint> with_dividing(const PlacedSites& placed) {
+    std::vector<SurfacePoint> sites = placed.sites;
+    sites.insert(sites.end(), placed.dividing.begin(), placed.dividing.end());
+    return sites;
+}
+
 // From sites, with copies on the sides of curves, to one mesh.
 class DualBuilder {
 public:
@@ -27,7 +33,7 @@ public:
           placed_(placed),
           context_(context),
           base_(domain.base()),
-          sites_(domain.prepared.base.to_intrinsic(placed.sites)) {}
+          sites_(domain.prepared.base.to_intrinsic(with_dividing(placed))) {}
 
     DualMesh run() {
         DistanceBounds labels;
@@ -79,19 +85,26 @@ private:
         const Progress progress = progress_of(Stage::Dual, context_.options);
         Poller poller(progress);
         poller.poll();
+        const bool is_divided = !placed_.dividing.empty();
         SiteTriangles made =
-            triangulate_sites(base_, labels, &cells, sites_, ends_of(placed_.chain),
+            triangulate_sites(base_, labels, &cells, sites_,
+                              is_divided ? placed_.divided_chain : ends_of(placed_.chain),
                               Narrow::Simplify, Ticker(poller));
+        const auto num_kept = static_cast<Index>(placed_.sites.size());
+        if (is_divided) remove_dividing(base_, sites_, num_kept, made, Ticker(poller));
         context_.result.dual = made.counts;
         triangles_ = std::move(made.triangles);
-        dual_.has_cell = cells.has_cell;
+        dual_.has_cell.assign(cells.has_cell.begin(), cells.has_cell.begin() + num_kept);
         dual_.nearest_site = std::move(labels.site);
-        std::vector<SurfacePoint> points = sites_;
+        for (Index& site : dual_.nearest_site) {
+            if (site >= num_kept) site = no_index;
+        }
+        std::vector<SurfacePoint> points(sites_.begin(), sites_.begin() + num_kept);
         points.insert(points.end(), made.extra.begin(), made.extra.end());
         site_ = drop_unused(static_cast<Index>(points.size()), triangles_);
         points_ = take(points, site_);
         for (Index& site : site_) {
-            if (site >= sites_.size()) site = no_index;
+            if (site >= num_kept) site = no_index;
         }
     }
 
@@ -209,7 +222,7 @@ private:
     const PlacedSites& placed_;
     const StageContext& context_;
     const Surface& base_;
-    const std::vector<SurfacePoint> sites_;  // On the base.
+    const std::vector<SurfacePoint> sites_;  // On the base, those of dividing points last.
     std::vector<Triangle> triangles_;        // Of vertices of patches: copies are apart.
     std::vector<SurfacePoint> points_;       // #V, on the base.
     std::vector<Index> site_;                // #V: no_index: none.

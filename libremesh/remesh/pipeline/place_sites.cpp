@@ -30,7 +30,9 @@ PlacedSites place_sites(const Domain& domain, const StageContext& context) {
               : sample_network_sites(domain.prepared, network, sampling, relax);
     PlacedSites placed{.sites = std::move(made.sites),
                        .curves = std::move(made.curves),
-                       .narrow_points = std::move(made.narrow_points)};
+                       .narrow_points = std::move(made.narrow_points),
+                       .dividing = std::move(made.dividing),
+                       .divided_chain = std::move(made.divided_chain)};
     placed.chain = chain_edges(network.network, network.cut, placed.curves);
     result.relaxation = std::move(made.levels);
     result.features.vertices = num_result_vertices(network.network, placed.curves);

@@ -16,6 +16,9 @@ struct PlacedSites {
     std::vector<ChainEdge> chain = {};  //!< Edges along the curves that the dual must have.
     //! On the cleaned surface: see NetworkSites.
     std::vector<SurfacePoint> narrow_points = {};
+    //! On the cleaned surface, and the chain with them: see NetworkSites.
+    std::vector<SurfacePoint> dividing = {};
+    std::vector<DirectedEdge> divided_chain = {};
 };
 
 //! Samples sites or takes the caller's, and relaxes them if the options ask for it.

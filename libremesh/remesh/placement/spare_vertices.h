@@ -94,15 +94,15 @@ public:
         }
         return false;
     }
-    // Splits long edges until the count is 0.
+    // Splits long edges until the count is 0, those between good triangles first.
     // \return false if that fails. Cost: O(log #edges) and a trial for each edge and each change.
     bool balance() {
-        for (const double least : {wanted_, 0.0}) {
+        for (const bool is_good : {true, false}) {
             edges_ = {};
             if (count_ > 0) {
                 for (const Index f : mesh_.faces()) push_edges(f);
             }
-            while (count_ > 0 && split_one(least)) {
+            while (count_ > 0 && split_one(is_good)) {
             }
         }
         return count_ == 0;
@@ -169,8 +169,9 @@ private:
         }
         return worst;
     }
-    // Splits the longest edge whose triangles keep a quality.
-    bool split_one(double least) {
+    // Splits the longest edge whose triangles are good after that or, if not all need be, no worse
+    // than before.
+    bool split_one(bool is_good) {
         while (!edges_.empty()) {
             const auto [minus_square, face, k] = edges_.top();
             edges_.pop();
@@ -181,7 +182,9 @@ private:
             const EditedMesh::Mark before = mesh_.mark();
             const bool is_done = steps_.edit({face, k, ShapeEdit::Kind::Split});
             steps_.relax(before);
-            if (is_done && steps_.worst_since(before) >= least &&
+            if (is_done &&
+                (is_good ? steps_.worst_since(before) >= wanted_
+                         : steps_.keeps_quality(before, wanted_)) &&
                 guard_.accept(before, worth_elsewhere)) {
                 mesh_.changed_since(before, changed_, before_);
                 for (const Index changed : changed_) push_edges(changed);

@@ -175,6 +175,60 @@ struct MiddleFinder {
     }
 };
 
+// The plan with locked edges divided as other curves are, where they are longer than the spacing;
+// none if no edge is. The energy of relaxation is that of triangles. Those at a rim edge of many
+// spacings reach far beyond the cells there, and sites would move onto the edge.
+std::optional<NetworkPlan> divide_locked(const NetworkPlan& plan, const SizeField* sizes) {
+    const Surface& surface = plan.cut.surface();
+    const UnitAt unit_at = length_function(sizes);
+    CurveNetwork network = plan.network;
+    for (Curve& curve : network.curves) curve.is_locked = false;
+    const std::vector<Index> fewest = fewest_intervals(network);
+    const std::vector<Index> intervals = curve_intervals(surface, network, plan.spacing, unit_at);
+    const auto along = even_positions(surface, network, plan.spacing, intervals, unit_at);
+    std::optional<NetworkPlan> divided;
+    for (std::size_t c = 0; c < intervals.size(); ++c) {
+        if (!plan.network.curves[c].is_locked || intervals[c] == fewest[c]) continue;
+        if (!divided) divided = plan;
+        divided->network.curves[c].is_locked = false;
+        divided->intervals[c] = intervals[c];
+        divided->along[c] = along[c];
+    }
+    return divided;
+}
+
+// Puts the sites that divide locked edges apart.
+NetworkSites undivide_locked(const NetworkPlan& plan, const NetworkPlan& divided,
+                             const NetworkSites& made) {
+    NetworkSites result{.levels = made.levels, .narrow_points = made.narrow_points};
+    const CurveSites& curves = made.curves;
+    std::vector<std::vector<double>> along(plan.network.curves.size());
+    std::vector<std::uint8_t> divides(made.sites.size(), 0);
+    for (std::size_t c = 0; c < along.size(); ++c) {
+        const Index first = curves.first_of_curve[c], last = curves.first_of_curve[c + 1];
+        if (plan.network.curves[c].is_locked) {
+            std::fill(divides.begin() + curves.first_copy[first],
+                      divides.begin() + curves.first_copy[last], 1);
+        } else {
+            along[c].assign(curves.along.begin() + first, curves.along.begin() + last);
+        }
+    }
+    result.curves = curve_sites_at(plan.network, plan.cut, along);
+    std::vector<Index> order;
+    for (const int value : {0, 1}) {
+        for (Index i = 0; i < made.sites.size(); ++i) {
+            if (divides[i] != value) continue;
+            order.push_back(i);
+            (value == 0 ? result.sites : result.dividing).push_back(made.sites[i]);
+        }
+    }
+    const std::vector<Index> place = places_in(order);
+    for (const ChainEdge& edge : chain_edges(divided.network, divided.cut, curves)) {
+        result.divided_chain.emplace_back(place[edge.from], place[edge.to]);
+    }
+    return result;
+}
+
 class NetworkSampler {
 public:
     NetworkSampler(const PreparedSurface& surface, const NetworkPlan& plan, CurveSites fine,
@@ -192,10 +246,10 @@ public:
         return finish(*start(fine_, std::move(sites)));
     }
 
-    NetworkSites run(const SamplingOptions& sampling) {
+    NetworkSites run(const SamplingOptions& sampling, Index num_inner) {
+        num_inner_ = num_inner;
         sampling_ = sampling;
         is_even_ = sampling.init == Init::BlueNoise;
-        num_inner_ = sampling.num_samples - num_result_vertices(plan_.network, fine_);
         if (options_.steps == 0) return {fine_, sample(fine_, num_inner_, plan_.spacing), {}, {}};
         std::unique_ptr<Relaxation> last = start_coarse();
         const std::vector<ChainEdge> chain = chain_edges(plan_.network, plan_.cut, fine_);
@@ -363,7 +417,15 @@ private:
 NetworkSites sample_network_sites(const PreparedSurface& surface, const NetworkPlan& plan,
                                   const SamplingOptions& sampling, const RelaxOptions& options) {
     CurveSites curves = curve_sites_at(plan.network, plan.cut, plan.along);
-    return NetworkSampler(surface, plan, std::move(curves), options, 2).run(sampling);
+    const Index num_inner = sampling.num_samples - num_result_vertices(plan.network, curves);
+    if (options.steps > 0) {
+        if (const auto divided = divide_locked(plan, options.sizes)) {
+            curves = curve_sites_at(divided->network, divided->cut, divided->along);
+            NetworkSampler sampler(surface, *divided, std::move(curves), options, 2);
+            return undivide_locked(plan, *divided, sampler.run(sampling, num_inner));
+        }
+    }
+    return NetworkSampler(surface, plan, std::move(curves), options, 2).run(sampling, num_inner);
 }
 
 NetworkSites relax_network_sites(const PreparedSurface& surface, const NetworkPlan& plan,

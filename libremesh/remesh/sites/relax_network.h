@@ -14,6 +14,11 @@ struct NetworkSites {
     std::vector<RelaxLevel> levels;   //!< Coarse to fine; empty: not relaxed.
     //! Inner sites of the coarse level, on surface.input(), whose cells wrap around narrow parts.
     std::vector<SurfacePoint> narrow_points;
+    //! Relaxation divided locked edges that are longer than the spacing with sites of these points,
+    //! on surface.input(). They are no vertices of the result, but its cells are those of all.
+    std::vector<SurfacePoint> dividing = {};
+    //! The edges along all curves with these sites, which follow `sites`; empty if there are none.
+    std::vector<DirectedEdge> divided_chain = {};
 };
 
 //! Samples and relaxes sites, coarse to fine; sites of curves slide along these. The result has

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <set>
+
 #include "agvd/mesh/surface_points.h"
 #include "agvd/mesh/topology.h"
 #include "remesh/sites/relax_network.h"
@@ -190,6 +193,46 @@ TEST(RelaxNetwork, SitesOfCurvesStayOnThemAndTogether) {
             EXPECT_FALSE(agvd::is_on_boundary(plan.cut.surface(), made.sites[i]));
         }
     }
+}
+
+// Long locked edges are divided while sites relax: else sites move onto the edges.
+TEST(RelaxNetwork, SitesKeepOffLongLockedEdges) {
+    const Surface surface = agvd::build_surface(shapes::grid(1).view());
+    remesh::LockedElements locked{.vertices = {0, 1, 2, 3}};
+    locked.is_edge.assign(surface.num_edges(), 0);
+    for (const Index h : surface.edge_half) {
+        if (surface.twin[h] == agvd::no_index) locked.is_edge[surface.edge[h]] = 1;
+    }
+    const std::vector<std::uint8_t> none(surface.num_edges(), 0);
+    const NetworkPlan plan = remesh::plan_network(surface, none, 100, {}, 1, {}, nullptr, locked);
+    const remesh::PreparedSurface prepared(plan.cut.surface(), plan.spacing);
+    const remesh::NetworkSites made =
+        remesh::sample_network_sites(prepared, plan, {.num_samples = 100}, {.steps = 60});
+    ASSERT_EQ(made.sites.size(), 100u);
+    EXPECT_EQ(made.curves.sites.size(), 4u);
+    const auto on_each = static_cast<std::size_t>(std::round(1 / plan.spacing)) - 1;
+    ASSERT_GT(on_each, 5u);
+    EXPECT_EQ(made.dividing.size(), 4 * on_each);
+    EXPECT_EQ(made.divided_chain.size(), 4 * (on_each + 1));
+    const auto distance_to_rim = [&](const SurfacePoint& site) {
+        const Vec3 p = at(plan, site);
+        return std::min({p.x(), p.y(), 1 - p.x(), 1 - p.y()});
+    };
+    for (std::size_t i = 4; i < 100; ++i) {
+        EXPECT_GT(distance_to_rim(made.sites[i]), 0.4 * plan.spacing);
+    }
+    for (const SurfacePoint& site : made.dividing) EXPECT_LT(distance_to_rim(site), 1e-12);
+    std::set<Index> from, to;
+    for (const auto& [a, b] : made.divided_chain) {
+        from.insert(a);
+        to.insert(b);
+    }
+    EXPECT_EQ(from, to);
+    EXPECT_EQ(from.size(), 4 * (on_each + 1));
+    EXPECT_EQ(*from.rbegin(), 99 + made.dividing.size());
+    const auto plain =
+        remesh::sample_network_sites(prepared, plan, {.num_samples = 100}, {.steps = 0});
+    EXPECT_TRUE(plain.dividing.empty());
 }
 
 TEST(RelaxNetwork, ThreadsChangeNothing) {
