@@ -96,12 +96,13 @@ struct CleanedView {
 };
 
 //! Repairs in this order, without moving anything but what 1. says:
-//! 1. Vertices of the boundary on boundary edges divide these where both sides then have a common
+//! 1. Edges of zero length collapse: those no longer than the last bit of the mesh's longest side.
+//!    Vertices of the boundary on boundary edges divide these where both sides then have a common
 //!    edge. Boundary edges between the same two positions are welded: cracks and soups close, while
 //!    parts that touch at a point, and closed parts that touch anywhere, stay apart. Positions are
 //!    one position if they are equal, or differ by a millionth of the mesh's longest side at most
-//!    and by a hundredth of each edge there; the first one stays. Zero-length edges collapse. With
-//!    keep_slits only the latter happens. CleanOptions::weld widens this.
+//!    and by a hundredth of each edge there; the first one stays. Not with keep_slits, but for the
+//!    collapses. CleanOptions::weld widens this.
 //! 2. Faces with a repeated corner and duplicate faces (the first stays) are dropped; so are
 //!    patches that lie on others within such a millionth, whatever their vertices and diagonals. Of
 //!    duplicates of opposite orientation two stay where they are the walls of bodies that touch:

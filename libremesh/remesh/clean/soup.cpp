@@ -57,7 +57,8 @@ bool has_area(std::span<const Vec3> positions, const Triangle& t) {
 }
 
 // The input unchanged, if it has no defect. Makes linear passes only.
-std::optional<CleanResult> take_clean(const MeshView& mesh, const CleanOptions& options) {
+std::optional<CleanResult> take_clean(const MeshView& mesh, const MeshBox& box,
+                                      const CleanOptions& options) {
     const int num_threads = options.num_threads;
     const Progress& progress = options.progress;
     Poller poller(progress);
@@ -71,10 +72,14 @@ std::optional<CleanResult> take_clean(const MeshView& mesh, const CleanOptions& 
     }
     const auto apex = [&](Index h) { return mesh.triangles[h / 3][previous_half_edge(h) % 3]; };
     std::atomic<bool> is_clean = true, may_coincide = label_components(twin, ticker).count > 1;
+    const double shortest = zero_length(box);
     const auto num_faces = static_cast<Index>(mesh.triangles.size());
     const auto check_face = [&](Index f) {
-        bool is_good = has_area(mesh.positions, mesh.triangles[f]);
+        const Triangle& t = mesh.triangles[f];
+        bool is_good = has_area(mesh.positions, t);
         for (Index h = 3 * f; h < 3 * f + 3; ++h) {
+            const Vec3& tail = mesh.positions[t[h % 3]];
+            is_good = is_good && (mesh.positions[t[(h + 1) % 3]] - tail).norm() > shortest;
             is_good = is_good && (twin[h] == no_index || apex(h) != apex(twin[h]));
             if (twin[h] < h && is_folded(mesh, h, twin[h])) {
                 may_coincide.store(true, std::memory_order_relaxed);
@@ -240,7 +245,7 @@ CleanResult clean_input(const MeshView& mesh, const CleanOptions& options) {
         return static_cast<Index>(
             find_divisions(cleaned, open_half_edges(twin), reach, ticker).size());
     };
-    if (std::optional<CleanResult> clean = take_clean(mesh, options)) {
+    if (std::optional<CleanResult> clean = take_clean(mesh, box, options)) {
         clean->loose_vertices = count_loose(clean->mesh, clean->connectivity.twin);
         return *std::move(clean);
     }
@@ -250,12 +255,13 @@ CleanResult clean_input(const MeshView& mesh, const CleanOptions& options) {
     const auto refresh = [&](bool is_changed) {
         if (is_changed) sides = sorted_edge_sides(soup.mesh.triangles, soup.ticker);
     };
+    const bool is_collapsed = collapse_zero_edges(soup, zero_length(box));
+    refresh(drop_repeated_corners(soup) || is_collapsed);
     if (!options.keep_slits) {
         refresh(divide_edges(soup, sides, options.weld));
         refresh(weld_cracks(soup, sides, options.weld));
+        refresh(drop_repeated_corners(soup));
     }
-    const bool is_collapsed = collapse_zero_edges(soup);
-    refresh(drop_repeated_corners(soup) || is_collapsed);
     refresh(drop_duplicates(soup, sides));
     refresh(drop_slivers(soup, sides));
     check_not_empty(soup);

@@ -5,11 +5,13 @@
 //! the faces at a non-manifold edge or vertex belong to one sheet.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <span>
 
 #include "agvd/core/progress.h"
 #include "agvd/mesh/any_mesh.h"
+#include "agvd/mesh/scale.h"
 #include "agvd/mesh/surface.h"
 #include "agvd/mesh/topology.h"
 #include "remesh/clean/clean_input.h"
@@ -72,6 +74,11 @@ struct Division {
                                                    std::span<const Index> open, double tolerance,
                                                    Ticker& ticker);
 
+//! Edges that are no longer have zero length: the last bit of the mesh's longest side.
+[[nodiscard]] inline double zero_length(const MeshBox& box) {
+    return std::numeric_limits<double>::epsilon() * box.longest_side();
+}
+
 //! Removes the marked faces and returns their number.
 //! \param twin  is updated; null: there is none yet.
 Index drop_faces(Soup& soup, const std::vector<bool>& is_dead, std::vector<Index>* twin = nullptr);
@@ -84,8 +91,8 @@ bool divide_edges(Soup& soup, std::span<const EdgeSide> sides, double tolerance)
 //! Boundary edges between the same two positions (find_common_positions) become one edge.
 //! \param tolerance  see find_common_positions.
 bool weld_cracks(Soup& soup, std::span<const EdgeSide> sides, double tolerance);
-//! Different corners of a face at one position become one vertex.
-bool collapse_zero_edges(Soup& soup);
+//! Edges of zero length (see zero_length) become one vertex, the first of their ends.
+bool collapse_zero_edges(Soup& soup, double zero_length);
 bool drop_repeated_corners(Soup& soup);
 //! Of faces with the same corners one stays, two of opposite orientation where bodies
 //! touch, or none: a flap on a body that is closed without it.

@@ -198,15 +198,17 @@ bool weld_cracks(Soup& soup, std::span<const EdgeSide> sides, double tolerance) 
     return apply(sets, num_merged, soup);
 }
 
-bool collapse_zero_edges(Soup& soup) {
+bool collapse_zero_edges(Soup& soup, double zero_length) {
     UnionFind sets(soup.mesh.positions.size());
     Index num_merged = 0;
     for (Index h = 0; h < soup.num_half_edges(); ++h) {
         soup.ticker.tick();
         const Index a = soup.tail(h), b = soup.head(h);
-        if (a == b || soup.mesh.positions[a] != soup.mesh.positions[b]) continue;
+        if (a == b) continue;
+        if ((soup.mesh.positions[a] - soup.mesh.positions[b]).norm() > zero_length) continue;
         num_merged += sets.unite(a, b) ? 1 : 0;
     }
+    keep_welded_positions(sets, soup);
     return apply(sets, num_merged, soup);
 }
 

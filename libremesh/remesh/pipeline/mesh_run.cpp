@@ -69,28 +69,20 @@ public:
         const RemeshResult start = result_;
         TooFewSamples failure{options_.num_samples, 0, 0};
         Index for_creases = 0;
-        const std::vector<std::uint8_t> none(found_.is_crease.size(), 0);
-        const bool has_curves = !found_.is_seam.empty() || has_creases(found_.is_crease);
-        for (const bool has_junctions : {true, false}) {
-            if (!has_junctions && found_.junctions.empty()) break;
-            for (const bool has_all : {true, false}) {
-                if (!has_all && !has_curves) break;
-                KeptCurves kept{has_junctions, has_all && !found_.is_seam.empty(),
-                                has_all ? found_.is_crease : none};
-                RemeshResult tried = start;
-                const MadeMesh made = try_curves(kept, options_, tried);
-                failure.reached = std::max(made.num_needed, options_.num_samples + 1);
-                FeatureCounts& features = tried.features;
-                features.samples_for_all = std::max(features.samples_for_all, for_creases);
-                features.gave_up = kept.is_crease != found_.is_crease;
-                for_creases = features.samples_for_all;
-                failure.for_all =
-                    std::max({failure.for_all, for_creases, tried.junctions.samples_for_all});
-                if (!made.has_mesh) continue;
-                result_ = std::move(tried);
-                mend(start, made, std::move(kept));
-                return std::move(result_);
-            }
+        for (KeptCurves& kept : choices()) {
+            RemeshResult tried = start;
+            const MadeMesh made = try_curves(kept, options_, tried);
+            failure.reached = std::max(made.num_needed, options_.num_samples + 1);
+            FeatureCounts& features = tried.features;
+            features.samples_for_all = std::max(features.samples_for_all, for_creases);
+            features.gave_up = kept.is_crease != found_.is_crease;
+            for_creases = features.samples_for_all;
+            failure.for_all =
+                std::max({failure.for_all, for_creases, tried.junctions.samples_for_all});
+            if (!made.has_mesh) continue;
+            result_ = std::move(tried);
+            mend(start, made, std::move(kept));
+            return std::move(result_);
         }
         throw failure;
     }
@@ -116,6 +108,23 @@ private:
                                                  found_.junctions, cleaned_.locked));
         }
         check_count(sizes_.num_samples);
+    }
+
+    // All curves first. Junctions go last if sheets are welded there, otherwise before creases and
+    // seams.
+    [[nodiscard]] std::vector<KeptCurves> choices() const {
+        const KeptCurves all{true, !found_.is_seam.empty(), found_.is_crease};
+        const std::vector<std::uint8_t> none(found_.is_crease.size(), 0);
+        const KeptCurves without_junctions{false, all.has_seams, all.is_crease};
+        const KeptCurves without_others{true, false, none};
+        const bool has_others = all.has_seams || has_creases(all.is_crease);
+        std::vector<KeptCurves> result{all};
+        if (has_others) result.push_back(without_others);
+        if (found_.junctions.empty()) return result;
+        const bool are_welded = options_.junctions == Junctions::Keep;
+        result.insert(are_welded ? result.end() : result.begin() + 1, without_junctions);
+        if (has_others) result.push_back({false, false, none});
+        return result;
     }
 
     MadeMesh try_curves(const KeptCurves& kept, const RemeshOptions& options, RemeshResult& tried) {

@@ -196,6 +196,33 @@ TEST(CleanInput, CollapsesZeroLengthEdges) {
     EXPECT_EQ(clean.counts, (CleanCounts{.welded_vertices = 1, .degenerate_faces = 2}));
 }
 
+// Surfaces of revolution come with a ring of rounded sines at the pole.
+TEST(CleanInput, CollapsesRingsThatAreAsSmallAsRounding) {
+    for (const auto& [radius, collapses] : {std::pair{1e-17, true}, {1e-15, false}}) {
+        TriangleMesh cone;
+        for (const double r : {radius, 1.0}) {
+            for (int i = 0; i < 8; ++i) {
+                const double angle = i * std::numbers::pi / 4;
+                cone.positions.emplace_back(r * std::cos(angle), r * std::sin(angle), r - 1);
+            }
+        }
+        for (Index i = 0; i < 8; ++i) {
+            const Index next = (i + 1) % 8;
+            cone.triangles.push_back({i, i + 8, next + 8});
+            cone.triangles.push_back({i, next + 8, next});
+        }
+        for (const bool keep_slits : {false, true}) {
+            const CleanResult clean = clean_input(cone.view(), {.keep_slits = keep_slits});
+            EXPECT_EQ(clean.mesh.triangles.size(), collapses ? 8u : 16u);
+            EXPECT_EQ(clean.mesh.positions.size(), collapses ? 9u : 16u);
+            EXPECT_EQ(clean.counts,
+                      (collapses ? CleanCounts{.welded_vertices = 7, .degenerate_faces = 8}
+                                 : CleanCounts{}));
+            EXPECT_EQ(clean.welded_positions.empty(), !collapses);
+        }
+    }
+}
+
 TEST(CleanInput, AbsorbsFacesWithoutAreaAndLeavesNoSlit) {
     for (const Index n : {2u, 3u, 40u}) {
         const CleanResult clean = clean_to(shapes::filled_slit(n), shapes::grid(1));
