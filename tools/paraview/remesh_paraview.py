@@ -1,0 +1,1 @@
+# tools/hosts/pack puts program.py here.
