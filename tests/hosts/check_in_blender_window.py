@@ -1,6 +1,6 @@
-"""Runs in Blender with a window: the operator shows progress, Esc stops it, and a picture may be taken.
+"""Runs in Blender with a window: the operator shows progress, and Esc stops it.
 
-Blender needs --enable-event-simulate. Behind --: the zip, and perhaps a folder for pictures."""
+Blender needs --enable-event-simulate. Behind --: the zip."""
 
 import os
 import sys
@@ -67,19 +67,23 @@ def steps():
     print("progress was seen", len(fractions), "times")
 
 
-def tick(generator=steps()):
-    try:
-        next(generator)
-        return 0.1
-    except StopIteration:
-        print("WINDOW PASSED", flush=True)
-        code = 0
-    except BaseException:
-        traceback.print_exc()
-        code = 1
-    sys.stdout.flush()
-    os._exit(code)
+def finish_by(generator):
+    """Installs the add-on, goes through the steps, and ends Blender."""
+    def tick():
+        try:
+            next(generator)
+            return 0.1
+        except StopIteration:
+            code = 0
+        except BaseException:
+            traceback.print_exc()
+            code = 1
+        sys.stdout.flush()
+        os._exit(code)
+
+    check_in_blender.install()
+    bpy.app.timers.register(tick, first_interval=1)
 
 
-check_in_blender.install()
-bpy.app.timers.register(tick, first_interval=1)
+if __name__ == "__main__":
+    finish_by(steps())

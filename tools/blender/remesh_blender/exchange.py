@@ -12,6 +12,7 @@ KINDS = {"FLOAT": ("float", 1, "value"), "INT": ("int", 1, "value"), "INT8": ("c
          "BOOLEAN": ("uchar", 1, "value"), "FLOAT2": ("float", 2, "vector"), "FLOAT_VECTOR": ("float", 3, "vector"),
          "FLOAT_COLOR": ("float", 4, "color"), "BYTE_COLOR": ("float", 4, "color")}
 VALUES = {"float": np.float32, "int": np.int32, "char": np.int32, "uchar": bool}
+LABELS = {"material_index": "int", "use_smooth": "uchar", "select": "uchar"}  # Of faces.
 OWN = re.compile(r"position$|material_index$|shade_smooth$|sharp_face$|\.")  # Not attributes of a user.
 
 
@@ -92,9 +93,13 @@ class Layers:
         points = get(mesh.vertices, "co", np.float32, 3)
         self.vertex = [(axis, "double", values) for axis, values in zip("xyz", points.T)]
         self.face = [("vertex_indices", "int", self.triangles)]
-        for name in ("material_index", "use_smooth", "select"):
-            kind = "int" if name == "material_index" else "uchar"
-            self.face.append((name, kind, get(mesh.polygons, name, VALUES[kind])[self.polygon]))
+        self.constant = {}  # What is the same on all faces need not be carried over by remesh.
+        for name, kind in LABELS.items():
+            values = get(mesh.polygons, name, VALUES[kind])[self.polygon]
+            if len(values) and values.min() == values.max():
+                self.constant[name] = values[0]
+            else:
+                self.face.append((name, kind, values))
         self.attributes, self.missing = [], []
         color = getattr(mesh, "color_attributes", None)
         self.active = (color.active_color.name if color and color.active_color else "",
@@ -148,8 +153,9 @@ class Layers:
         triangles = face["vertex_indices"]
         mesh.clear_geometry()
         mesh.from_pydata(np.stack([vertex[axis] for axis in "xyz"], 1).tolist(), [], triangles.tolist())
-        for name, kind in (("material_index", np.int32), ("use_smooth", bool), ("select", bool)):
-            put(mesh.polygons, name, face[name].astype(kind))
+        for name, kind in LABELS.items():
+            values = np.full(len(face), self.constant[name]) if name in self.constant else face[name]
+            put(mesh.polygons, name, values.astype(VALUES[kind]))
         if self.uv:
             layer = mesh.uv_layers.new(name=self.uv)
             put(layer.data, "uv", face["texcoord"].astype(np.float32))

@@ -38,11 +38,10 @@ class Fields:
 
 def draw_fields(layout, fields, item):
     """item: the object, whose vertex groups are offered."""
-    layout.use_property_split = True
-    layout.prop(fields, "size")
+    layout.prop(fields, "size", text="")
     layout.prop(fields, {"VERTICES": "vertices", "LENGTH": "length", "DISTANCE": "distance"}[fields.size])
     layout.prop(fields, "adaptive")
-    layout.prop(fields, "sharp")
+    layout.prop(fields, "sharp", text="Sharp")
     if fields.sharp == "angle":
         layout.prop(fields, "angle")
     layout.prop(fields, "marked")

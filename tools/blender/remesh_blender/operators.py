@@ -65,7 +65,12 @@ class OBJECT_OT_remesh_geodesic(Fields, Job, bpy.types.Operator):
                       "DISTANCE": ["--max-distance", self.distance]}[self.size]
         arguments += ["--features", math.degrees(self.angle) if self.sharp == "angle" else self.sharp]
         arguments += ["--adaptive"] * self.adaptive + ["--wrap"] * self.wrap
-        arguments += ["--keep-labels=material_index"] * self.materials + ["--region", "select"] * self.selected
+        if self.materials and "material_index" not in layers.constant:
+            arguments.append("--keep-labels=material_index")
+        if self.selected and not layers.constant.get("select", False):  # Else all faces are selected.
+            if "select" in layers.constant:
+                raise Failed("no face is selected; select some in Edit Mode")
+            arguments += ["--region", "select"]
         if self.density:
             if self.density not in groups:
                 raise Failed(f"the object has no vertex group {self.density}")
