@@ -23,8 +23,9 @@ def find(name, folder=""):
               os.path.expanduser("~/.local/bin"), "/usr/local/bin"]
     path = shutil.which(name, path=os.pathsep.join(place for place in places if place))
     if not path:
-        raise Failed(f"The program {name} is not found. Install remesh (its Debian package, or cmake --install), or "
-                     "name the folder of its programs in the settings of this add-on or in REMESH_PROGRAMS.")
+        raise Failed(f"the program {name} is not found. Install remesh (its Debian package, or cmake --install), or name "
+                     "the folder of its programs in the environment variable REMESH_PROGRAMS or, in Blender, in the "
+                     "preferences of the add-on")
     return path
 
 
