@@ -43,7 +43,7 @@ def steps():
     for _ in range(5):
         yield
     spy_on_progress()
-    mesh = item.data
+    mesh, number = item.data, len(item.data.vertices)
     remesh(size="DISTANCE", distance=0.0002)
     while not fractions or fractions[-1] < 0.05:
         yield
@@ -59,11 +59,17 @@ def steps():
     print("stopped at", fractions[-1])
 
     fractions.clear()
+    with bpy.context.temp_override(**view()):
+        bpy.ops.ed.undo_push(message="before")
     remesh(vertices=2000)
     while item.data == mesh:
         yield
     assert len(item.data.vertices) == 2000 and not item.modifiers
     assert fractions == sorted(fractions) and fractions[-1] > 0.5, fractions
+    with bpy.context.temp_override(**view()):
+        bpy.ops.ed.undo()
+    item = bpy.data.objects["torus"]
+    assert len(item.data.vertices) == number and item.modifiers.keys() == ["moved"], "one undo was not enough"
     print("progress was seen", len(fractions), "times")
 
 

@@ -37,6 +37,8 @@ class Job:
     def modal(self, context, event):
         if event.type == "ESC" and event.value == "PRESS":
             self._run.stop()
+        if event.type in {"MIDDLEMOUSE", "WHEELUPMOUSE", "WHEELDOWNMOUSE"}:
+            return {"PASS_THROUGH"}  # The view may be turned; nothing else may change.
         if event.type != "TIMER":
             return {"RUNNING_MODAL"}
         percent = int(100 * self._run.fraction)
