@@ -187,6 +187,23 @@ class AddOn(unittest.TestCase):
         self.assertEqual(list(bpy.data.meshes), [mesh])
         self.assertEqual(list(bpy.data.objects), [self.item])
 
+    def test_a_run_that_fails_is_no_step_to_undo(self):
+        bpy.ops.ed.undo_push(message="first")
+        self.item.location.x = 3
+        bpy.ops.ed.undo_push(message="moved")
+        with self.assertRaises(RuntimeError):
+            remesh(vertices=4)
+        bpy.ops.ed.undo()
+        self.assertEqual(bpy.data.objects["torus"].location.x, 0)
+
+    def test_marked_edges_may_go(self):
+        remesh(vertices=1500, marked=False)
+        mesh = bpy.context.object.data
+        self.assertFalse(get(mesh.edges, "use_edge_sharp", bool).any())
+        points = points_of(mesh)
+        on_circle = (np.abs(points[:, 0]) < 1e-4) & (points[:, 1] > 0)
+        self.assertLess(on_circle.sum(), 10)
+
     def test_the_folder_of_the_programs_may_be_a_setting(self):
         preferences = bpy.context.preferences.addons[NAME].preferences
         programs, path = os.environ.pop("REMESH_PROGRAMS"), os.environ.pop("PATH")

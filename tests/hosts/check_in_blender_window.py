@@ -11,7 +11,7 @@ import bpy
 sys.path.insert(0, os.path.dirname(__file__))
 import check_in_blender
 
-fractions, texts = [], []
+fractions, runs = [], []
 
 
 def view():
@@ -31,6 +31,7 @@ def spy_on_progress():
 
     def modal(self, context, event):
         fractions.append(self._run.fraction)
+        runs.append(self._run)
         return inner(self, context, event)
     jobs.Job.modal = modal
 
@@ -44,7 +45,7 @@ def steps():
         yield
     spy_on_progress()
     mesh, number = item.data, len(item.data.vertices)
-    remesh(size="DISTANCE", distance=0.0002)
+    remesh(size="DISTANCE", distance=0.00005)
     while not fractions or fractions[-1] < 0.05:
         yield
     assert item.data == mesh
@@ -55,7 +56,7 @@ def steps():
         for _ in range(10):
             yield
     assert item.data == mesh and len(item.modifiers) == 1, "the stopped run changed the object"
-    assert fractions[-1] < 1, "the run was not stopped"
+    assert runs[-1]._process.poll() == 143, "the run was not stopped"
     print("stopped at", fractions[-1])
 
     fractions.clear()

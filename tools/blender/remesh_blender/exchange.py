@@ -13,7 +13,7 @@ KINDS = {"FLOAT": ("float", 1, "value"), "INT": ("int", 1, "value"), "INT8": ("c
          "FLOAT_COLOR": ("float", 4, "color"), "BYTE_COLOR": ("float", 4, "color")}
 VALUES = {"float": np.float32, "int": np.int32, "char": np.int32, "uchar": bool}
 LABELS = {"material_index": "int", "use_smooth": "uchar", "select": "uchar"}  # Of faces.
-OWN = re.compile(r"position$|material_index$|shade_smooth$|sharp_face$|\.")  # Not attributes of a user.
+OWN = re.compile(r"position$|material_index$|shade_smooth$|sharp_(edge|face)$|\.")  # Not attributes of a user.
 
 
 def get(collection, name, kind, width=1):
