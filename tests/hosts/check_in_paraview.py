@@ -172,8 +172,12 @@ class Plugin(unittest.TestCase):
         sites = simple.Line(Point1=[0, 0, 1], Point2=[0, 0, -1], Resolution=1)
         diagram = simple.GeodesicVoronoiDiagram(Input=self.source, Sites=sites)
         cells, lines = self.result(diagram), self.result(diagram, 1)
-        site, z = values(cells.GetCellData(), "site"), cell_middles(cells)[:, 2]
+        site, z = values(cells.GetCellData(), "geodesic_site"), cell_middles(cells)[:, 2]
         self.assertTrue((site == (z < 0)).all())
+        self.assertLess(np.abs(values(cells.GetPointData(), "Height of it") - points_of(cells)[:, 2]).max(), 1e-6)
+        self.assertEqual(kind(cells.GetPointData(), "colour"), "unsigned char")
+        away = np.abs(z) > 0.06
+        self.assertTrue((values(cells.GetCellData(), "side") == (z > 0))[away].all())
         self.assertEqual(lines.GetNumberOfPolys(), 0)
         self.assertGreater(lines.GetNumberOfLines(), 0)
         left, right = (values(lines.GetCellData(), name) for name in ("site_left", "site_right"))

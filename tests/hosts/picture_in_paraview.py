@@ -18,7 +18,7 @@ view = simple.GetActiveViewOrCreate("RenderView")
 simple.Hide(mesh, view)
 diagram = simple.GeodesicVoronoiDiagram(Input=mesh, NumberOfSites=60)
 cells = simple.Show(diagram, view)
-simple.ColorBy(cells, ("CELLS", "site"))
+simple.ColorBy(cells, ("CELLS", "geodesic_site"))
 cells.SetScalarBarVisibility(view, False)
 bisectors = simple.Show(simple.OutputPort(diagram, 1), view)
 bisectors.ColorArrayName = ["POINTS", ""]

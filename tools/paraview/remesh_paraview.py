@@ -187,6 +187,11 @@ class Filter(VTKPythonAlgorithmBase):
         reader.Update()
         return reader.GetOutput()
 
+    def carry(self, carried, result):
+        for name in carried.put_on(result):
+            self.warn(f"{name} is not carried over")
+        return result
+
     def site_options(self, sites):
         if sites is None:
             return ["--samples", self.NumberOfSites, "--init", "farthest"]
@@ -228,10 +233,7 @@ class GeodesicRemesh(Filter):
             if name != "None":
                 arguments.append(option + carried.name(prefix, name))
         self.run("remesh", arguments)
-        result = self.read("out.vtp")
-        for name in carried.put_on(result):
-            self.warn(f"{name} is not carried over")
-        return [result]
+        return [self.carry(carried, self.read("out.vtp"))]
 
 
 @smproxy.filter(name="GeodesicDistance", label="Geodesic Distance")
@@ -264,18 +266,19 @@ class GeodesicDistance(Filter):
 @surface_input
 @fields(whole("NumberOfSites", 100))
 class GeodesicVoronoiDiagram(Filter):
-    """The surface cut into cells, the cell array site is the nearest one; and the lines between, with their sites."""
+    """The surface cut into cells, with its arrays and the cell array geodesic_site; and the lines between, with their sites."""
     LABEL = "Geodesic Voronoi Diagram"
 
     def __init__(self):
         super().__init__(inputs=2, outputs=2)
 
     def results(self, surface, sites):
-        shape = vtkPolyData()
-        shape.CopyStructure(surface)
-        self.write(shape)
+        carried = Carried(surface)
+        self.write(carried.surface)
         self.run("agvd", ["diagram", "in.vtp", "--cells", "cells.vtp", "-o", "out.vtp", *self.site_options(sites)])
-        return [self.read("cells.vtp"), without_polygons(self.read("out.vtp"))]
+        cells = self.read("cells.vtp")
+        cells.GetCellData().GetArray("site").SetName("geodesic_site")
+        return [self.carry(carried, cells), without_polygons(self.read("out.vtp"))]
 
 
 def without_polygons(diagram):
