@@ -55,6 +55,10 @@ def make_torus():
     mesh.uv_layers.new(name="chart").data.foreach_set("uv", pairs.astype(np.float32).ravel())
     mesh.attributes.new("height", "FLOAT", "POINT").data.foreach_set("value", points[:, 2].astype(np.float32))
     mesh.attributes.new("side", "INT", "FACE").data.foreach_set("value", 7 + (middle[:, 1] < 0).astype(np.int32))
+    mesh.attributes.new("small", "INT8", "FACE").data.foreach_set("value", -(middle[:, 1] < 0).astype(np.int32))
+    mesh.attributes.new("flag", "BOOLEAN", "FACE").data.foreach_set("value", middle[:, 1] < 0)
+    mesh.attributes.new("place", "FLOAT_VECTOR", "POINT").data.foreach_set("vector", points.astype(np.float32).ravel())
+    mesh.attributes.new("pair", "FLOAT2", "POINT").data.foreach_set("vector", points[:, 1:].astype(np.float32).ravel())
     color = np.concatenate([points / 4 + 0.5, np.ones((len(points), 1))], 1)
     mesh.color_attributes.new("paint", "FLOAT_COLOR", "POINT").data.foreach_set("color", color.ravel())
     of_corner = mesh.color_attributes.new("old paint", "BYTE_COLOR", "CORNER")
@@ -129,6 +133,10 @@ class AddOn(unittest.TestCase):
         self.assertEqual([m.name.split(".")[0] for m in mesh.materials], ["front", "back"])
         away = np.abs(middle[:, 1]) > 0.002
         self.assertTrue((material == (middle[:, 1] < 0))[away].all())
+        self.assertTrue((get(mesh.attributes["small"].data, "value", np.int32) == -material).all())
+        self.assertTrue((get(mesh.attributes["flag"].data, "value", bool) == material).all())
+        self.assertLess(np.abs(get(mesh.attributes["place"].data, "vector", np.float32, 3) - points).max(), 0.02)
+        self.assertLess(np.abs(get(mesh.attributes["pair"].data, "vector", np.float32, 2) - points[:, 1:]).max(), 0.02)
         self.assertTrue((get(mesh.attributes["side"].data, "value", np.int32) == 7 + material).all())
         self.assertTrue(get(mesh.polygons, "use_smooth", bool).all())
 
@@ -329,6 +337,22 @@ class AddOn(unittest.TestCase):
             vertex.select = False
         with self.assertRaisesRegex(RuntimeError, "no vertex is selected"):
             bpy.ops.object.geodesic_distance()
+
+    def test_objects_without_faces_are_refused(self):
+        mesh = bpy.data.meshes.new("points")
+        mesh.from_pydata([(0, 0, 0), (1, 0, 0)], [], [])
+        item = bpy.data.objects.new("points", mesh)
+        bpy.context.collection.objects.link(item)
+        bpy.context.view_layer.objects.active = item
+        mesh.vertices.foreach_set("select", [True, True])
+        for operator in (remesh, bpy.ops.object.geodesic_distance, bpy.ops.object.select_bad_faces):
+            with self.assertRaisesRegex(RuntimeError, "no faces?"):
+                operator()
+        with self.assertRaisesRegex(RuntimeError, "no face is selected"):
+            for polygon in self.item.data.polygons:
+                polygon.select = False
+            bpy.context.view_layer.objects.active = self.item
+            remesh(selected=True)
 
     def test_bad_faces_are_selected(self):
         remesh(vertices=500)
