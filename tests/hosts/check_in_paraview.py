@@ -138,15 +138,16 @@ class Plugin(unittest.TestCase):
 
     def test_sharp_edges(self):
         box = simple.Box()
-        for sharp, corners in (({}, 8), ({"SharpEdges": "By angle", "FeatureAngle": 100}, 0), ({"SharpEdges": "None"}, 0)):
+        for sharp, corners in (({}, 8), ({"SharpEdges": "By angle", "FeatureAngle": 80}, 8),
+                               ({"SharpEdges": "By angle", "FeatureAngle": 100}, 0), ({"SharpEdges": "None"}, 0)):
             points = points_of(self.result(simple.Remesh(Input=box, Vertices=500, **sharp)))
             self.assertEqual((np.abs(points).min(axis=1) > 0.49999).sum(), corners)
 
     def test_adaptive_and_wrap(self):
         stretched = simple.Transform(Input=self.source)
         stretched.Transform.Scale = [1, 1, 4]
-        counts = [(np.abs(points_of(self.result(simple.Remesh(Input=stretched, Vertices=500, Adaptive=on)))[:, 2]) > 3.5)
-                  .sum() for on in (1, 0)]
+        points = [points_of(self.result(simple.Remesh(Input=stretched, Vertices=500, Adaptive=on))) for on in (1, 0)]
+        counts = [(np.abs(of_run[:, 2]) > 3.5).sum() for of_run in points]
         self.assertGreater(counts[0], 1.5 * counts[1])
         half = simple.Clip(Input=self.source, ClipType="Plane")
         half.ClipType.Normal = [0, 0, 1]

@@ -1,5 +1,5 @@
-"""Runs in the window of ParaView: a mesh, its remesh and its cells, with the fields of the first filter. Reads the paths
-of the plugin and the mesh from the environment."""
+"""Runs in the window of ParaView: the cells and the remesh of a mesh, with the fields of the filter. The environment
+names plugin and mesh."""
 
 import inspect
 import os

@@ -18,14 +18,14 @@ class Stopped(Exception):
 
 
 def find(name, folder=""):
-    """The path of a program: in the folder, in $REMESH_PROGRAMS, in PATH, or where pip and `cmake --install` put it."""
+    """The path of a program: in the folder, in $REMESH_PROGRAMS, in PATH, or where pip and cmake --install put it."""
     places = [folder, os.environ.get("REMESH_PROGRAMS", ""), *os.get_exec_path(), sysconfig.get_path("scripts"),
               os.path.expanduser("~/.local/bin"), "/usr/local/bin"]
     path = shutil.which(name, path=os.pathsep.join(place for place in places if place))
     if not path:
-        raise Failed(f"the program {name} is not found. Install remesh (its Debian package, or cmake --install), or name "
-                     "the folder of its programs in the environment variable REMESH_PROGRAMS or, in Blender, in the "
-                     "preferences of the add-on")
+        raise Failed(f"the program {name} is not found. Install remesh (its Debian package, or cmake --install), or "
+                     "name the folder of its programs in the environment variable REMESH_PROGRAMS or, in Blender, in "
+                     "the preferences of the add-on")
     return path
 
 

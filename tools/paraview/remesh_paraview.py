@@ -1,4 +1,4 @@
-"""ParaView plugin: the filters Remesh, Geodesic Distance and Geodesic Voronoi Diagram, by the programs remesh and agvd."""
+"""A plugin of ParaView: the filters Remesh, Geodesic Distance and Geodesic Voronoi Diagram, by remesh and agvd."""
 
 import os
 import tempfile
@@ -241,7 +241,7 @@ class GeodesicRemesh(Filter):
 @surface_input
 @fields(whole("NumberOfSites", 1))
 class GeodesicDistance(Filter):
-    """The input with its arrays, and of each point the distance along the surface and the number of the nearest site."""
+    """The input with its arrays, and of each point the distance along the surface and the nearest site."""
     LABEL = "Geodesic Distance"
 
     def __init__(self):
@@ -266,7 +266,7 @@ class GeodesicDistance(Filter):
 @surface_input
 @fields(whole("NumberOfSites", 100))
 class GeodesicVoronoiDiagram(Filter):
-    """The surface cut into cells, with its arrays and the cell array geodesic_site; and the lines between, with their sites."""
+    """The surface cut into cells, with its arrays and the cell array geodesic_site; and the lines between."""
     LABEL = "Geodesic Voronoi Diagram"
 
     def __init__(self):

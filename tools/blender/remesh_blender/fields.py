@@ -29,8 +29,8 @@ class Fields:
     materials: field(BoolProperty, name="Materials' borders", default=True,
                             description="Borders between materials become chains of edges")
     selected: field(BoolProperty, name="Selected faces only", description="All other faces stay as they are")
-    density: field(StringProperty, name="Density", description="Vertex group: where the weight is 1, there are so many times "
-                                                        "as many vertices per area as where it is 0")
+    density: field(StringProperty, name="Density", description="Vertex group: where the weight is 1, there are so many "
+                                                               "times as many vertices per area as where it is 0")
     ratio: field(FloatProperty, name="Ratio", default=9, min=1, soft_max=100)
     wrap: field(BoolProperty, name="Wrap", description="Remesh the outside as one closed surface without intersections")
     new_object: field(BoolProperty, name="New object", description="Keep the object, and make another one")
