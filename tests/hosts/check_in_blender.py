@@ -36,7 +36,7 @@ def off_by(a, b):
 
 def make_torus():
     """Two materials, on either side of y = 0; a weight and colours that are linear in space; texture coordinates that
-    jump at u = 0 and v = 0; a modifier that moves it; the circle u = 0.25, where it is smooth, is marked."""
+    jump at u = 0 and v = 0, where seams are marked; a modifier that moves it; the circle u = 0.25, where it is smooth, is marked."""
     u, v = (a.ravel() for a in np.meshgrid(np.arange(AROUND), np.arange(ACROSS), indexing="ij"))
     a, b = 2 * np.pi * u / AROUND, 2 * np.pi * v / ACROSS
     ring = RING + TUBE * np.cos(b)
@@ -66,6 +66,7 @@ def make_torus():
     mesh.color_attributes.active_color = mesh.color_attributes["paint"]
     for edge in mesh.edges:
         edge.use_edge_sharp = all(i // ACROSS == AROUND // 4 for i in edge.vertices)
+        edge.use_seam = all(i // ACROSS == 0 for i in edge.vertices) or all(i % ACROSS == 0 for i in edge.vertices)
     item = bpy.data.objects.new("torus", mesh)
     bpy.context.collection.objects.link(item)
     item.vertex_groups.new(name="empty")
@@ -145,6 +146,12 @@ class AddOn(unittest.TestCase):
         self.assertLess(off_by(uv[:, 0], u).max(), 0.01)
         self.assertLess(off_by(uv[:, 1], v).max(), 0.02)
         self.assertLess(np.ptp(uv.reshape(-1, 3, 2), axis=1).max(), 0.3)  # No face spans a seam.
+
+        seams = get(mesh.edges, "vertices", np.int32, 2)[get(mesh.edges, "use_seam", bool)]
+        u, v = angles_of(points[seams].reshape(-1, 3))
+        self.assertLess(np.minimum(off_by(u, 0), off_by(v, 0)).max(), 0.01)
+        length = np.linalg.norm(points[seams[:, 0]] - points[seams[:, 1]], axis=1).sum()
+        self.assertLess(abs(length - 2 * np.pi * (RING + 2 * TUBE)), 0.05)
 
         sharp = get(mesh.edges, "vertices", np.int32, 2)[get(mesh.edges, "use_edge_sharp", bool)]
         self.assertGreater(len(sharp), 10)

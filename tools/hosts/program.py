@@ -26,7 +26,7 @@ def find(name, folder=""):
         raise Failed(f"the program {name} is not found. Install remesh (its Debian package, or cmake --install), or "
                      "name the folder of its programs in the environment variable REMESH_PROGRAMS or, in Blender, in "
                      "the preferences of the add-on")
-    return path
+    return os.path.abspath(path)
 
 
 class Run:

@@ -2,6 +2,8 @@
 
 import tempfile
 
+import bpy
+
 from .program import Failed, Run, Stopped
 
 INTERVAL = 0.05  # Seconds between looks at a program.
@@ -9,7 +11,7 @@ INTERVAL = 0.05  # Seconds between looks at a program.
 
 def programs_folder(context):
     addon = context.preferences.addons.get(__package__)
-    return addon.preferences.folder if addon else ""
+    return bpy.path.abspath(addon.preferences.folder) if addon else ""
 
 
 class Job:
@@ -54,6 +56,7 @@ class Job:
     def cancel(self, context):
         """Blender ends while the program runs."""
         self._run.stop()
+        self._run.wait()
         self._folder.cleanup()
 
     def _begin(self, context):

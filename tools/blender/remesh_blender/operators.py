@@ -24,20 +24,20 @@ def evaluated_mesh(context):
                                            depsgraph=graph)
 
 
-def marked_edges(mesh):
-    """#edges x 2: the ends of edges that are marked sharp."""
-    return exchange.get(mesh.edges, "vertices", np.int32, 2)[exchange.get(mesh.edges, "use_edge_sharp", bool)]
+def marked_edges(mesh, mark):
+    """#edges x 2: the ends of edges with a mark, use_edge_sharp or use_seam."""
+    return exchange.get(mesh.edges, "vertices", np.int32, 2)[exchange.get(mesh.edges, mark, bool)]
 
 
-def mark_edges(mesh, lines):
+def mark_edges(mesh, mark, lines):
     """Marks edges of a result whose ends and middle lie on the lines, #lines x 2 x 3."""
     corners = [(2 * i, 2 * i + 1, 2 * i + 1) for i in range(len(lines))]
     tree = BVHTree.FromPolygons(lines.reshape(-1, 3).tolist(), corners)
     for edge in mesh.edges:
         a, b = (mesh.vertices[i].co for i in edge.vertices)
         length = (b - a).length
-        edge.use_edge_sharp = all(tree.find_nearest(point, NEAR * length)[0] is not None
-                                  for point in (a, b, (a + b) / 2))
+        setattr(edge, mark, all(tree.find_nearest(point, NEAR * length)[0] is not None
+                                for point in (a, b, (a + b) / 2)))
 
 
 class OBJECT_OT_remesh_geodesic(Fields, Job, bpy.types.Operator):
@@ -76,11 +76,14 @@ class OBJECT_OT_remesh_geodesic(Fields, Job, bpy.types.Operator):
                 raise Failed(f"the object has no vertex group {self.density}")
             layers.add_density(self.ratio ** layers.weights[groups.index(self.density)])
             arguments += ["--density", "density"]
-        marked = marked_edges(mesh) if self.marked and not self.wrap else []
-        self._lines = exchange.get(mesh.vertices, "co", np.float32, 3)[marked]
-        if len(marked):
-            np.savetxt(os.path.join(self.path, "marked.txt"), marked, "%d")
+        marks = {mark: marked_edges(mesh, mark) for mark in ("use_edge_sharp", "use_seam")}
+        if not self.marked or self.wrap:
+            del marks["use_edge_sharp"]
+        elif len(marks["use_edge_sharp"]):
+            np.savetxt(os.path.join(self.path, "marked.txt"), marks["use_edge_sharp"], "%d")
             arguments += ["--feature-edges", "marked.txt"]
+        points = exchange.get(mesh.vertices, "co", np.float32, 3)
+        self._lines = {mark: points[ends] for mark, ends in marks.items() if len(ends)}
         layers.write(os.path.join(self.path, "in.ply"))
         return arguments
 
@@ -88,8 +91,8 @@ class OBJECT_OT_remesh_geodesic(Fields, Job, bpy.types.Operator):
         arrays = exchange.read_ply(os.path.join(self.path, "out.ply"))
         mesh = evaluated_mesh(context)
         weights = self._layers.fill(mesh, arrays)
-        if len(self._lines):
-            mark_edges(mesh, self._lines)
+        for mark, lines in self._lines.items():
+            mark_edges(mesh, mark, lines)
         item, old = context.object, context.object.data
         if self.new_object:
             item = item.copy()
