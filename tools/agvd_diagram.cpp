@@ -13,8 +13,10 @@
 #include "page_outputs.h"
 #include "picture.h"
 #include "query.h"
+#include "remesh/clean/carry.h"
 #include "remesh/meshfile/atomic_file.h"
 #include "remesh/meshfile/diagram_file.h"
+#include "remesh/transfer/transfer.h"
 #include "render/mesh_picture.h"
 #include "report/report.h"
 
@@ -129,15 +131,32 @@ void check_other_outputs(const DiagramRun& arguments) {
     }
 }
 
-// The triangles of the cells, each with its site.
-std::string format_cells(const fs::path& path, const agvd::CutCells& cells,
-                         const agvd::Progress& progress) {
+// The values of IN at vertices and faces of the cut mesh. Texture coordinates are left out, as most
+// formats have no place for them.
+remesh::MeshAttributes values_on_cells(const OpenedInput& input, const agvd::CutCells& cells) {
+    const agvd::MeshView mesh = input.file.mesh.view();
+    remesh::InputMap map{.vertices = remesh::to_original(cells.points, mesh, input.clean),
+                         .faces = {}};
+    const std::vector<agvd::Index>& origin = input.clean.face_origin;
+    for (const agvd::Index face : cells.face_origin) {
+        map.faces.emplace_back().fill(origin.empty() ? face : origin[face]);
+    }
+    remesh::MeshAttributes values = remesh::transfer_attributes(input.file, cells.mesh.view(), map);
+    values.texture = {};
+    return values;
+}
+
+// The triangles of the cells, each with its site and the values of IN.
+std::string format_cells(const fs::path& path, const OpenedInput& input,
+                         const agvd::CutCells& cells, const agvd::Progress& progress) {
     remesh::Attribute site{.name = "site", .type = remesh::NumberType::Int32};
     for (const agvd::SiteId s : cells.face_site) {
         site.values.push_back(s.is_valid() ? static_cast<double>(s.value()) : -1.0);
     }
-    return remesh::format_mesh({path}, cells.mesh.view(), {.of_faces = {std::move(site)}},
-                               progress);
+    remesh::MeshAttributes attributes = values_on_cells(input, cells);
+    std::erase_if(attributes.of_faces, [](const auto& other) { return other.name == "site"; });
+    attributes.of_faces.insert(attributes.of_faces.begin(), std::move(site));
+    return remesh::format_mesh({path}, cells.mesh.view(), attributes, progress);
 }
 
 void run_diagram(const DiagramRun& arguments, Console& console) {
@@ -146,9 +165,12 @@ void run_diagram(const DiagramRun& arguments, Console& console) {
     check_outputs(arguments, {arguments.sites, arguments.barriers, arguments.edge_lengths},
                   remesh::check_diagram_extension);
     console.expect(stages_with_reading(arguments.input, arguments.sampling.num_samples));
-    const OpenedInput input = open_input(arguments, console, [&](std::size_t num_faces) {
-        return stages_of_diagram(num_faces, arguments.sampling.num_samples);
-    });
+    const OpenedInput input = open_input(
+        arguments, console,
+        [&](std::size_t num_faces) {
+            return stages_of_diagram(num_faces, arguments.sampling.num_samples);
+        },
+        arguments.cells.empty() ? WithAttributes::No : WithAttributes::Yes);
     const agvd::Surface& surface = input.surface;
     const auto [sites, roles, shapes] = sites_on(input, arguments, console);
     agvd::PropagationOptions propagating = arguments.propagation;
@@ -182,7 +204,7 @@ void run_diagram(const DiagramRun& arguments, Console& console) {
         cells = agvd::cut_cells(surface, diagram, writing);
     }
     if (!arguments.cells.empty()) {
-        files.push_back({arguments.cells, format_cells(arguments.cells, cells, writing)});
+        files.push_back({arguments.cells, format_cells(arguments.cells, input, cells, writing)});
     }
     if (!arguments.html.empty() || !arguments.picture.empty()) {
         page::DiagramPage page = diagram_for_page(surface, sites, diagram, propagating,
@@ -221,7 +243,7 @@ Query add_diagram(CLI::App& app, const std::string& command_line) {
     command
         ->add_option("--cells", arguments->cells,
                      "Also write the mesh cut along the bisectors: triangles with the property "
-                     "site (.ply, .vtp or .vtk)")
+                     "site and the values of IN, but for texture coordinates (.ply, .vtp or .vtk)")
         ->type_name("FILE");
     command
         ->add_option("--html", arguments->html,

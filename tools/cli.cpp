@@ -109,6 +109,17 @@ void add_common_options(CLI::App& app, CommonOptions& options) {
     app.add_flag("--verbose", options.verbose,
                  "Also write to stderr what each stage did, its time and the memory")
         ->excludes(quiet);
+    app.add_option_function<std::string>(
+           "--progress",
+           [&options](const std::string& form) {
+               options.progress = form == "json" ? ProgressForm::Json : ProgressForm::Bar;
+           },
+           "How stderr shows progress. bar: on a terminal only, and not with --quiet; json: for "
+           "other programs, as lines {\"progress\": 0.42, \"stage\": \"relax\", \"run\": 1}, at "
+           "most twenty a second; progress goes from 0 to 1 and never falls")
+        ->check(CLI::IsMember({"bar", "json"}).description(""))
+        ->type_name("bar|json")
+        ->default_str("bar");
 }
 
 Failure failure_of(const std::exception_ptr& thrown) {

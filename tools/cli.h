@@ -35,7 +35,8 @@ enum class ExitCode {
 //! The exit codes as text for the end of --help.
 extern const char* const exit_code_help;
 
-//! Adds -t/--threads, -q/--quiet and --verbose; they are valid once run() calls the job.
+//! Adds -t/--threads, -q/--quiet, --verbose and --progress; they are valid once run() calls the
+//! job.
 void add_common_options(CLI::App& app, CommonOptions& options);
 
 //! Why a job ended without a result.

@@ -23,7 +23,7 @@ std::string seconds_text(std::chrono::steady_clock::duration time) {
 }  // namespace
 
 Console::Console(const CommonOptions& options, const MemoryLimit& limit)
-    : options_(options), memory_(limit), bar_(!options.quiet) {}
+    : options_(options), memory_(limit), bar_(!options.quiet, options.progress) {}
 
 void Console::detail(std::string_view text) {
     if (options_.verbose) info(text);

@@ -19,10 +19,11 @@ struct CommonOptions {
     int threads = 0;  //!< 0: all cores.
     bool quiet = false;
     bool verbose = false;
+    ProgressForm progress = ProgressForm::Bar;
 };
 
-//! Writes messages to stderr, one on each line, and a bar for the progress of the whole run on a
-//! terminal. Also ends the job if it is interrupted or needs too much memory.
+//! Writes messages to stderr, one on each line, and the progress of the whole run, as a bar on a
+//! terminal or as lines of JSON. Also ends the job if it is interrupted or needs too much memory.
 class Console {
 public:
     explicit Console(const CommonOptions& options, const MemoryLimit& limit = {});

@@ -44,10 +44,23 @@ std::string progress_line(const ProgressState& state, std::size_t width) {
     return '[' + std::string(filled, '#') + std::string(length - filled, ' ') + "] " + text;
 }
 
-ProgressBar::ProgressBar(bool is_shown) : is_shown_(is_shown && ::isatty(STDERR_FILENO) == 1) {}
+std::string progress_json(const ProgressState& state) {
+    char fraction[16];
+    std::snprintf(fraction, sizeof fraction, "%.3f", std::clamp(state.fraction, 0.0, 1.0));
+    return std::string("{\"progress\": ") + fraction + ", \"stage\": \"" + state.stage +
+           "\", \"run\": " + std::to_string(state.run) + '}';
+}
+
+ProgressBar::ProgressBar(bool is_shown, ProgressForm form)
+    : form_(form),
+      is_shown_(form == ProgressForm::Json || (is_shown && ::isatty(STDERR_FILENO) == 1)) {}
 
 void ProgressBar::draw(const ProgressState& state) {
     if (!is_shown_) return;
+    if (form_ == ProgressForm::Json) {
+        std::fprintf(stderr, "%s\n", progress_json(state).c_str());
+        return;
+    }
     const std::size_t width = terminal_width(STDERR_FILENO);
     std::string line = progress_line(state, width == 0 ? default_width : width);
     if (line == line_) return;

@@ -1,5 +1,5 @@
 //! \file
-//! One line on a terminal that shows how far a run is.
+//! Shows how far a run is: as one line on a terminal, or as lines for another program.
 #pragma once
 
 #include <chrono>
@@ -8,6 +8,12 @@
 #include <string>
 
 namespace cli {
+
+//! How progress is shown on stderr.
+enum class ProgressForm {
+    Bar,   //!< A bar, if that is a terminal.
+    Json,  //!< Lines of JSON, whatever it is.
+};
 
 //! What the line shows.
 struct ProgressState {
@@ -23,11 +29,15 @@ struct ProgressState {
 //! \param width  columns of the terminal; the line has fewer, so that none wraps.
 [[nodiscard]] std::string progress_line(const ProgressState& state, std::size_t width);
 
-//! Draws the line on stderr, and removes it.
+//! Such as {"progress": 0.420, "stage": "relax", "run": 2}, without a line end.
+[[nodiscard]] std::string progress_json(const ProgressState& state);
+
+//! Draws the line on stderr, and removes it. Lines of JSON stay.
 class ProgressBar {
 public:
     //! A bar that is not shown does nothing.
-    explicit ProgressBar(bool is_shown);
+    //! \param is_shown  whether a terminal gets a bar.
+    ProgressBar(bool is_shown, ProgressForm form);
     ProgressBar(const ProgressBar&) = delete;
     ProgressBar& operator=(const ProgressBar&) = delete;
     ~ProgressBar() { clear(); }
@@ -37,6 +47,7 @@ public:
     void clear();
 
 private:
+    ProgressForm form_;
     bool is_shown_;
     std::string line_;  // As on the screen now; empty: none.
 };

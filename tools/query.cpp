@@ -115,8 +115,9 @@ void check_outputs(const QueryArguments& arguments, std::initializer_list<fs::pa
 }
 
 OpenedInput open_input(const DiagramArguments& arguments, Console& console,
-                       const std::function<std::vector<ExpectedStage>(std::size_t)>& stages) {
-    OpenedInput input{read_input(arguments, console), {}, {}};
+                       const std::function<std::vector<ExpectedStage>(std::size_t)>& stages,
+                       WithAttributes attributes) {
+    OpenedInput input{read_input(arguments, console, attributes), {}, {}};
     const agvd::MeshView mesh = input.file.mesh.view();
     console.info(describe(arguments.input, mesh));
     console.expect(stages(mesh.triangles.size()));

@@ -85,9 +85,11 @@ void add_edge_lengths(CLI::App& app, DiagramArguments& arguments);
 //! cleaned.
 //! \throw agvd::InvalidOption  there are lengths and no --sites.
 //! \param stages  what is expected, by the number of faces.
+//! \param attributes  whether the file has them.
 [[nodiscard]] OpenedInput open_input(
     const DiagramArguments& arguments, Console& console,
-    const std::function<std::vector<ExpectedStage>(std::size_t num_faces)>& stages);
+    const std::function<std::vector<ExpectedStage>(std::size_t num_faces)>& stages,
+    WithAttributes attributes = WithAttributes::No);
 
 //! The sites of --sites, or sampled ones; those on barriers on all sides.
 [[nodiscard]] agvd::SurfaceSites sites_on(const OpenedInput& input,

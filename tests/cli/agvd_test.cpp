@@ -175,6 +175,37 @@ TEST_F(AgvdDiagram, CellsAreFacesOfACutMesh) {
     EXPECT_EQ(num_files(), 3u);
 }
 
+// Two squares and a degenerate face, which cleaning drops; the vertices' value is x + 2 y.
+TEST_F(AgvdDiagram, CellsHaveTheValuesOfTheInput) {
+    const std::string in = put("in.ply",
+                               "ply\nformat ascii 1.0\nelement vertex 7\nproperty double x\n"
+                               "property double y\nproperty double z\nproperty double value\n"
+                               "element face 3\nproperty list uchar int vertex_indices\n"
+                               "property int part\nproperty int site\nend_header\n"
+                               "0 0 0 0\n1 0 0 1\n2 0 0 2\n0 1 0 2\n1 1 0 3\n2 1 0 4\n3 0 0 0\n"
+                               "3 0 1 1 9 8\n4 0 1 4 3 5 8\n4 1 2 5 4 6 8\n");
+    const std::string sites = put("s", "p .5 .2 0\np 1.4 .9 0\np 1.7 .3 0\n");
+    ASSERT_EQ(diagram({in, "--sites", sites, "--cells", at("cut.ply"), "-q"}).exit_code, 0);
+    const remesh::MeshFile cut =
+        remesh::read_mesh(at("cut.ply"), remesh::ReadOptions{.with_attributes = true});
+    ASSERT_EQ(cut.attributes.of_vertices.size(), 1u);
+    EXPECT_GT(cut.mesh.positions.size(), 7u);
+    for (std::size_t v = 0; v < cut.mesh.positions.size(); ++v) {
+        const agvd::Vec3& p = cut.mesh.positions[v];
+        EXPECT_NEAR(cut.attributes.of_vertices[0].values[v], p.x() + 2 * p.y(), 1e-12) << v;
+    }
+    ASSERT_EQ(cut.attributes.of_faces.size(), 2u);
+    EXPECT_EQ(cut.attributes.of_faces[0].name, "site");
+    EXPECT_EQ(cut.attributes.of_faces[1].name, "part");
+    for (std::size_t f = 0; f < cut.mesh.triangles.size(); ++f) {
+        const agvd::Triangle& t = cut.mesh.triangles[f];
+        const auto& p = cut.mesh.positions;
+        const double x = (p[t[0]].x() + p[t[1]].x() + p[t[2]].x()) / 3;
+        EXPECT_EQ(cut.attributes.of_faces[1].values[f], x < 1 ? 5 : 6) << f;
+        EXPECT_LT(cut.attributes.of_faces[0].values[f], 3) << f;
+    }
+}
+
 TEST_F(AgvdDiagram, SitesMayLieInDirtyMeshes) {
     // Face 0 is degenerate and dropped in cleaning; sites keep the numbers of the file. One end of
     // it is a corner of the square, the other is nowhere on the surface.

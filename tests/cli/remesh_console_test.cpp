@@ -1,6 +1,7 @@
 // The program `remesh`: what it says, and where.
 #include <algorithm>
 #include <array>
+#include <nlohmann/json.hpp>
 #include <regex>
 #include <sstream>
 
@@ -52,6 +53,32 @@ TEST_F(Remesh, NoBarIsDrawnIfNobodySeesIt) {
     const std::string in = put("in.ply", shapes::torus(60, 30));
     EXPECT_EQ(remesh({in, at("out.ply"), "-n", "300"}).err.find('\r'), std::string::npos);
     EXPECT_EQ(remesh({in, at("out.ply"), "-n", "300", "-q"}, {.columns = 80}).err, "");
+}
+
+TEST_F(Remesh, OtherProgramsGetProgressAsLinesOfJson) {
+    const std::string in = put("in.ply", shapes::torus(200, 100));
+    const auto outcome = remesh({in, at("out.ply"), "-n", "3000", "--progress", "json"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    std::istringstream lines(outcome.err);
+    double last = 0;
+    int count = 0;
+    for (std::string line; std::getline(lines, line);) {
+        if (!line.starts_with('{')) continue;
+        const auto state = nlohmann::json::parse(line);
+        EXPECT_GE(state["progress"], last) << line;
+        EXPECT_LE(state["progress"], 1) << line;
+        EXPECT_FALSE(state["stage"].get<std::string>().empty()) << line;
+        last = state["progress"];
+        ++count;
+    }
+    EXPECT_GE(last, 0.5);
+    EXPECT_GE(count, 3);
+    EXPECT_NE(outcome.err.find("\ninput: "), std::string::npos) << outcome.err;
+    EXPECT_EQ(outcome.err.find('\r'), std::string::npos) << outcome.err;
+    // The other messages stay away with --quiet.
+    const auto quiet = remesh({in, at("out.ply"), "-n", "3000", "-q", "--progress", "json"});
+    EXPECT_EQ(quiet.err.rfind('{', 0), 0u) << quiet.err;
+    EXPECT_EQ(quiet.err.find("input: "), std::string::npos) << quiet.err;
 }
 
 TEST_F(Remesh, VerboseTellsTimeMemoryAndWorkOfEachStage) {

@@ -176,6 +176,13 @@ TEST(ProgressLine, ShowsWhatIsDoneAndTimes) {
               "[############################# ]  99 %  check  0:00, 0:00 left");
 }
 
+TEST(ProgressJson, HasFractionStageAndRun) {
+    EXPECT_EQ(cli::progress_json({0.42, "relax", 2, std::chrono::seconds(9), {}}),
+              R"({"progress": 0.420, "stage": "relax", "run": 2})");
+    EXPECT_EQ(cli::progress_json({1.5, "write", 1, {}, {}}),
+              R"({"progress": 1.000, "stage": "write", "run": 1})");
+}
+
 TEST(ProgressLine, FitsIntoTheTerminal) {
     const cli::ProgressState state{0.5, "relax", 1, std::chrono::seconds(9), {}};
     for (std::size_t width = 0; width < 80; ++width) {
