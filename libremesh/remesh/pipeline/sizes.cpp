@@ -1,10 +1,9 @@
-// The field gets a base of its own, cut along all creases that were found: attempts with fewer
+// The field gets a base of its own, cut along all creases that were found: runs with fewer
 // creases cut the surface in other ways, but its faces stay.
 #include "remesh/pipeline/sizes.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -15,6 +14,7 @@
 #include "remesh/pipeline/cleaned_input.h"
 #include "remesh/pipeline/sample_count.h"
 #include "remesh/pipeline/stage_context.h"
+#include "remesh/sites/narrow_lengths.h"
 #include "remesh/sites/target_lengths.h"
 
 namespace remesh::detail {
@@ -27,22 +27,8 @@ constexpr double cells_per_site = 4;
 // With a mean edge given, the number of samples is found in so many rounds.
 constexpr int edge_length_tries = 2;
 
-// Narrow parts: the length is that of so many edges around, but not less than this share of the
-// spacing.
-constexpr double vertices_around = 5, shortest_of_spacing = 0.125;
-// Cells that wrap around a rod lie next to cells that fit: all within so many spacings are looked
-// at.
-constexpr double reach_of_point = 3;
-// Patches that measure curvature have to be narrower than the rod.
-constexpr double patches_per_site = 32;
-constexpr double most_of_sites = 0.25;
-// While that is too much, lengths grow by this factor.
-constexpr double longer = 1.2;
-
 // A point lies on an edge if its third barycentric coordinate is no more.
 constexpr double on_edge = 1e-6;
-
-Index bounded_count(double count) { return static_cast<Index>(std::clamp(count, 1.0, 1e9)); }
 
 // The base refers to the surface, which is cut.
 struct CutBase {
@@ -124,7 +110,7 @@ std::vector<double> least_of_faces(const CleanedInput& cleaned, const FaceLength
 std::vector<double> values_for(const Sizing& sizing, const CleanedInput& cleaned,
                                const FieldBase& on, double num_sites, Ticker& ticker) {
     if (sizing.is_adaptive()) {
-        return patch_curvature(*on.base, bounded_count(cells_per_site * num_sites), ticker);
+        return patch_curvature(*on.base, cells_per_site * num_sites, ticker);
     }
     if (sizing.is_even()) return std::vector<double>(on.base->surface().num_vertices(), 1);
     if (const auto* lengths = std::get_if<FaceLengths>(&sizing.edges)) {
@@ -225,24 +211,6 @@ double mean_edge(const MeshView& mesh) {
     return num_edges == 0 ? 0 : sum / num_edges;
 }
 
-// Whether lengths below that of the others, with the growth from there, take more than a share of
-// the sites from where all edges are equally long.
-bool takes_too_much(const Surface& surface, std::span<const std::pair<Index, Index>> joined,
-                    std::span<const double> length, double edge, double slope, Ticker& ticker) {
-    std::vector<double> grown;
-    for (const double l : length) grown.push_back(std::min(l, edge));
-    limit_growth(surface, joined, slope, Paths::Edges, grown, ticker);
-    double more = 0, rest = 0;
-    for (Index f = 0; f < surface.num_faces(); ++f) {
-        for (const Index v : surface.mesh.triangles[f]) {
-            const double part = face_area(surface, f) / 3;
-            more += part / (grown[v] * grown[v]) - part / (edge * edge);
-            if (grown[v] == edge) rest += part / (edge * edge);
-        }
-    }
-    return more > most_of_sites * rest;
-}
-
 }  // namespace
 
 RunSizes find_sizes(const CleanedInput& cleaned, const FoundCurves& found, double spacing,
@@ -295,36 +263,6 @@ RunSizes find_sizes(const CleanedInput& cleaned, const FoundCurves& found, doubl
         sizes.num_samples = count_for_area(sizes.field->area(), cleaned, spacing);
     }
     return sizes;
-}
-
-std::vector<double> narrow_lengths(const IntrinsicTriangulation& base,
-                                   std::span<const SurfacePoint> points,
-                                   std::span<const std::pair<Index, Index>> joined, double spacing,
-                                   double num_sites, double slope, Ticker& ticker) {
-    const Surface& surface = base.surface();
-    std::vector<double> distance(surface.num_vertices(), infinity);
-    for (const SurfacePoint& point : base.to_intrinsic(points)) {
-        for (const Index v : surface.mesh.triangles[point.face.value()]) {
-            distance[v] = std::numeric_limits<double>::min();
-        }
-    }
-    limit_growth(surface, joined, 1, Paths::Edges, distance, ticker);
-    const std::vector<double> curvature =
-        patch_curvature(base, bounded_count(patches_per_site * num_sites), ticker);
-    const double edge = std::sqrt(2 / std::numbers::sqrt3) * spacing;
-    std::vector<double> length(surface.num_vertices(), infinity);
-    for (Index v = 0; v < length.size(); ++v) {
-        if (distance[v] > reach_of_point * spacing) continue;
-        // Of a cylinder the root mean square of both curvatures is 1 / (sqrt(2) r).
-        const double radius = 1 / (std::numbers::sqrt2 * curvature[v]);
-        length[v] = 2 * std::numbers::pi * radius / vertices_around;
-        if (length[v] >= edge) length[v] = infinity;
-        length[v] = std::max(length[v], shortest_of_spacing * edge);
-    }
-    while (takes_too_much(surface, joined, length, edge, slope, ticker)) {
-        for (double& l : length) l = l * longer < edge ? l * longer : infinity;
-    }
-    return length;
 }
 
 SizingResult measure_edges(const MeshView& mesh, std::span<const SurfacePoint> sites,

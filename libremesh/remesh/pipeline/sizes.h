@@ -24,20 +24,6 @@ struct RunSizes {
                                   std::span<const SizedPoint> short_points,
                                   const StageContext& context);
 
-//! Longest edges on parts that are narrower than the spacing: some five vertices lie around each.
-//! Lengths are at least an eighth of the spacing, and longer if such parts took more than a quarter
-//! of the sites.
-//! \param points   on base.input(): where cells wrap around such parts.
-//! \param joined   see limit_growth, as is slope.
-//! \param spacing  mesh units: of the sites in the mean.
-//! \return #V of base.surface(); infinity where nothing is narrow.
-//! Cost: O(n log n).
-[[nodiscard]] std::vector<double> narrow_lengths(const IntrinsicTriangulation& base,
-                                                 std::span<const SurfacePoint> points,
-                                                 std::span<const std::pair<Index, Index>> joined,
-                                                 double spacing, double num_sites, double slope,
-                                                 Ticker& ticker);
-
 //! Compares a mesh with the target lengths.
 //! \param sites  #V: the vertices on the surface.
 //! \param sizes  null: all targets are equal.

@@ -159,9 +159,9 @@ struct CurvatureCells {
 
 }  // namespace
 
-std::vector<double> patch_curvature(const IntrinsicTriangulation& base, Index num_cells,
+std::vector<double> patch_curvature(const IntrinsicTriangulation& base, double num_cells,
                                     Ticker& ticker) {
-    return CurvatureCells{base, num_cells, ticker}.run();
+    return CurvatureCells{base, static_cast<Index>(std::clamp(num_cells, 1.0, 1e9)), ticker}.run();
 }
 
 }  // namespace remesh

@@ -17,12 +17,12 @@ namespace remesh {
 //! The root mean square of the two principal curvatures, over patches (cells of evenly spread
 //! vertices, with those next to them): the deviation of normals over that of positions. Independent
 //! of the triangles. Patches end at the boundary: cut creases first.
-//! \param num_cells  >= 1; there are no more than vertices of the base.
+//! \param num_cells  rounded down, at least 1; there are no more than vertices of the base.
 //! \return #V of base.surface(): 1 / mesh units, >= 0.
 //! \throw Cancelled  the progress callback returned false.
 //! Cost: O(n).
 [[nodiscard]] std::vector<double> patch_curvature(const IntrinsicTriangulation& base,
-                                                  Index num_cells, Ticker& ticker);
+                                                  double num_cells, Ticker& ticker);
 
 //! The edge of an equilateral triangle whose corners lie on a sphere of this curvature and whose
 //! middle is off by `error`: sqrt(6 e / k - 3 e^2) (pmp and CGAL have it too). Where the radius is

@@ -7,8 +7,8 @@
 
 #include "remesh/meshfile/mesh_file.h"
 #include "remesh/pipeline/remesh.h"
-#include "remesh/pipeline/sizes.h"
 #include "remesh/quality/evaluate.h"
+#include "remesh/sites/narrow_lengths.h"
 #include "support/files.h"
 #include "support/parts.h"
 #include "support/shapes.h"
