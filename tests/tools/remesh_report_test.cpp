@@ -74,6 +74,7 @@ remesh::RemeshResult example_result() {
                        .failing_before = 9,
                        .failing_after = 3,
                        .flips = 7,
+                       .measured_edges = 150,
                        .not_locally_shortest = 1,
                        .broken_triangles = 2,
                        .is_finished = false};
@@ -202,6 +203,7 @@ TEST(RemeshReport, GivesEveryFieldOfTheResult) {
     EXPECT_EQ(report["delaunay"]["failing_edges_after"], 3);
     EXPECT_EQ(report["delaunay"]["failing_after_percent"], 1.5);
     EXPECT_EQ(report["delaunay"]["flips"], 7);
+    EXPECT_EQ(report["delaunay"]["measured_edges"], 150);
     EXPECT_EQ(report["delaunay"]["edges_not_locally_shortest"], 1);
     EXPECT_EQ(report["delaunay"]["broken_triangles"], 2);
     EXPECT_EQ(report["delaunay"]["finished"], false);

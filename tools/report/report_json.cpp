@@ -130,6 +130,7 @@ Json to_json(const DelaunayCounts& counts, Delaunay delaunay) {
             {"failing_edges_after", counts.failing_after},
             {"failing_after_percent", 100 * counts.failing_after / inner_edges},
             {"flips", counts.flips},
+            {"measured_edges", counts.measured_edges},
             {"edges_not_locally_shortest", counts.not_locally_shortest},
             {"broken_triangles", counts.broken_triangles},
             {"finished", counts.is_finished}};

@@ -49,23 +49,36 @@ enum class Delaunay : std::uint8_t {
 //! Lower-case name, for command lines and reports.
 [[nodiscard]] const char* delaunay_name(Delaunay delaunay);
 
+//! Two vertices are at most so far from each other on the surface.
+struct PairBound {
+    std::uint64_t ends = 0;  //!< edge_key(a, b).
+    double most = 0;         //!< Mesh units.
+
+    [[nodiscard]] auto operator<=>(const PairBound&) const = default;
+};
+
 //! `{}` gives the defaults.
 struct DelaunayOptions {
     Delaunay mode = Delaunay::Intrinsic;  //!< Which edges to flip.
     //! #V, below #V: equal for copies of one vertex on several sides of a cut; empty: all differ.
     //! No flip joins two vertices that another edge joins already.
     std::span<const Index> group = {};
+    //! Intrinsic: ascending, the least one of each pair first. With these and the straight lengths
+    //! most edges are proved to meet the condition, and are not measured.
+    std::span<const PairBound> bounds = {};
     int num_threads = 0;     //!< >= 0; 0: all cores. Same bytes for any number.
     Progress progress = {};  //!< Polled during the call; see poll.
 };
 
 //! Counts of edges, flips and triangles; all 0 with Delaunay::Off.
 struct DelaunayCounts {
-    Index inner_edges = 0;           //!< Edges of two faces.
-    Index failing_before = 0;        //!< Inner edges whose opposite angles sum to more than pi (by
-    Index failing_after = 0;         //!< more than 1e-6), before and after the flips.
-    Index flips = 0;                 //!< Edges flipped, each as often as it was.
-    Index not_locally_shortest = 0;  //!< Intrinsic: edges before flips; see GeodesicPath.
+    Index inner_edges = 0;     //!< Edges of two faces.
+    Index failing_before = 0;  //!< Inner edges whose opposite angles sum to more than pi (by
+    Index failing_after = 0;   //!< more than 1e-6), before and after the flips.
+    Index flips = 0;           //!< Edges flipped, each as often as it was.
+    Index measured_edges = 0;  //!< Before the flips: the others are proved by bounds.
+    //! Intrinsic: of these, before the flips; see GeodesicPath.
+    Index not_locally_shortest = 0;
     //! Intrinsic: triangles with a side longer than the other two together.
     Index broken_triangles = 0;
     bool is_finished = true;  //!< False: stopped after 100 passes.
@@ -86,7 +99,7 @@ struct DelaunayResult {
 //! \param triangles  vertex indices. Edges without exactly two sides in opposite directions are
 //!                   left unchanged. The vertices of a triangle lie on one component.
 //! \throw Cancelled  the progress callback returned false.
-//! Cost: that of path_between for each edge.
+//! Cost: that of path_between for each edge that no bounds prove.
 [[nodiscard]] DelaunayResult make_delaunay(const Surface& surface,
                                            std::span<const SurfacePoint> points,
                                            std::span<const Vec3> positions,

@@ -1,10 +1,11 @@
 // Edges that fail by the lengths of locally shortest paths are flipped in passes. Edge (a, b) lies
-// in triangles (a, b, c) and (b, a, d).
+// in triangles (a, b, c) and (b, a, d). A length is measured where its bounds do not decide.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <optional>
 
 #include "agvd/core/parallel.h"
 #include "agvd/core/portable_math.h"
@@ -22,6 +23,8 @@ constexpr double delaunay_tolerance = 1e-6;
 constexpr int max_passes = 100;
 // Relative to the longest side, as lengths are sums of a few square roots.
 constexpr double length_tolerance = 1e-12;
+// Of bounds, which may be rounded to single precision.
+constexpr double bound_rounding = 1e-6;
 constexpr Index paths_per_task = 128;
 constexpr std::size_t ticks_per_path = 100;
 
@@ -70,6 +73,12 @@ struct NumberedMesh : detail::FanMesh {
         });
     }
     [[nodiscard]] Index num_edges() const { return static_cast<Index>(ends.size()); }
+    // The copies at the ends of an edge now.
+    [[nodiscard]] DirectedEdge copies_of(Index edge) const {
+        if (side[edge] == no_index) return ends[edge];
+        const Index h = side[edge];
+        return {copy[h / 3][h % 3], copy[h / 3][(h + 1) % 3]};
+    }
     [[nodiscard]] Index copy_opposite(Index h) const { return copy[h / 3][(h + 2) % 3]; }
 
     void flip_edge(Index edge) {
@@ -96,35 +105,107 @@ struct EdgeLength {
 };
 using Metric = std::function<EdgeLength(Index, Index)>;  // Between two vertices.
 
-std::vector<double> measure_edges(const NumberedMesh& mesh, const Metric& metric, int num_threads,
-                                  Poller& poller, DelaunayCounts& counts) {
-    std::vector<EdgeLength> found(mesh.num_edges());
-    const auto measure = [&](Index, Index begin, Index end) {
-        Ticker ticker(poller);
-        for (Index e = begin; e < end; ++e) {
-            found[e] = metric(mesh.ends[e].first, mesh.ends[e].second);
-            ticker.tick(ticks_per_path);
+// Bounds of the lengths of edges, which are equal once the edge is measured.
+class EdgeLengths {
+public:
+    EdgeLengths(const NumberedMesh& mesh, std::span<const Vec3> positions,
+                std::span<const PairBound> bounds)
+        : mesh_(mesh), least_(mesh.num_edges()), most_(mesh.num_edges(), infinity) {
+        for (Index e = 0; e < mesh.num_edges(); ++e) {
+            const auto& [a, b] = mesh.ends[e];
+            least_[e] = (positions[a] - positions[b]).norm();
+            const std::uint64_t key = edge_key(a, b);
+            const auto found = std::ranges::lower_bound(bounds, key, {}, &PairBound::ends);
+            if (found != bounds.end() && found->ends == key) {
+                most_[e] = std::max(found->most * (1 + bound_rounding), least_[e]);
+            }
         }
-    };
-    parallel_chunks(mesh.num_edges(), paths_per_task, num_threads, measure, poller);
-    std::vector<double> length;
-    for (const EdgeLength& edge : found) {
-        length.push_back(edge.length);
-        if (!edge.is_locally_shortest) ++counts.not_locally_shortest;
     }
-    return length;
-}
+
+    // Measures the edges around those whose test their bounds do not decide.
+    void measure(const Metric& metric, int num_threads, Poller& poller, DelaunayCounts& counts) {
+        std::vector<std::uint8_t> is_wanted(mesh_.num_edges(), 0);
+        const auto want = [&](Index face) {
+            for (Index h = 3 * face; h < 3 * face + 3; ++h) is_wanted[mesh_.label(h)] = 1;
+        };
+        for (Index e = 0; e < mesh_.num_edges(); ++e) {
+            const Index h = mesh_.side[e];
+            if (h == no_index || is_proved(e)) continue;
+            want(h / 3);
+            want(mesh_.twin(h) / 3);
+        }
+        for (Index f = 0; f < mesh_.num_faces(); ++f) {
+            if (!is_proved_triangle(f)) want(f);
+        }
+        std::vector<Index> wanted;
+        for (Index e = 0; e < mesh_.num_edges(); ++e) {
+            if (is_wanted[e] != 0) wanted.push_back(e);
+        }
+        counts.measured_edges = static_cast<Index>(wanted.size());
+        std::vector<EdgeLength> found(wanted.size());
+        const auto measure = [&](Index, Index begin, Index end) {
+            Ticker ticker(poller);
+            for (Index i = begin; i < end; ++i) {
+                const auto& [a, b] = mesh_.ends[wanted[i]];
+                found[i] = metric(a, b);
+                ticker.tick(ticks_per_path);
+            }
+        };
+        parallel_chunks(static_cast<Index>(wanted.size()), paths_per_task, num_threads, measure,
+                        poller);
+        for (std::size_t i = 0; i < wanted.size(); ++i) {
+            put(wanted[i], found[i].length);
+            if (!found[i].is_locally_shortest) ++counts.not_locally_shortest;
+        }
+    }
+
+    void put(Index edge, double length) { least_[edge] = most_[edge] = length; }
+    [[nodiscard]] bool is_measured(Index edge) const { return least_[edge] == most_[edge]; }
+    [[nodiscard]] double operator[](Index edge) const { return most_[edge]; }
+
+    // Whether the edge certainly meets the condition.
+    [[nodiscard]] bool is_proved(Index edge) const {
+        const Index h = mesh_.side[edge];
+        const std::optional<Vec2> left = largest_corner(h);
+        if (!left) return false;
+        const std::optional<Vec2> right = largest_corner(mesh_.twin(h));
+        return right && !is_above_pi(*left, *right);
+    }
+    [[nodiscard]] bool is_proved_triangle(Index face) const {
+        for (Index h = 3 * face; h < 3 * face + 3; ++h) {
+            if (most_[mesh_.label(h)] > least_at(mesh_.next(h)) + least_at(mesh_.previous(h))) {
+                return false;
+            }
+        }
+        return true;
+    }
+
+private:
+    [[nodiscard]] double least_at(Index h) const { return least_[mesh_.label(h)]; }
+    [[nodiscard]] double most_at(Index h) const { return most_[mesh_.label(h)]; }
+
+    // The angle opposite a half-edge is the largest where that edge is the longest and the others
+    // are the shortest, as the corners at its ends are acute for all lengths.
+    [[nodiscard]] std::optional<Vec2> largest_corner(Index h) const {
+        const Index next = mesh_.next(h), previous = mesh_.previous(h);
+        const double a = least_at(next), b = least_at(previous), c = least_at(h);
+        const double longest_a = most_at(next), longest_b = most_at(previous);
+        const bool are_acute =
+            a * a + c * c >= longest_b * longest_b && b * b + c * c >= longest_a * longest_a;
+        if (!are_acute || most_at(h) > a + b) return std::nullopt;
+        return corner_opposite(most_at(h), a, b);
+    }
+
+    const NumberedMesh& mesh_;
+    std::vector<double> least_, most_;  // By edge.
+};
 
 class Flipper {
 public:
     // \param positions  of the groups.
-    Flipper(NumberedMesh& mesh, std::vector<double> length, std::span<const Vec3> positions,
+    Flipper(NumberedMesh& mesh, EdgeLengths& length, std::span<const Vec3> positions,
             const Metric& metric, Ticker ticker)
-        : ticker_(ticker),
-          mesh_(mesh),
-          length_(std::move(length)),
-          positions_(positions),
-          metric_(metric) {}
+        : ticker_(ticker), mesh_(mesh), length_(length), positions_(positions), metric_(metric) {}
 
     void run(DelaunayCounts& counts) {
         std::vector<Index> failing = find_failing();
@@ -140,14 +221,23 @@ public:
         }
         counts.failing_after = static_cast<Index>(failing.size());
         for (Index t = 0; t < mesh_.num_faces(); ++t) {
-            if (!is_triangle(length(3 * t), length(3 * t + 1), length(3 * t + 2))) {
+            if (!length_.is_proved_triangle(t) &&
+                !is_triangle(length(3 * t), length(3 * t + 1), length(3 * t + 2))) {
                 ++counts.broken_triangles;
             }
         }
     }
 
 private:
-    [[nodiscard]] double length(Index half_edge) const { return length_[mesh_.label(half_edge)]; }
+    [[nodiscard]] double length(Index half_edge) {
+        const Index edge = mesh_.label(half_edge);
+        if (!length_.is_measured(edge)) {
+            const auto [a, b] = mesh_.copies_of(edge);
+            length_.put(edge, metric_(a, b).length);
+            ticker_.tick(ticks_per_path);
+        }
+        return length_[edge];
+    }
 
     [[nodiscard]] std::vector<Index> find_failing() {
         std::vector<Index> failing;
@@ -158,11 +248,11 @@ private:
         return failing;
     }
 
-    [[nodiscard]] bool fails(Index edge) const {
+    [[nodiscard]] bool fails(Index edge) {
         const Index h = mesh_.side[edge];
-        if (h == no_index) return false;
+        if (h == no_index || length_.is_proved(edge)) return false;
         const auto corner = [&](Index side) {
-            return corner_opposite(length_[edge], length(mesh_.next(side)),
+            return corner_opposite(length(side), length(mesh_.next(side)),
                                    length(mesh_.previous(side)));
         };
         return is_above_pi(corner(h), corner(mesh_.twin(h)));
@@ -181,7 +271,7 @@ private:
             return false;
         }
         mesh_.flip_edge(edge);
-        length_[edge] = across;
+        length_.put(edge, across);
         return true;
     }
 
@@ -193,7 +283,7 @@ private:
 
     Ticker ticker_;
     NumberedMesh& mesh_;
-    std::vector<double> length_;  // By edge.
+    EdgeLengths& length_;
     std::span<const Vec3> positions_;
     const Metric& metric_;
 };
@@ -240,8 +330,9 @@ DelaunayResult make_delaunay(const Surface& surface, std::span<const SurfacePoin
     DelaunayCounts& counts = result.counts;
     counts.inner_edges =
         mesh.num_edges() - static_cast<Index>(std::ranges::count(mesh.side, no_index));
-    std::vector<double> length = measure_edges(mesh, metric, options.num_threads, poller, counts);
-    Flipper(mesh, std::move(length), of_group, metric, Ticker(poller)).run(counts);
+    EdgeLengths length(mesh, positions, options.bounds);
+    length.measure(metric, options.num_threads, poller, counts);
+    Flipper(mesh, length, of_group, metric, Ticker(poller)).run(counts);
     result.triangles = std::move(mesh.copy);
     return result;
 }

@@ -106,6 +106,24 @@ private:
         for (Index& site : site_) {
             if (site >= num_kept) site = no_index;
         }
+        find_bounds(labels.distance);
+    }
+
+    // Two sites are not farther apart than by an edge of the base between vertices that they label.
+    void find_bounds(std::span<const float> distance) {
+        std::vector<Index> vertex(placed_.sites.size(), no_index);
+        for (Index v = 0; v < site_.size(); ++v) {
+            if (site_[v] != no_index) vertex[site_[v]] = v;
+        }
+        for (Index e = 0; e < base_.num_edges(); ++e) {
+            const Index h = base_.edge_half[e], tail = base_.tail(h), head = base_.head(h);
+            const Index a = dual_.nearest_site[tail], b = dual_.nearest_site[head];
+            if (a == b || a == no_index || b == no_index) continue;
+            if (vertex[a] == no_index || vertex[b] == no_index) continue;
+            const double most = double{distance[tail]} + base_.length[e] + double{distance[head]};
+            bounds_.push_back({edge_key(vertex[a], vertex[b]), most});
+        }
+        std::ranges::sort(bounds_);
     }
 
     // Whether each curve is the same chain of edges in all patches on its sides. Edges of the
@@ -190,6 +208,7 @@ private:
         DelaunayResult made = make_delaunay(base_, points_, positions, triangles_,
                                             {.mode = options.delaunay,
                                              .group = place_,
+                                             .bounds = bounds_,
                                              .num_threads = options.num_threads,
                                              .progress = progress});
         poll(progress, 1);
@@ -228,6 +247,7 @@ private:
     std::vector<Index> site_;                // #V: no_index: none.
     std::vector<Index> place_, vertex_;      // #V: the first copy there, and of its sheet.
     std::vector<std::uint8_t> is_last_;      // #V
+    std::vector<PairBound> bounds_;          // Ascending.
     DualMesh dual_;
 };
 

@@ -182,7 +182,7 @@ void add_told(const RemeshResult& tile, double share, RemeshResult& sum) {
     sum.features.length -= tile.features.dropped_length;
     for (Index DelaunayCounts::*count :
          {&DelaunayCounts::inner_edges, &DelaunayCounts::failing_before,
-          &DelaunayCounts::failing_after, &DelaunayCounts::flips,
+          &DelaunayCounts::failing_after, &DelaunayCounts::flips, &DelaunayCounts::measured_edges,
           &DelaunayCounts::not_locally_shortest, &DelaunayCounts::broken_triangles}) {
         sum.delaunay.*count += tile.delaunay.*count;
     }

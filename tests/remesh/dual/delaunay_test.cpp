@@ -39,6 +39,22 @@ struct Dual {
         return remesh::make_delaunay(surface, sites, positions(), triangles,
                                      {.mode = mode, .num_threads = num_threads});
     }
+    // By the bounds of the distances along edges of the surface between two cells.
+    [[nodiscard]] DelaunayResult made_with_bounds() const {
+        const agvd::Propagation found = propagate(surface, sites, {.num_threads = 1});
+        std::vector<remesh::PairBound> bounds;
+        for (const Index h : surface.edge_half) {
+            const Index a = surface.tail(h), b = surface.head(h);
+            const auto from = found.vertex_site[a], to = found.vertex_site[b];
+            if (from == to) continue;
+            bounds.push_back(
+                {agvd::edge_key(from.value(), to.value()),
+                 found.vertex_distance[a] + surface.length_of(h) + found.vertex_distance[b]});
+        }
+        std::ranges::sort(bounds);
+        return remesh::make_delaunay(surface, sites, positions(), triangles,
+                                     {.bounds = bounds, .num_threads = 1});
+    }
     [[nodiscard]] std::vector<Vec3> positions() const {
         std::vector<Vec3> result;
         for (const SurfacePoint& place : sites) {
@@ -117,6 +133,28 @@ TEST(MakeDelaunay, HoldsOnRandomMeshesWhateverTheDual) {
     }
     // Rounding hides it on faces of no height.
     EXPECT_LE(num_unproved, num_edges / 5000);
+}
+
+TEST(MakeDelaunay, BoundsSaveLengthsAndChangeNothing) {
+    Index num_failing = 0;
+    for (const TriangleMesh& mesh :
+         {shapes::jitter(shapes::sphere(5), 0.003, 1), shapes::torus(90, 45),
+          shapes::jitter(shapes::grid(60), 0.004, 2)}) {
+        for (const Index count : {60U, 300U}) {
+            const Dual dual(mesh, uniform(mesh, count, count));
+            const DelaunayResult all = dual.made(Delaunay::Intrinsic);
+            const DelaunayResult some = dual.made_with_bounds();
+            EXPECT_EQ(some.triangles, all.triangles);
+            EXPECT_EQ(some.counts.failing_before, all.counts.failing_before);
+            EXPECT_EQ(some.counts.failing_after, all.counts.failing_after);
+            EXPECT_EQ(some.counts.flips, all.counts.flips);
+            EXPECT_EQ(some.counts.broken_triangles, all.counts.broken_triangles);
+            EXPECT_GE(all.counts.measured_edges, all.counts.inner_edges);  // And the boundary.
+            EXPECT_LT(some.counts.measured_edges, all.counts.measured_edges);
+            num_failing += all.counts.failing_before;
+        }
+    }
+    EXPECT_GT(num_failing, 5u);
 }
 
 TEST(MakeDelaunay, InThePlaneEveryEdgeIsDelaunay) {

@@ -198,7 +198,7 @@ TEST(RelaxNetwork, SitesOfCurvesStayOnThemAndTogether) {
 // Long locked edges are divided while sites relax: else sites move onto the edges.
 TEST(RelaxNetwork, SitesKeepOffLongLockedEdges) {
     const Surface surface = agvd::build_surface(shapes::grid(1).view());
-    remesh::LockedElements locked{.vertices = {0, 1, 2, 3}};
+    remesh::LockedElements locked{.vertices = {0, 1, 2, 3}, .is_edge = {}};
     locked.is_edge.assign(surface.num_edges(), 0);
     for (const Index h : surface.edge_half) {
         if (surface.twin[h] == agvd::no_index) locked.is_edge[surface.edge[h]] = 1;
