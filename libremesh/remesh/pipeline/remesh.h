@@ -116,7 +116,8 @@ struct RemeshOptions {
     //! Whether vertices may leave the surface so that the triangles lie nearer to it. Unset: only
     //! if sites are relaxed.
     std::optional<bool> fit = {};
-    //! How distances are computed. Its num_threads and progress are ignored: those below count.
+    //! How distances are computed: engine, max_error, steiner_points and lambda. num_threads and
+    //! progress are ignored, as those below count; the others must have their defaults.
     //! With a max_error of 0 the run works on the input itself, however many faces it has for each
     //! sample; otherwise maybe on a coarse surface (RemeshResult::coarse_faces).
     PropagationOptions propagation = {};

@@ -134,6 +134,20 @@ TEST(Remesh, TooFewSamplesForTheTopologyAreRefused) {
     EXPECT_THROW((void)remesh::remesh(shapes::cube().view(), {.num_samples = 0}), InvalidOption);
 }
 
+TEST(Remesh, OptionsOfAPropagationThatMeanNothingAreRefused) {
+    const TriangleMesh mesh = shapes::sphere(2);
+    std::vector<agvd::PropagationOptions> wrong(4);
+    wrong[0].points.start.assign(50, 0);
+    wrong[1].shapes.emplace_back();
+    wrong[2].relay_faces = {0};
+    wrong[3].max_distance = 1;
+    for (const agvd::PropagationOptions& options : wrong) {
+        remesh::RemeshOptions given{.num_samples = 50};
+        given.propagation = options;
+        EXPECT_THROW((void)remesh::remesh(mesh.view(), given), InvalidOption);
+    }
+}
+
 TEST(Remesh, ANumberThatMayBeRaisedIsRaisedToWhatTheTopologyNeeds) {
     for (const auto may : {remesh::VertexCount::Raise, remesh::VertexCount::Add}) {
         const auto size = [&](const TriangleMesh& mesh, Index count) {
