@@ -1,0 +1,367 @@
+// Gmsh's .msh in both versions, as text and in binary.
+#include <gtest/gtest.h>
+
+#include "support/msh_text.h"
+#include "support/read_text.h"
+#include "support/shapes.h"
+
+using agvd::InvalidInput;
+using agvd::IoError;
+using agvd::Triangle;
+using agvd::Vec3;
+using texts::expect_error;
+using texts::read_bytes;
+using Values = std::vector<double>;
+
+namespace {
+
+const std::string text_2 = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
+const std::string text_4 = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n";
+const std::string three_nodes_2 = "$Nodes\n3\n1 0 0 0\n2 1 0 0\n3 0 1 0\n$EndNodes\n";
+const std::string three_nodes_4 =
+    "$Nodes\n1 3 1 3\n2 1 0 3\n1\n2\n3\n0 0 0\n1 0 0\n0 1 0\n$EndNodes\n";
+const std::string one_triangle_2 = "$Elements\n1\n1 2 2 0 1 1 2 3\n$EndElements\n";
+const std::string one_triangle_4 = "$Elements\n1 1 1 1\n2 1 2 1\n1 1 2 3\n$EndElements\n";
+
+remesh::MeshFile with_groups(const std::string& bytes) { return read_bytes("a.msh", bytes, true); }
+
+void add_names(msh::Text& text) {
+    text.raw(
+        "$PhysicalNames\n3\n1 4 \"a curve\"\n2 7 \"wet walls\"\n3 7 \"body\"\n$EndPhysicalNames\n");
+}
+
+// A point, a curve of one edge, a triangle of group 7 and a quad of group 9.
+void add_mesh_2(msh::Text& text) {
+    text.raw("$Nodes\n4\n");
+    for (const auto& [tag, p] : {std::pair(10, Vec3(0, 0, 0)), std::pair(3, Vec3(1, 0, 0)),
+                                 std::pair(7, Vec3(0, 1, 0)), std::pair(5, Vec3(1, 1, 0.5))}) {
+        text.integers({tag}).reals({p.x(), p.y(), p.z()}).raw(text.form().is_binary ? "" : "\n");
+    }
+    text.end_line().raw("$EndNodes\n$Elements\n4\n");
+    const auto element = [&](int tag, int type, std::initializer_list<int> tags,
+                             std::initializer_list<int> nodes) {
+        const int num_tags = static_cast<int>(tags.size());
+        if (text.form().is_binary) {
+            text.integers({type, 1, num_tags, tag});
+        } else {
+            text.integers({tag, type, num_tags});
+        }
+        text.integers(tags).integers(nodes).raw(text.form().is_binary ? "" : "\n");
+    };
+    element(1, 15, {0, 1}, {10});
+    element(2, 1, {4, 1}, {10, 3});
+    element(30, 2, {7, 1, 1, 4}, {10, 3, 7});
+    element(4, 3, {9, 2}, {10, 3, 5, 7});
+    text.end_line().raw("$EndElements\n");
+}
+
+// The same. Of the second block of nodes the parameters are given as well.
+void add_mesh_4(msh::Text& text) {
+    text.raw("$Entities\n").sizes({1, 1, 2, 0});
+    text.integers({1}).reals({0, 0, 0}).sizes({0});
+    text.integers({1})
+        .reals({0, 0, 0, 1, 0, 0})
+        .sizes({1})
+        .integers({4})
+        .sizes({2})
+        .integers({1, -1});
+    text.integers({1}).reals({0, 0, 0, 1, 1, 0}).sizes({1}).integers({7}).sizes({0});
+    text.integers({2}).reals({0, 0, 0, 1, 1, 1}).sizes({1}).integers({-9}).sizes({1}).integers({1});
+    text.end_line().raw("$EndEntities\n$Nodes\n").sizes({3, 4, 3, 10});
+    text.integers({0, 1, 0}).sizes({1}).tags({10}).reals({0, 0, 0});
+    text.integers({2, 1, 1}).sizes({2}).tags({3, 7}).reals({1, 0, 0, .1, .2, 0, 1, 0, .3, .4});
+    text.integers({2, 2, 0}).sizes({1}).tags({5}).reals({1, 1, 0.5});
+    text.end_line().raw("$EndNodes\n$Elements\n").sizes({4, 4, 1, 30});
+    text.integers({0, 1, 15}).sizes({1}).tags({1, 10});
+    text.integers({1, 1, 1}).sizes({1}).tags({2, 10, 3});
+    text.integers({2, 1, 2}).sizes({1}).tags({30, 10, 3, 7});
+    text.integers({2, 2, 3}).sizes({1}).tags({4, 10, 3, 5, 7});
+    text.end_line().raw("$EndElements\n");
+}
+
+std::string mesh_in(const msh::Form& form) {
+    msh::Text text(form);
+    add_names(text);
+    form.is_version_2 ? add_mesh_2(text) : add_mesh_4(text);
+    return text.bytes();
+}
+
+class MshForms : public testing::TestWithParam<msh::Form> {};
+
+}  // namespace
+
+INSTANTIATE_TEST_SUITE_P(Msh, MshForms,
+                         testing::Values(msh::Form{true, false}, msh::Form{true, true},
+                                         msh::Form{true, true, std::endian::big},
+                                         msh::Form{false, false}, msh::Form{false, true},
+                                         msh::Form{false, true, std::endian::big},
+                                         msh::Form{false, true, std::endian::little, 4}));
+
+TEST_P(MshForms, NodesFacesAndGroupsAreRead) {
+    const auto file = with_groups(mesh_in(GetParam()));
+    EXPECT_EQ(file.mesh.positions,
+              (std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, .5}}));
+    ASSERT_EQ(file.mesh.triangles.size(), 3u);
+    EXPECT_EQ(file.mesh.triangles[0], (Triangle{0, 1, 2}));
+    EXPECT_EQ(file.polygons, 1u);
+    EXPECT_EQ(file.face_polygon, (std::vector<agvd::Index>{0, 1, 1}));
+    EXPECT_TRUE(file.attributes.of_vertices.empty());
+    ASSERT_EQ(file.attributes.of_faces.size(), 1u);
+    const remesh::Attribute& groups = file.attributes.of_faces[0];
+    EXPECT_EQ(groups.name, "group");
+    EXPECT_TRUE(remesh::is_label(groups));
+    EXPECT_EQ(groups.values, (Values{7, 9, 9}));
+    EXPECT_EQ(groups.names,
+              (std::vector<std::string>{"", "", "", "", "", "", "", "wet walls", "", "9"}));
+    EXPECT_TRUE(file.warnings.empty()) << file.warnings[0];
+}
+
+TEST_P(MshForms, TruncatedFilesAreRefused) {
+    const std::string bytes = mesh_in(GetParam());
+    const auto has = [](const std::exception& error, const char* words) {
+        return std::string(error.what()).find(words) != std::string::npos;
+    };
+    for (std::size_t size = 1; size + 1 < bytes.size(); ++size) {
+        try {
+            static_cast<void>(with_groups(bytes.substr(0, size)));
+            ADD_FAILURE() << "read without complaint: " << size << " of " << bytes.size();
+        } catch (const IoError& error) {
+            EXPECT_TRUE(has(error, "line ") || has(error, "byte ")) << error.what();
+        } catch (const InvalidInput& error) {
+            // Whole sections are left, or of a number the first digits.
+            EXPECT_TRUE(has(error, "face") || has(error, "names node 1,")) << error.what();
+        }
+    }
+}
+
+TEST(Msh, OtherSectionsArePassedOverAndValuesDeclined) {
+    const auto file = with_groups(
+        text_2 + "$Comments\n$Nodes are below\n$EndComments\n" + three_nodes_2 + one_triangle_2 +
+        "$Periodic\n1\n0 1 2\n1\n1 2\n$EndPeriodic\n$NodeData\n1\n\"h\"\n0\n0\n$EndNodeData\n");
+    EXPECT_EQ(file.mesh.triangles, (std::vector<Triangle>{{0, 1, 2}}));
+    EXPECT_TRUE(file.attributes.of_faces.empty()) << "there is no group";
+    ASSERT_EQ(file.attributes.declined.size(), 1u);
+    EXPECT_EQ(file.attributes.declined[0].name, "section NodeData");
+}
+
+TEST(Msh, PartsOfAPartitionHaveTheGroupsOfWhatTheyArePartOf) {
+    const auto file = with_groups(
+        text_4 +
+        "$Entities\n0 0 1 1\n1 0 0 0 1 1 0 1 5 0\n1 0 0 0 1 1 1 1 6 0\n$EndEntities\n"
+        "$PartitionedEntities\n2\n1\n9 1\n0 0 2 0\n"
+        "4 2 1 1 1 0 0 0 1 1 0 1 5 1 -1\n8 3 1 2 1 2 0 0 0 1 1 0 1 6 0\n$EndPartitionedEntities\n" +
+        three_nodes_4 + "$Elements\n2 2 1 2\n2 8 2 1\n1 3 2 1\n2 4 2 1\n2 1 2 3\n$EndElements\n");
+    EXPECT_EQ(file.mesh.triangles, (std::vector<Triangle>{{0, 1, 2}}))
+        << "the other one lies between two parts of a volume";
+    EXPECT_EQ(file.attributes.of_faces.at(0).values, (Values{5}));
+}
+
+TEST(Msh, OfSeveralGroupsTheFirstOneCounts) {
+    const auto file =
+        with_groups(text_4 + "$Entities\n0 0 1 0\n1 0 0 0 1 1 0 2 8 5 0\n$EndEntities\n" +
+                    three_nodes_4 + one_triangle_4);
+    EXPECT_EQ(file.attributes.of_faces.at(0).values, (Values{8}));
+    EXPECT_TRUE(file.attributes.of_faces.at(0).names.empty());
+    ASSERT_EQ(file.warnings.size(), 1u);
+    EXPECT_NE(file.warnings[0].find("a.msh: some entities are in several"), std::string::npos);
+}
+
+TEST(Msh, WithoutFacesTheSurfaceOfVolumesIsRead) {
+    const std::string head = text_2 +
+                             "$PhysicalNames\n2\n3 1 \"steel\"\n2 1 \"skin\"\n$EndPhysicalNames\n"
+                             "$Nodes\n5\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 1 1 1\n$EndNodes\n";
+    const std::string tetrahedra = "1 4 2 1 1 1 2 3 4\n2 4 2 2 1 4 3 2 5\n";
+    const auto file = with_groups(head + "$Elements\n2\n" + tetrahedra + "$EndElements\n");
+    EXPECT_EQ(
+        file.mesh.triangles,
+        (std::vector<Triangle>{{0, 1, 3}, {2, 0, 3}, {0, 2, 1}, {4, 2, 3}, {4, 1, 2}, {4, 3, 1}}));
+    EXPECT_EQ(file.attributes.of_faces.at(0).values, (Values{1, 1, 1, 2, 2, 2}));
+    EXPECT_EQ(file.attributes.of_faces.at(0).names, (std::vector<std::string>{"", "steel", "2"}));
+    ASSERT_EQ(file.warnings.size(), 1u);
+    EXPECT_NE(file.warnings[0].find("2 volume cells: their surface is read, the 6 faces"),
+              std::string::npos)
+        << file.warnings[0];
+    const auto with_face =
+        with_groups(head + "$Elements\n3\n" + tetrahedra + "3 2 2 1 1 1 3 2\n$EndElements\n");
+    EXPECT_EQ(with_face.mesh.triangles, (std::vector<Triangle>{{0, 2, 1}}));
+    EXPECT_EQ(with_face.attributes.of_faces.at(0).names, (std::vector<std::string>{"", "skin"}));
+}
+
+// Of a box with the corners 1 to 8 and a roof.
+TEST(Msh, AllKindsOfVolumesHaveTheirFaces) {
+    const std::string nodes =
+        "$Nodes\n8\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0 0 1\n6 1 0 1\n7 1 1 1\n8 0 1 1\n"
+        "$EndNodes\n$Elements\n1\n";
+    const auto area_of = [&](const std::string& element) {
+        const auto file = read_bytes("a.msh", text_2 + nodes + element + "\n$EndElements\n");
+        double area = 0;
+        for (const auto& [a, b, c] : file.mesh.triangles) {
+            const auto& p = file.mesh.positions;
+            area += (p[b] - p[a]).cross(p[c] - p[a]).norm() / 2;
+        }
+        return area;
+    };
+    EXPECT_NEAR(area_of("1 5 2 0 1 1 2 3 4 5 6 7 8"), 6, 1e-12);
+    EXPECT_NEAR(area_of("1 6 2 0 1 1 2 3 5 6 7"), 3 + std::sqrt(2), 1e-12);
+    EXPECT_NEAR(area_of("1 7 2 0 1 1 2 3 4 5"), 2 + std::sqrt(2), 1e-12);
+}
+
+TEST(Msh, CurvedElementsAreReadByTheirCorners) {
+    const auto file = read_bytes(
+        "a.msh", text_2 +
+                     "$Nodes\n6\n1 0 0 0\n2 2 0 0\n3 0 2 0\n4 1 0 0\n5 1 1 0\n6 0 1 0\n$EndNodes\n"
+                     "$Elements\n2\n1 9 2 0 1 1 2 3 4 5 6\n2 8 2 0 1 1 2 4\n$EndElements\n");
+    EXPECT_EQ(file.mesh.triangles, (std::vector<Triangle>{{0, 1, 2}}));
+    ASSERT_EQ(file.warnings.size(), 1u);
+    EXPECT_NE(file.warnings[0].find("a.msh: 1 curved element: read as flat ones"),
+              std::string::npos)
+        << file.warnings[0];
+}
+
+TEST(Msh, WrongFilesAreRefused) {
+    expect_error<IoError>("a.msh", "OFF\n", {"line 1", "'$Nodes'"});
+    expect_error<IoError>("a.msh", "$NOD\n3\n", {"line 1", "$MeshFormat"});
+    expect_error<IoError>("a.msh", "$MeshFormat\n4 0 8\n", {"line 2", "version 4 ", "msh41"});
+    expect_error<IoError>("a.msh", "$MeshFormat\n3.1 0 8\n", {"line 2", "version 3.1 "});
+    expect_error<IoError>("a.msh", "$MeshFormat\n4.1 2 8\n", {"line 2", "kind of the file is 2"});
+    expect_error<IoError>("a.msh", "$MeshFormat\n4.1 0 16\n", {"line 2", "16 bytes"});
+    expect_error<IoError>("a.msh", "$MeshFormat\n2.2 0 4\n", {"line 2", "4 bytes"});
+    expect_error<IoError>("a.msh", "$MeshFormat\n4.1 1 8\nabcd\n", {"byte 20", "order of bytes"});
+    expect_error<IoError>("a.msh", text_2 + "Nodes\n", {"line 4", "'$Nodes'", "'Nodes'"});
+    expect_error<IoError>("a.msh", text_2 + "$EndNodes\n", {"line 4", "'$EndNodes'"});
+    expect_error<IoError>("a.msh", text_2 + "$Remark\nnothing\n", {"line 4", "'$EndRemark'"});
+    expect_error<IoError>("a.msh", text_2 + "$PhysicalNames\n1\n2 1 walls\n",
+                          {"line 6", "quotes", "'walls'"});
+    expect_error<IoError>("a.msh", text_2 + "$ParametricNodes\n1\n$EndParametricNodes\n",
+                          {"line 6", "parametric"});
+    expect_error<InvalidInput>("a.msh", text_2 + three_nodes_2, {"3 vertices but no face"});
+    expect_error<IoError>("a.msh", text_2 + three_nodes_2 + three_nodes_2, {"line 10", "twice"});
+}
+
+TEST(Msh, WrongNodesAreRefused) {
+    const auto nodes = [](const std::string& text) {
+        return text_2 + "$Nodes\n" + text + "$EndNodes\n" + one_triangle_2;
+    };
+    expect_error<IoError>("a.msh", nodes("2\n1 0 0 0\n2 1 0 0\n3 0 1 0\n"),
+                          {"line 8", "'$EndNodes'", "'3'"});
+    expect_error<IoError>("a.msh", nodes("4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n"),
+                          {"line 9", "number of a node", "'$EndNodes'"});
+    expect_error<IoError>("a.msh", nodes("-1\n"), {"line 5", "negative"});
+    expect_error<IoError>("a.msh", nodes("1\n-1 0 0 0\n"), {"line 6", "negative"});
+    expect_error<IoError>("a.msh", nodes("1\n1 0 zero 0\n"), {"line 6", "'zero'"});
+    expect_error<InvalidInput>("a.msh", nodes("2\n1 0 0 0\n2 0 inf 0\n"),
+                               {"line 7", "node 1 (from 0) is not finite"});
+    expect_error<InvalidInput>("a.msh", nodes("3\n1 0 0 0\n2 1 0 0\n1 0 1 0\n"),
+                               {"several nodes have the number 1"});
+    expect_error<IoError>("a.msh", text_4 + "$Nodes\n1 4 1 3\n2 1 0 1\n1\n0 0 0\n$EndNodes\n",
+                          {"line 8", "1 nodes, but 4 are announced"});
+    expect_error<IoError>("a.msh", text_4 + "$Nodes\n1 1 1 1\n4 1 0 1\n1\n0 0 0\n$EndNodes\n",
+                          {"line 6", "dimension is 4"});
+    expect_error<IoError>("a.msh", nodes("99999999999999\n1 0 0 0\n"), {"line 7"});
+}
+
+TEST(Msh, WrongElementsAreRefused) {
+    const auto elements = [](const std::string& text) {
+        return text_2 + three_nodes_2 + "$Elements\n" + text + "$EndElements\n";
+    };
+    expect_error<InvalidInput>("a.msh", elements("1\n8 2 2 0 1 1 2 4\n"),
+                               {"line 12", "element 8 names node 4", "3 nodes"});
+    expect_error<InvalidInput>("a.msh", elements("1\n8 4 2 0 1 1 2 3 0\n"),
+                               {"line 12", "element 8 names node 0"});
+    expect_error<IoError>("a.msh", elements("1\n1 94 2 0 1 1 2 3\n"),
+                          {"line 12", "elements of type 94", "order 1"});
+    expect_error<IoError>("a.msh", elements("1\n1 2 -1 1 2 3\n"), {"line 12", "tags is negative"});
+    expect_error<IoError>("a.msh", elements("2\n1 2 2 0 1 1 2 3\n"),
+                          {"line 13", "number of an element", "'$EndElements'"});
+    expect_error<IoError>("a.msh", elements("0\n1 2 2 0 1 1 2 3\n"),
+                          {"line 12", "'$EndElements'", "'1'"});
+    expect_error<IoError>("a.msh", elements("1\n1 2 2 2147483648 1 1 2 3\n"), {"32 bits"});
+    expect_error<IoError>("a.msh", elements("1\n1 2 2 -9223372036854775808 1 1 2 3\n"),
+                          {"32 bits"});
+    expect_error<InvalidInput>("a.msh", text_2 + one_triangle_2, {"line 6", "0 nodes"});
+    expect_error<IoError>(
+        "a.msh", text_4 + three_nodes_4 + "$Elements\n1 2 1 1\n2 1 2 1\n1 1 2 3\n$EndElements\n",
+        {"1 elements, but 2 are announced"});
+    msh::Text binary({.is_version_2 = true, .is_binary = true});
+    binary.raw("$Elements\n1\n").integers({2, 2, 2, 1});
+    expect_error<IoError>("a.msh", binary.bytes(), {"byte ", "2 of the 1 elements"});
+}
+
+TEST(Msh, TrianglesAreWrittenAsTextOfVersion22) {
+    remesh::MeshAttributes attributes;
+    attributes.of_faces.push_back({.name = "group",
+                                   .type = remesh::NumberType::Int32,
+                                   .values = {2, 0},
+                                   .names = {"", "unused", "the \"wet\" side"}});
+    const agvd::TriangleMesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, .1, 0}, {1, 1, -1e-7}},
+                                  {{0, 1, 2}, {1, 3, 2}}};
+    EXPECT_EQ(remesh::format_mesh("a.msh", mesh.view(), attributes),
+              text_2 +
+                  "$PhysicalNames\n1\n2 2 \"the 'wet' side\"\n$EndPhysicalNames\n"
+                  "$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 0.1 0\n4 1 1 -1e-07\n$EndNodes\n"
+                  "$Elements\n2\n1 2 2 2 2 1 2 3\n2 2 2 0 1 2 4 3\n$EndElements\n");
+}
+
+TEST(Msh, WhatWasWrittenComesBack) {
+    const agvd::TriangleMesh mesh = shapes::jitter(shapes::icosahedron(), 0.01, 3);
+    Values labels(mesh.triangles.size(), 3);
+    labels[4] = 12;
+    remesh::MeshAttributes attributes;
+    attributes.of_faces.push_back({.name = "quality", .values = labels});
+    attributes.of_faces.push_back(
+        {.name = "part", .type = remesh::NumberType::Int16, .values = labels});
+    attributes.of_faces.push_back(
+        {.name = "other", .type = remesh::NumberType::Int16, .values = labels});
+    const std::vector<std::string> removed = remesh::remove_unwritable("a.msh", attributes);
+    EXPECT_EQ(removed, (std::vector<std::string>{"face quality", "face other"}));
+    const auto file = with_groups(remesh::format_mesh("a.msh", mesh.view(), attributes));
+    EXPECT_EQ(file.mesh.positions, mesh.positions);
+    EXPECT_EQ(file.mesh.triangles, mesh.triangles);
+    EXPECT_EQ(file.attributes.of_faces.at(0).values, labels);
+    EXPECT_TRUE(file.attributes.of_faces.at(0).names.empty());
+}
+
+// OBJ counts its labels from 0, Gmsh its groups from 1.
+TEST(Msh, ALabelZeroThatHasANameIsGroupOne) {
+    const auto obj = read_bytes("a.obj",
+                                "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nusemtl brass\nf 1 2 3\n"
+                                "usemtl oak\nf 2 4 3\n",
+                                true);
+    const auto file = with_groups(remesh::format_mesh("a.msh", obj.mesh.view(), obj.attributes));
+    const remesh::Attribute& groups = file.attributes.of_faces.at(0);
+    EXPECT_EQ(groups.values, (Values{1, 2}));
+    EXPECT_EQ(groups.names, (std::vector<std::string>{"", "brass", "oak"}));
+    const auto again =
+        read_bytes("b.obj", remesh::format_mesh("b.obj", file.mesh.view(), file.attributes), true);
+    EXPECT_EQ(again.attributes.of_faces.at(0).name, "group");
+    EXPECT_EQ(again.attributes.of_faces.at(0).names, (std::vector<std::string>{"brass", "oak"}));
+}
+
+TEST(Msh, LabelsBelowOneAreInNoGroup) {
+    const auto ply = read_bytes("a.ply",
+                                "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\n"
+                                "property float y\nproperty float z\nelement face 3\n"
+                                "property list uchar int vertex_indices\nproperty int part\n"
+                                "end_header\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n3 0 1 2 0\n3 1 3 2 5\n"
+                                "3 0 1 3 -4\n",
+                                true);
+    const auto file = with_groups(remesh::format_mesh("a.msh", ply.mesh.view(), ply.attributes));
+    EXPECT_EQ(file.attributes.of_faces.at(0).values, (Values{0, 5, 0}));
+}
+
+TEST(Msh, NamesOfGroupsWithLargeNumbersAreDeclined) {
+    const auto file =
+        with_groups(text_2 + "$PhysicalNames\n1\n2 65536 \"far\"\n$EndPhysicalNames\n" +
+                    three_nodes_2 + "$Elements\n1\n1 2 2 65536 1 1 2 3\n$EndElements\n");
+    EXPECT_EQ(file.attributes.of_faces.at(0).values, (Values{65536}));
+    EXPECT_TRUE(file.attributes.of_faces.at(0).names.empty());
+    ASSERT_EQ(file.attributes.declined.size(), 1u);
+    EXPECT_EQ(file.attributes.declined[0].name, "names of physical groups");
+}
+
+TEST(Msh, PlyHasCommentsOfNamesOnly) {
+    const auto file = with_groups(mesh_in({}));
+    const std::string ply = remesh::format_mesh("a.ply", file.mesh.view(), file.attributes);
+    EXPECT_NE(ply.find("\ncomment group 7 wet walls\ncomment group 9 9\n"), std::string::npos);
+    EXPECT_EQ(ply.find("comment group 0"), std::string::npos);
+}
