@@ -11,6 +11,15 @@
 
 namespace msh {
 
+//! Texts: the head of a file, its nodes, its element.
+inline const std::string text_2 = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
+inline const std::string text_4 = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n";
+inline const std::string three_nodes_2 = "$Nodes\n3\n1 0 0 0\n2 1 0 0\n3 0 1 0\n$EndNodes\n";
+inline const std::string three_nodes_4 =
+    "$Nodes\n1 3 1 3\n2 1 0 3\n1\n2\n3\n0 0 0\n1 0 0\n0 1 0\n$EndNodes\n";
+inline const std::string one_triangle_2 = "$Elements\n1\n1 2 2 0 1 1 2 3\n$EndElements\n";
+inline const std::string one_triangle_4 = "$Elements\n1 1 1 1\n2 1 2 1\n1 1 2 3\n$EndElements\n";
+
 struct Form {
     bool is_version_2 = false;
     bool is_binary = false;

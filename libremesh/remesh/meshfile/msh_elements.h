@@ -55,13 +55,14 @@ inline constexpr MshType msh_types[] = {{15, 0, 1, 1},
                                         {19, 3, 5, 13, VolumeCell::Pyramid},
                                         {14, 3, 5, 14, VolumeCell::Pyramid}};
 
-//! Vertices by the numbers that a file gives them, which may have gaps and any order.
-class NodeTags {
+//! Vertices or faces by the numbers that a file gives them, which may have gaps and any order.
+class MshTags {
 public:
     void add(std::uint64_t tag) { tags_.emplace_back(tag, tags_.size()); }
 
-    //! \return a number that several vertices have.
-    [[nodiscard]] std::optional<std::uint64_t> sort() {
+    //! To be called when all are added.
+    //! \return a number that several of them have.
+    std::optional<std::uint64_t> sort() {
         if (!std::is_sorted(tags_.begin(), tags_.end())) std::sort(tags_.begin(), tags_.end());
         for (std::size_t i = 1; i < tags_.size(); ++i) {
             if (tags_[i].first == tags_[i - 1].first) return tags_[i].first;
@@ -71,7 +72,7 @@ public:
 
     [[nodiscard]] std::size_t size() const { return tags_.size(); }
 
-    //! Its place among the vertices.
+    //! Its place in the order in which they were added.
     [[nodiscard]] std::optional<std::size_t> find(std::uint64_t tag) const {
         if (tag - 1 < tags_.size() && tags_[tag - 1].first == tag) return tags_[tag - 1].second;
         const auto found =

@@ -72,7 +72,7 @@ void MshScanner::begin_numbers() {
 }
 
 std::string MshScanner::quoted_name() {
-    start_ = scan_.offset();
+    find_text("a name in quotes");
     const std::string text = scan_.words();
     if (text.size() >= 2 && text.front() == '"' && text.back() == '"') {
         return text.substr(1, text.size() - 2);

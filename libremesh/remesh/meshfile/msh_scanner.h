@@ -66,7 +66,11 @@ public:
         find_text(what);
         return scan_.count(what);
     }
-    //! The name in quotes on the rest of this line.
+    double text_real(const char* what) {
+        find_text(what);
+        return scan_.number(what);
+    }
+    //! The name in quotes that comes next and ends a line.
     std::string quoted_name();
 
     //! Of the last number or section.

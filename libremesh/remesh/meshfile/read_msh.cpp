@@ -10,6 +10,7 @@
 #include "remesh/meshfile/msh_elements.h"
 #include "remesh/meshfile/msh_groups.h"
 #include "remesh/meshfile/msh_scanner.h"
+#include "remesh/meshfile/msh_values.h"
 
 namespace remesh {
 namespace {
@@ -52,6 +53,7 @@ private:
             } else {
                 read_elements_4();
             }
+            faces_.sort();
         } else if (name == "Entities" && !scan_.is_version_2()) {
             scan_.begin_numbers();
             read_entities(false);
@@ -62,6 +64,10 @@ private:
                 skip_integers(2);
             }
             read_entities(true);
+        } else if (name == "NodeData" && file_.with_attributes && nodes_.size() > 0) {
+            of_nodes_.read(scan_, nodes_, soup_.ticker);
+        } else if (name == "ElementData" && faces_.size() > 0) {
+            of_faces_.read(scan_, faces_, soup_.ticker);
         } else {
             return false;
         }
@@ -74,7 +80,8 @@ private:
             scan_.fail("parametric nodes of version 2 are not supported");
         }
         if (file_.with_attributes && name.ends_with("Data")) {
-            declined_.push_back({"section " + name, "values in .msh files are not read"});
+            declined_.push_back(
+                {"section " + name, "only values of nodes and faces, behind them, are read"});
         }
     }
 
@@ -272,6 +279,7 @@ private:
         if (type.num_nodes > type.num_corners) ++num_curved_;
         if (!file_.with_attributes) return;
         (type.dimension == 2 ? face_groups_ : volume_groups_).push_back(static_cast<double>(group));
+        if (type.dimension == 2) faces_.add(number);
     }
 
     MeshFile finish() {
@@ -281,6 +289,7 @@ private:
             for (const std::size_t cell : cell_of_face)
                 face_groups_.push_back(volume_groups_[cell]);
         }
+        const std::size_t num_nodes = soup_.positions.size(), num_faces = soup_.num_polygons();
         MeshFile result = std::move(soup_).finish();
         MeshAttributes attributes;
         attributes.declined = std::move(declined_);
@@ -288,6 +297,8 @@ private:
             groups_.add_to(attributes, dimension, std::move(face_groups_));
             add_warning(result, groups_.warning());
         }
+        of_nodes_.add_to(attributes, num_nodes, file_);
+        of_faces_.add_to(attributes, num_faces, file_);
         attach(std::move(attributes), result);
         add_warning(result, volumes_.warning(cell_of_face.size()));
         if (num_curved_ > 0) {
@@ -302,11 +313,12 @@ private:
     MshScanner scan_;
     PolygonSoup soup_;
     VolumeSurface volumes_;
-    NodeTags nodes_;
+    MshTags nodes_, faces_;
     MshGroups groups_;
     std::set<MshGroups::Entity> between_parts_;
     std::size_t num_curved_ = 0;
     std::vector<double> face_groups_, volume_groups_;
+    MshValues of_nodes_{ElementKind::Vertex}, of_faces_{ElementKind::Face};
     std::vector<DeclinedAttribute> declined_;
 };
 

@@ -56,7 +56,7 @@ tags = {"gmsh:physical": [numpy.array([7, 7]), numpy.array([9])],
 names = {"wet walls": numpy.array([7, 2]), "inlet": numpy.array([9, 2])}
 entities = numpy.array([[2, 1], [2, 1], [2, 1], [2, 1], [2, 2], [2, 2]])
 for name, form, binary in (("22", "gmsh22", False), ("22b", "gmsh22", True), ("41", "gmsh", False), ("41b", "gmsh", True)):
-    data = {"gmsh:dim_tags": entities} if form == "gmsh" else {"height": points[:, 2]}
+    data = {"height": points[:, 2], **({"gmsh:dim_tags": entities} if form == "gmsh" else {})}
     mesh = meshio.Mesh(points, cells, cell_data=tags, point_data=data, field_data=names)
     meshio.write(sys.path[0] + "/" + name + ".msh", mesh, file_format=form, binary=binary)
 )";
@@ -98,6 +98,9 @@ TEST_F(MshPeers, WhatMeshioWritesIsRead) {
         ASSERT_EQ(file.mesh.triangles.size(), 4u) << name;
         EXPECT_EQ(file.mesh.triangles[1], (Triangle{1, 3, 2})) << name;
         EXPECT_EQ(file.face_polygon, (std::vector<agvd::Index>{0, 1, 2, 2})) << name;
+        EXPECT_EQ(file.attributes.of_vertices.at(0).name, "height") << name;
+        EXPECT_EQ(file.attributes.of_vertices[0].values, (Values{0, 0, 0, 1.0 / 3, .1, .1}))
+            << name;
         ASSERT_EQ(file.attributes.of_faces.size(), 1u) << name;
         EXPECT_EQ(file.attributes.of_faces[0].values, (Values{7, 7, 9, 9})) << name;
         EXPECT_EQ(file.attributes.of_faces[0].names.at(7), "wet walls") << name;

@@ -3,7 +3,6 @@
 
 #include "support/msh_text.h"
 #include "support/read_text.h"
-#include "support/shapes.h"
 
 using agvd::InvalidInput;
 using agvd::IoError;
@@ -14,14 +13,6 @@ using texts::read_bytes;
 using Values = std::vector<double>;
 
 namespace {
-
-const std::string text_2 = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
-const std::string text_4 = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n";
-const std::string three_nodes_2 = "$Nodes\n3\n1 0 0 0\n2 1 0 0\n3 0 1 0\n$EndNodes\n";
-const std::string three_nodes_4 =
-    "$Nodes\n1 3 1 3\n2 1 0 3\n1\n2\n3\n0 0 0\n1 0 0\n0 1 0\n$EndNodes\n";
-const std::string one_triangle_2 = "$Elements\n1\n1 2 2 0 1 1 2 3\n$EndElements\n";
-const std::string one_triangle_4 = "$Elements\n1 1 1 1\n2 1 2 1\n1 1 2 3\n$EndElements\n";
 
 remesh::MeshFile with_groups(const std::string& bytes) { return read_bytes("a.msh", bytes, true); }
 
@@ -134,40 +125,65 @@ TEST_P(MshForms, TruncatedFilesAreRefused) {
     }
 }
 
-TEST(Msh, OtherSectionsArePassedOverAndValuesDeclined) {
-    const auto file = with_groups(
-        text_2 + "$Comments\n$Nodes are below\n$EndComments\n" + three_nodes_2 + one_triangle_2 +
-        "$Periodic\n1\n0 1 2\n1\n1 2\n$EndPeriodic\n$NodeData\n1\n\"h\"\n0\n0\n$EndNodeData\n");
+TEST(Msh, OtherSectionsArePassedOver) {
+    const auto file =
+        with_groups(msh::text_2 + "$Comments\n$Nodes are below\n$EndComments\n" +
+                    msh::three_nodes_2 + msh::one_triangle_2 +
+                    "$Periodic\n1\n0 1 2\n1\n1 "
+                    "2\n$EndPeriodic\n$ElementNodeData\n1\n\"h\"\n$EndElementNodeData\n");
     EXPECT_EQ(file.mesh.triangles, (std::vector<Triangle>{{0, 1, 2}}));
     EXPECT_TRUE(file.attributes.of_faces.empty()) << "there is no group";
     ASSERT_EQ(file.attributes.declined.size(), 1u);
-    EXPECT_EQ(file.attributes.declined[0].name, "section NodeData");
+    EXPECT_EQ(file.attributes.declined[0].name, "section ElementNodeData");
 }
 
-TEST(Msh, PartsOfAPartitionHaveTheGroupsOfWhatTheyArePartOf) {
-    const auto file = with_groups(
-        text_4 +
-        "$Entities\n0 0 1 1\n1 0 0 0 1 1 0 1 5 0\n1 0 0 0 1 1 1 1 6 0\n$EndEntities\n"
-        "$PartitionedEntities\n2\n1\n9 1\n0 0 2 0\n"
-        "4 2 1 1 1 0 0 0 1 1 0 1 5 1 -1\n8 3 1 2 1 2 0 0 0 1 1 0 1 6 0\n$EndPartitionedEntities\n" +
-        three_nodes_4 + "$Elements\n2 2 1 2\n2 8 2 1\n1 3 2 1\n2 4 2 1\n2 1 2 3\n$EndElements\n");
-    EXPECT_EQ(file.mesh.triangles, (std::vector<Triangle>{{0, 1, 2}}))
-        << "the other one lies between two parts of a volume";
-    EXPECT_EQ(file.attributes.of_faces.at(0).values, (Values{5}));
+TEST_P(MshForms, ValuesOfNodesAndFacesAreRead) {
+    msh::Text text(GetParam());
+    GetParam().is_version_2 ? add_mesh_2(text) : add_mesh_4(text);
+    text.raw("$NodeData\n2\n\"edge length\"\n\"scheme\"\n1\n0.5\n4\n0\n1\n5\n0\n");
+    for (const int node : {5, 99, 10, 3, 7}) text.integers({node}).reals({node / 8.0});
+    text.end_line().raw("$EndNodeData\n$NodeData\n1\n\"part\"\n0\n3\n0\n1\n1\n");
+    text.integers({10}).reals({1}).end_line().raw("$EndNodeData\n");
+    text.raw("$ElementData\n1\n\"group\"\n0\n3\n0\n1\n2\n");
+    text.integers({4}).reals({.5}).integers({30}).reals({2}).end_line().raw("$EndElementData\n");
+    text.raw("$ElementData\n1\n\"flow\"\n0\n3\n0\n3\n2\n").integers({4}).reals({1, 2, 3});
+    text.integers({30}).reals({4, 5, 6}).end_line().raw("$EndElementData\n");
+    const remesh::MeshAttributes attributes = with_groups(text.bytes()).attributes;
+    ASSERT_EQ(attributes.of_vertices.size(), 1u);
+    EXPECT_EQ(attributes.of_vertices[0].name, "edge_length");
+    EXPECT_EQ(attributes.of_vertices[0].values, (Values{10 / 8.0, 3 / 8.0, 7 / 8.0, 5 / 8.0}));
+    ASSERT_EQ(attributes.of_faces.size(), 4u);
+    EXPECT_EQ(attributes.of_faces[0].values, (Values{7, 9, 9})) << "the groups";
+    EXPECT_EQ(attributes.of_faces[1].name, "flow_0");
+    EXPECT_EQ(attributes.of_faces[1].values, (Values{4, 1, 1}));
+    EXPECT_EQ(attributes.of_faces[3].values, (Values{6, 3, 3}));
+    ASSERT_EQ(attributes.declined.size(), 2u);
+    EXPECT_EQ(attributes.declined[0].name, "vertex part");
+    EXPECT_EQ(attributes.declined[1].name, "face group");
 }
 
-TEST(Msh, OfSeveralGroupsTheFirstOneCounts) {
-    const auto file =
-        with_groups(text_4 + "$Entities\n0 0 1 0\n1 0 0 0 1 1 0 2 8 5 0\n$EndEntities\n" +
-                    three_nodes_4 + one_triangle_4);
-    EXPECT_EQ(file.attributes.of_faces.at(0).values, (Values{8}));
-    EXPECT_TRUE(file.attributes.of_faces.at(0).names.empty());
-    ASSERT_EQ(file.warnings.size(), 1u);
-    EXPECT_NE(file.warnings[0].find("a.msh: some entities are in several"), std::string::npos);
+TEST(Msh, DamagedValuesAreRefused) {
+    const auto values = [](const std::string& text) {
+        return msh::text_2 + msh::three_nodes_2 + msh::one_triangle_2 + "$NodeData\n" + text +
+               "$EndNodeData\n";
+    };
+    const auto expect = [&](const std::string& text, const std::vector<std::string>& words) {
+        expect_error<IoError>("a.msh", values(text), words, true);
+    };
+    expect("1\nh\n0\n3\n0\n1\n0\n", {"line 16", "quotes"});
+    expect("1\n\"h\"\n0\n2\n0\n1\n", {"line 18", "three integers"});
+    expect("1\n\"h\"\n0\n3\n0\n65\n0\n", {"line 20", "65 components"});
+    expect("1\n\"h\"\n0\n3\n0\n1\n2\n1 5\n", {"line 23", "number of a node"});
+    expect("1\n\"h\"\n0\n3\n0\n1\n1\n1 5\n2 5\n", {"line 23", "'$EndNodeData'", "'2'"});
+    expect_error<IoError>("a.msh",
+                          msh::text_2 + msh::three_nodes_2 + msh::one_triangle_2 +
+                              "$ElementData\n1\n\"h\"\n0\n3\n0\n1\n1\n1 5\n$EndElementData\n" +
+                              msh::one_triangle_2,
+                          {"array 'h' has 1 numbers for 2 elements"}, true);
 }
 
 TEST(Msh, WithoutFacesTheSurfaceOfVolumesIsRead) {
-    const std::string head = text_2 +
+    const std::string head = msh::text_2 +
                              "$PhysicalNames\n2\n3 1 \"steel\"\n2 1 \"skin\"\n$EndPhysicalNames\n"
                              "$Nodes\n5\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 1 1 1\n$EndNodes\n";
     const std::string tetrahedra = "1 4 2 1 1 1 2 3 4\n2 4 2 2 1 4 3 2 5\n";
@@ -193,7 +209,7 @@ TEST(Msh, AllKindsOfVolumesHaveTheirFaces) {
         "$Nodes\n8\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0 0 1\n6 1 0 1\n7 1 1 1\n8 0 1 1\n"
         "$EndNodes\n$Elements\n1\n";
     const auto area_of = [&](const std::string& element) {
-        const auto file = read_bytes("a.msh", text_2 + nodes + element + "\n$EndElements\n");
+        const auto file = read_bytes("a.msh", msh::text_2 + nodes + element + "\n$EndElements\n");
         double area = 0;
         for (const auto& [a, b, c] : file.mesh.triangles) {
             const auto& p = file.mesh.positions;
@@ -208,7 +224,7 @@ TEST(Msh, AllKindsOfVolumesHaveTheirFaces) {
 
 TEST(Msh, CurvedElementsAreReadByTheirCorners) {
     const auto file = read_bytes(
-        "a.msh", text_2 +
+        "a.msh", msh::text_2 +
                      "$Nodes\n6\n1 0 0 0\n2 2 0 0\n3 0 2 0\n4 1 0 0\n5 1 1 0\n6 0 1 0\n$EndNodes\n"
                      "$Elements\n2\n1 9 2 0 1 1 2 3 4 5 6\n2 8 2 0 1 1 2 4\n$EndElements\n");
     EXPECT_EQ(file.mesh.triangles, (std::vector<Triangle>{{0, 1, 2}}));
@@ -227,20 +243,22 @@ TEST(Msh, WrongFilesAreRefused) {
     expect_error<IoError>("a.msh", "$MeshFormat\n4.1 0 16\n", {"line 2", "16 bytes"});
     expect_error<IoError>("a.msh", "$MeshFormat\n2.2 0 4\n", {"line 2", "4 bytes"});
     expect_error<IoError>("a.msh", "$MeshFormat\n4.1 1 8\nabcd\n", {"byte 20", "order of bytes"});
-    expect_error<IoError>("a.msh", text_2 + "Nodes\n", {"line 4", "'$Nodes'", "'Nodes'"});
-    expect_error<IoError>("a.msh", text_2 + "$EndNodes\n", {"line 4", "'$EndNodes'"});
-    expect_error<IoError>("a.msh", text_2 + "$Remark\nnothing\n", {"line 4", "'$EndRemark'"});
-    expect_error<IoError>("a.msh", text_2 + "$PhysicalNames\n1\n2 1 walls\n",
+    expect_error<IoError>("a.msh", msh::text_2 + "Nodes\n", {"line 4", "'$Nodes'", "'Nodes'"});
+    expect_error<IoError>("a.msh", msh::text_2 + "$EndNodes\n", {"line 4", "'$EndNodes'"});
+    expect_error<IoError>("a.msh", msh::text_2 + "$Remark\nnothing\n", {"line 4", "'$EndRemark'"});
+    expect_error<IoError>("a.msh", msh::text_2 + "$PhysicalNames\n1\n2 1 walls\n",
                           {"line 6", "quotes", "'walls'"});
-    expect_error<IoError>("a.msh", text_2 + "$ParametricNodes\n1\n$EndParametricNodes\n",
+    expect_error<IoError>("a.msh", msh::text_2 + "$ParametricNodes\n1\n$EndParametricNodes\n",
                           {"line 6", "parametric"});
-    expect_error<InvalidInput>("a.msh", text_2 + three_nodes_2, {"3 vertices but no face"});
-    expect_error<IoError>("a.msh", text_2 + three_nodes_2 + three_nodes_2, {"line 10", "twice"});
+    expect_error<InvalidInput>("a.msh", msh::text_2 + msh::three_nodes_2,
+                               {"3 vertices but no face"});
+    expect_error<IoError>("a.msh", msh::text_2 + msh::three_nodes_2 + msh::three_nodes_2,
+                          {"line 10", "twice"});
 }
 
 TEST(Msh, WrongNodesAreRefused) {
     const auto nodes = [](const std::string& text) {
-        return text_2 + "$Nodes\n" + text + "$EndNodes\n" + one_triangle_2;
+        return msh::text_2 + "$Nodes\n" + text + "$EndNodes\n" + msh::one_triangle_2;
     };
     expect_error<IoError>("a.msh", nodes("2\n1 0 0 0\n2 1 0 0\n3 0 1 0\n"),
                           {"line 8", "'$EndNodes'", "'3'"});
@@ -253,16 +271,16 @@ TEST(Msh, WrongNodesAreRefused) {
                                {"line 7", "node 1 (from 0) is not finite"});
     expect_error<InvalidInput>("a.msh", nodes("3\n1 0 0 0\n2 1 0 0\n1 0 1 0\n"),
                                {"several nodes have the number 1"});
-    expect_error<IoError>("a.msh", text_4 + "$Nodes\n1 4 1 3\n2 1 0 1\n1\n0 0 0\n$EndNodes\n",
+    expect_error<IoError>("a.msh", msh::text_4 + "$Nodes\n1 4 1 3\n2 1 0 1\n1\n0 0 0\n$EndNodes\n",
                           {"line 8", "1 nodes, but 4 are announced"});
-    expect_error<IoError>("a.msh", text_4 + "$Nodes\n1 1 1 1\n4 1 0 1\n1\n0 0 0\n$EndNodes\n",
+    expect_error<IoError>("a.msh", msh::text_4 + "$Nodes\n1 1 1 1\n4 1 0 1\n1\n0 0 0\n$EndNodes\n",
                           {"line 6", "dimension is 4"});
     expect_error<IoError>("a.msh", nodes("99999999999999\n1 0 0 0\n"), {"line 7"});
 }
 
 TEST(Msh, WrongElementsAreRefused) {
     const auto elements = [](const std::string& text) {
-        return text_2 + three_nodes_2 + "$Elements\n" + text + "$EndElements\n";
+        return msh::text_2 + msh::three_nodes_2 + "$Elements\n" + text + "$EndElements\n";
     };
     expect_error<InvalidInput>("a.msh", elements("1\n8 2 2 0 1 1 2 4\n"),
                                {"line 12", "element 8 names node 4", "3 nodes"});
@@ -278,90 +296,12 @@ TEST(Msh, WrongElementsAreRefused) {
     expect_error<IoError>("a.msh", elements("1\n1 2 2 2147483648 1 1 2 3\n"), {"32 bits"});
     expect_error<IoError>("a.msh", elements("1\n1 2 2 -9223372036854775808 1 1 2 3\n"),
                           {"32 bits"});
-    expect_error<InvalidInput>("a.msh", text_2 + one_triangle_2, {"line 6", "0 nodes"});
+    expect_error<InvalidInput>("a.msh", msh::text_2 + msh::one_triangle_2, {"line 6", "0 nodes"});
     expect_error<IoError>(
-        "a.msh", text_4 + three_nodes_4 + "$Elements\n1 2 1 1\n2 1 2 1\n1 1 2 3\n$EndElements\n",
+        "a.msh",
+        msh::text_4 + msh::three_nodes_4 + "$Elements\n1 2 1 1\n2 1 2 1\n1 1 2 3\n$EndElements\n",
         {"1 elements, but 2 are announced"});
     msh::Text binary({.is_version_2 = true, .is_binary = true});
     binary.raw("$Elements\n1\n").integers({2, 2, 2, 1});
     expect_error<IoError>("a.msh", binary.bytes(), {"byte ", "2 of the 1 elements"});
-}
-
-TEST(Msh, TrianglesAreWrittenAsTextOfVersion22) {
-    remesh::MeshAttributes attributes;
-    attributes.of_faces.push_back({.name = "group",
-                                   .type = remesh::NumberType::Int32,
-                                   .values = {2, 0},
-                                   .names = {"", "unused", "the \"wet\" side"}});
-    const agvd::TriangleMesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, .1, 0}, {1, 1, -1e-7}},
-                                  {{0, 1, 2}, {1, 3, 2}}};
-    EXPECT_EQ(remesh::format_mesh("a.msh", mesh.view(), attributes),
-              text_2 +
-                  "$PhysicalNames\n1\n2 2 \"the 'wet' side\"\n$EndPhysicalNames\n"
-                  "$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 0.1 0\n4 1 1 -1e-07\n$EndNodes\n"
-                  "$Elements\n2\n1 2 2 2 2 1 2 3\n2 2 2 0 1 2 4 3\n$EndElements\n");
-}
-
-TEST(Msh, WhatWasWrittenComesBack) {
-    const agvd::TriangleMesh mesh = shapes::jitter(shapes::icosahedron(), 0.01, 3);
-    Values labels(mesh.triangles.size(), 3);
-    labels[4] = 12;
-    remesh::MeshAttributes attributes;
-    attributes.of_faces.push_back({.name = "quality", .values = labels});
-    attributes.of_faces.push_back(
-        {.name = "part", .type = remesh::NumberType::Int16, .values = labels});
-    attributes.of_faces.push_back(
-        {.name = "other", .type = remesh::NumberType::Int16, .values = labels});
-    const std::vector<std::string> removed = remesh::remove_unwritable("a.msh", attributes);
-    EXPECT_EQ(removed, (std::vector<std::string>{"face quality", "face other"}));
-    const auto file = with_groups(remesh::format_mesh("a.msh", mesh.view(), attributes));
-    EXPECT_EQ(file.mesh.positions, mesh.positions);
-    EXPECT_EQ(file.mesh.triangles, mesh.triangles);
-    EXPECT_EQ(file.attributes.of_faces.at(0).values, labels);
-    EXPECT_TRUE(file.attributes.of_faces.at(0).names.empty());
-}
-
-// OBJ counts its labels from 0, Gmsh its groups from 1.
-TEST(Msh, ALabelZeroThatHasANameIsGroupOne) {
-    const auto obj = read_bytes("a.obj",
-                                "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nusemtl brass\nf 1 2 3\n"
-                                "usemtl oak\nf 2 4 3\n",
-                                true);
-    const auto file = with_groups(remesh::format_mesh("a.msh", obj.mesh.view(), obj.attributes));
-    const remesh::Attribute& groups = file.attributes.of_faces.at(0);
-    EXPECT_EQ(groups.values, (Values{1, 2}));
-    EXPECT_EQ(groups.names, (std::vector<std::string>{"", "brass", "oak"}));
-    const auto again =
-        read_bytes("b.obj", remesh::format_mesh("b.obj", file.mesh.view(), file.attributes), true);
-    EXPECT_EQ(again.attributes.of_faces.at(0).name, "group");
-    EXPECT_EQ(again.attributes.of_faces.at(0).names, (std::vector<std::string>{"brass", "oak"}));
-}
-
-TEST(Msh, LabelsBelowOneAreInNoGroup) {
-    const auto ply = read_bytes("a.ply",
-                                "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\n"
-                                "property float y\nproperty float z\nelement face 3\n"
-                                "property list uchar int vertex_indices\nproperty int part\n"
-                                "end_header\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n3 0 1 2 0\n3 1 3 2 5\n"
-                                "3 0 1 3 -4\n",
-                                true);
-    const auto file = with_groups(remesh::format_mesh("a.msh", ply.mesh.view(), ply.attributes));
-    EXPECT_EQ(file.attributes.of_faces.at(0).values, (Values{0, 5, 0}));
-}
-
-TEST(Msh, NamesOfGroupsWithLargeNumbersAreDeclined) {
-    const auto file =
-        with_groups(text_2 + "$PhysicalNames\n1\n2 65536 \"far\"\n$EndPhysicalNames\n" +
-                    three_nodes_2 + "$Elements\n1\n1 2 2 65536 1 1 2 3\n$EndElements\n");
-    EXPECT_EQ(file.attributes.of_faces.at(0).values, (Values{65536}));
-    EXPECT_TRUE(file.attributes.of_faces.at(0).names.empty());
-    ASSERT_EQ(file.attributes.declined.size(), 1u);
-    EXPECT_EQ(file.attributes.declined[0].name, "names of physical groups");
-}
-
-TEST(Msh, PlyHasCommentsOfNamesOnly) {
-    const auto file = with_groups(mesh_in({}));
-    const std::string ply = remesh::format_mesh("a.ply", file.mesh.view(), file.attributes);
-    EXPECT_NE(ply.find("\ncomment group 7 wet walls\ncomment group 9 9\n"), std::string::npos);
-    EXPECT_EQ(ply.find("comment group 0"), std::string::npos);
 }
