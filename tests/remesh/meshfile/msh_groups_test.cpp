@@ -60,11 +60,11 @@ TEST(MshGroups, WhatWasWrittenComesBack) {
     remesh::MeshAttributes attributes;
     attributes.of_faces.push_back({.name = "quality", .values = labels});
     attributes.of_faces.push_back(
-        {.name = "part", .type = remesh::NumberType::Int16, .values = labels});
+        {.name = "part", .type = remesh::NumberType::Int16, .values = Values(labels.size(), 1)});
     attributes.of_faces.push_back(
-        {.name = "other", .type = remesh::NumberType::Int16, .values = labels});
+        {.name = "group", .type = remesh::NumberType::Int16, .values = labels});
     const std::vector<std::string> removed = remesh::remove_unwritable("a.msh", attributes);
-    EXPECT_EQ(removed, (std::vector<std::string>{"face quality", "face other"}));
+    EXPECT_EQ(removed, (std::vector<std::string>{"face quality", "face part"}));
     const auto file = read_groups(remesh::format_mesh("a.msh", mesh.view(), attributes));
     EXPECT_EQ(file.mesh.positions, mesh.positions);
     EXPECT_EQ(file.mesh.triangles, mesh.triangles);
@@ -117,4 +117,27 @@ TEST(MshGroups, PlyHasCommentsOfNamesOnly) {
     const std::string ply = remesh::format_mesh("a.ply", file.mesh.view(), file.attributes);
     EXPECT_NE(ply.find("\ncomment group 2 wet walls\ncomment group 4 4\n"), std::string::npos);
     EXPECT_EQ(ply.find("comment group 0"), std::string::npos);
+}
+
+TEST(MshGroups, SeveralGroupsOfEdgesDoNotMatter) {
+    const auto file = read_groups(
+        msh::text_4 +
+        "$Entities\n0 1 1 0\n1 0 0 0 1 1 0 2 8 5 0\n1 0 0 0 1 1 0 1 8 0\n$EndEntities\n" +
+        msh::three_nodes_4 + msh::one_triangle_4);
+    EXPECT_EQ(file.attributes.of_faces.at(0).values, (Values{8}));
+    EXPECT_TRUE(file.warnings.empty());
+}
+
+TEST(MshGroups, WhatIsInNoGroupHasNoNameAndWhatHasNoneGetsNone) {
+    const std::string names = "$PhysicalNames\n1\n2 2 \"walls\"\n$EndPhysicalNames\n";
+    const std::string rest = msh::three_nodes_2 +
+                             "$Elements\n3\n1 2 2 0 1 1 2 3\n2 2 2 2 2 3 2 1\n3 2 2 4 3 3 1 2\n"
+                             "$EndElements\n";
+    const auto file = read_groups(
+        msh::text_2 + "$PhysicalNames\n2\n2 0 \"nothing\"\n2 2 \"walls\"\n$EndPhysicalNames\n" +
+        rest);
+    EXPECT_EQ(file.attributes.of_faces.at(0).names,
+              (std::vector<std::string>{"", "", "walls", "", "4"}));
+    EXPECT_EQ(remesh::format_mesh("a.msh", file.mesh.view(), file.attributes),
+              msh::text_2 + names + rest);
 }

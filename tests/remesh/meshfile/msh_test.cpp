@@ -125,6 +125,28 @@ TEST_P(MshForms, TruncatedFilesAreRefused) {
     }
 }
 
+TEST(Msh, NodesWithoutGapsMayComeInAnyOrder) {
+    const auto file =
+        read_bytes("a.msh", msh::text_2 + "$Nodes\n3\n3 0 1 0\n1 0 0 0\n2 1 0 0\n$EndNodes\n" +
+                                msh::one_triangle_2);
+    EXPECT_EQ(file.mesh.positions, (std::vector<Vec3>{{0, 1, 0}, {0, 0, 0}, {1, 0, 0}}));
+    EXPECT_EQ(file.mesh.triangles, (std::vector<Triangle>{{1, 2, 0}}));
+}
+
+// In binary files the end of the line before the numbers matters.
+TEST_P(MshForms, LinesMayEndInCarriageReturnAndLineFeed) {
+    std::string bytes = mesh_in(GetParam());
+    for (const std::string word : {"$MeshFormat", " 8", " 4", "$Nodes", "$Entities", "$Elements",
+                                   "$Nodes\r\n4", "$Elements\r\n4", "wet walls\""}) {
+        const std::size_t at = bytes.find(word + '\n');
+        if (at != std::string::npos) bytes.insert(at + word.size(), 1, '\r');
+    }
+    const auto file = with_groups(bytes);
+    ASSERT_EQ(file.mesh.positions.size(), 4u);
+    EXPECT_EQ(file.mesh.positions[3], Vec3(1, 1, .5));
+    EXPECT_EQ(file.attributes.of_faces.at(0).values, (Values{7, 9, 9}));
+}
+
 TEST(Msh, OtherSectionsArePassedOver) {
     const auto file =
         with_groups(msh::text_2 + "$Comments\n$Nodes are below\n$EndComments\n" +
@@ -135,6 +157,13 @@ TEST(Msh, OtherSectionsArePassedOver) {
     EXPECT_TRUE(file.attributes.of_faces.empty()) << "there is no group";
     ASSERT_EQ(file.attributes.declined.size(), 1u);
     EXPECT_EQ(file.attributes.declined[0].name, "section ElementNodeData");
+    for (const std::string name : {"NodeData", "ElementData"}) {
+        const auto early =
+            with_groups(msh::text_2 + "$" + name + "\n1\n\"h\"\n0\n3\n0\n1\n0\n$End" + name + "\n" +
+                        msh::three_nodes_2 + msh::one_triangle_2);
+        ASSERT_EQ(early.attributes.declined.size(), 1u);
+        EXPECT_EQ(early.attributes.declined[0].name, "section " + name);
+    }
 }
 
 TEST_P(MshForms, ValuesOfNodesAndFacesAreRead) {
