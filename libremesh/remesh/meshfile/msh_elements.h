@@ -12,10 +12,10 @@ namespace remesh {
 
 //! A kind of elements. The first nodes of curved ones are their corners.
 struct MshType {
-    std::int64_t number;
-    int dimension;
-    std::size_t num_corners;
-    std::size_t num_nodes;
+    std::uint8_t number;
+    std::uint8_t dimension;
+    std::uint8_t num_corners;
+    std::uint8_t num_nodes;
     VolumeCell cell = {};
 };
 inline constexpr MshType msh_types[] = {{15, 0, 1, 1},

@@ -71,6 +71,43 @@ void MshScanner::begin_numbers() {
     if (file_.bytes[at - 1] == '\r' && file_.bytes[at] == '\n') scan_.go_to(at + 1);
 }
 
+std::int64_t MshScanner::integer(const char* what) {
+    return is_binary() ? load<std::int32_t>(take(4, what), order_) : text_integer(what);
+}
+
+double MshScanner::real(const char* what) {
+    return is_binary() ? load<double>(take(8, what), order_) : text_real(what);
+}
+
+std::uint64_t MshScanner::size(const char* what) {
+    if (!is_binary()) return text_count(what);
+    return size_of_count_ == 4 ? load<std::uint32_t>(take(4, what), order_)
+                               : load<std::uint64_t>(take(8, what), order_);
+}
+
+std::uint64_t MshScanner::tag(const char* what) {
+    if (!is_version_2()) return size(what);
+    const std::int64_t tag = integer(what);
+    if (tag < 0) fail(what, " is negative");
+    return static_cast<std::uint64_t>(tag);
+}
+
+std::int64_t MshScanner::text_integer(const char* what) {
+    find_text(what);
+    return scan_.integer(what);
+}
+
+double MshScanner::text_real(const char* what) {
+    find_text(what);
+    return scan_.number(what);
+}
+
+std::uint64_t MshScanner::text_count(const char* what) {
+    const std::int64_t count = text_integer(what);
+    if (count < 0) fail(what, " is negative");
+    return static_cast<std::uint64_t>(count);
+}
+
 std::string MshScanner::quoted_name() {
     find_text("a name in quotes");
     const std::string text = scan_.words();
@@ -78,6 +115,24 @@ std::string MshScanner::quoted_name() {
         return text.substr(1, text.size() - 2);
     }
     fail("expected a name in quotes, found ", in_quotes(text));
+}
+
+void MshScanner::find_text(const char* what) {
+    const bool has_word = scan_.find_word();
+    start_ = scan_.offset();
+    if (!has_word) fail_truncated(what);
+}
+
+const char* MshScanner::take(std::size_t count, const char* what) {
+    start_ = scan_.offset();
+    if (file_.bytes.size() - start_ < count) fail_truncated(what);
+    scan_.go_to(start_ + count);
+    return file_.bytes.data() + start_;
+}
+
+void MshScanner::fail_truncated(const char* what) const {
+    file_.fail_malformed(start_, "the file ends before ", what,
+                         "; it is truncated: export the file again");
 }
 
 }  // namespace remesh
