@@ -387,7 +387,8 @@ Input prepare(const Arguments& arguments, cli::Console& console) {
     // Of the file, before those that are not carried over are removed.
     std::vector<agvd::Index> labels =
         cli::labels_to_keep(arguments.attributes, arguments.input, input.attributes);
-    remesh::Sizing sizing = cli::sizing_for(arguments.sizing, arguments.input, input);
+    remesh::Sizing sizing =
+        cli::sizing_for(arguments.sizing, arguments.input, input, console.progress_of("read"));
     std::vector<std::uint8_t> region = cli::region_for(arguments.region, arguments.input, input);
     const remesh::AttributeReport attributes =
         cli::select_attributes(arguments.attributes, arguments.input,

@@ -4,6 +4,7 @@
 
 #include "agvd/mesh/scale.h"
 #include "help.h"
+#include "remesh/meshfile/solution_file.h"
 #include "remesh/transfer/transfer.h"
 
 namespace cli {
@@ -55,10 +56,11 @@ double number_of_label(const remesh::Attribute& labels, const std::string& value
         std::find(values.begin(), values.end(), number) != values.end()) {
         return number;
     }
-    throw agvd::InvalidOption("--edge-length-of: no face of " + mesh + " has " + labels.name +
-                              " '" + value + "'; use " +
-                              (labels.names.empty() ? "a value of this property"
-                                                    : CLI::detail::join(labels.names, ", ")));
+    std::vector<std::string> names = labels.names;
+    std::erase(names, "");
+    throw agvd::InvalidOption(
+        "--edge-length-of: no face of " + mesh + " has " + labels.name + " '" + value + "'; use " +
+        (names.empty() ? "a value of this property" : CLI::detail::join(names, ", ")));
 }
 
 // For each face. Of several labels of a face the last one given counts.
@@ -96,6 +98,10 @@ std::vector<double> lengths_by_label(const SizingArguments& arguments,
                                   "by --edge-length, or by the value *");
     }
     return lengths;
+}
+
+bool has_file_of_lengths(const SizingArguments& arguments) {
+    return remesh::is_solution_file(arguments.target_lengths);
 }
 
 }  // namespace
@@ -146,9 +152,11 @@ void add_sizing_options(CLI::App& app, SizingArguments& arguments) {
                      "Shorter edges where the surface is curved, longer ones elsewhere");
     CLI::Option* const lengths = app.add_option("--sizing", arguments.target_lengths,
                                                 "Vertex property of IN, such as of PLY or VTK, "
-                                                "that gives the length of the edges there; with "
-                                                "--samples or the like only relative to each other")
-                                     ->type_name("NAME")
+                                                "that gives the length of the edges there, or a "
+                                                "file of Medit with one number for each vertex of "
+                                                "IN; with --samples or the like only relative to "
+                                                "each other")
+                                     ->type_name("NAME|FILE.sol")
                                      ->excludes(adaptive)
                                      ->excludes(distance);
     CLI::Option* const densities = app.add_option("--density", arguments.densities,
@@ -210,19 +218,19 @@ bool has_count(const SizingArguments& arguments) {
 }
 
 bool wants_attributes(const SizingArguments& arguments) {
-    return !arguments.target_lengths.empty() || !arguments.densities.empty() ||
-           !arguments.label_lengths.empty();
+    const bool has_name = !arguments.target_lengths.empty() && !has_file_of_lengths(arguments);
+    return has_name || !arguments.densities.empty() || !arguments.label_lengths.empty();
 }
 
 remesh::Sizing sizing_for(const SizingArguments& arguments, const std::filesystem::path& path,
-                          const remesh::MeshFile& mesh) {
+                          const remesh::MeshFile& mesh, const agvd::Progress& progress) {
     const auto values_of = [&](const char* option, const std::string& name) {
         return remesh::require_attribute(mesh.attributes.of_vertices, name,
                                          option + path.string() + " has no vertex property")
             .values;
     };
-    const bool is_even =
-        !arguments.is_adaptive && !arguments.max_distance && !wants_attributes(arguments);
+    const bool is_even = !arguments.is_adaptive && !arguments.max_distance &&
+                         arguments.target_lengths.empty() && !wants_attributes(arguments);
     if (is_even && (arguments.min_edge || arguments.max_edge || arguments.gradation)) {
         throw agvd::InvalidOption(
             "--min-edge, --max-edge and --gradation bound edges that differ; add --adaptive, "
@@ -240,6 +248,9 @@ remesh::Sizing sizing_for(const SizingArguments& arguments, const std::filesyste
         sizing.edges = remesh::AdaptiveEdges{};
     } else if (is_by_label) {
         sizing.edges = remesh::FaceLengths{lengths_by_label(arguments, path, mesh, in_mesh_units)};
+    } else if (has_file_of_lengths(arguments)) {
+        sizing.edges = remesh::VertexLengths{
+            remesh::read_lengths(arguments.target_lengths, mesh.mesh.positions.size(), progress)};
     } else if (!arguments.target_lengths.empty()) {
         sizing.edges = remesh::VertexLengths{values_of("--sizing: ", arguments.target_lengths)};
     } else if (!arguments.densities.empty()) {

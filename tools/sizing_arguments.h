@@ -29,7 +29,8 @@ struct SizingArguments {
     //! Mesh units, or percent of the diagonal.
     std::optional<Amount> edge, max_distance, min_edge, max_edge, longest_edge;
     double min_angle = 0, max_angle = 180;   //!< Degrees.
-    std::string target_lengths, densities;   //!< Names of vertex properties; empty: none.
+    std::string target_lengths;              //!< Name of a vertex property, or a .sol file.
+    std::string densities;                   //!< Name of a vertex property; both empty: none.
     std::vector<LabelLength> label_lengths;  //!< Empty: none.
     std::optional<double> gradation;
     //! --samples: if it is not given, target lengths give the number.
@@ -58,9 +59,12 @@ void add_sizing_options(CLI::App& app, SizingArguments& arguments);
 //! \param path  of the mesh, for errors.
 //! \throw agvd::InvalidOption  it has no property of that name, whose text lists those it has; or no
 //!        such label.
+//! \throw agvd::IoError, agvd::InvalidInput, agvd::Cancelled  as remesh::read_lengths, which reads a
+//!        .sol file.
 [[nodiscard]] remesh::Sizing sizing_for(const SizingArguments& arguments,
                                         const std::filesystem::path& path,
-                                        const remesh::MeshFile& mesh);
+                                        const remesh::MeshFile& mesh,
+                                        const agvd::Progress& progress = {});
 
 //! Angles and edges of all triangles. Cost: O(#F) for the diagonal.
 [[nodiscard]] remesh::ShapeBounds bounds_for(const SizingArguments& arguments,

@@ -12,6 +12,7 @@
 #include "remesh/meshfile/numbers.h"
 #include "remesh/meshfile/packed.h"
 #include "support/dice.h"
+#include "support/msh_text.h"
 #include "support/points.h"
 #include "support/shapes.h"
 #include "support/vtp_text.h"
@@ -119,6 +120,25 @@ void put_textures(Seeds& seeds) {
               "f 4//1 1/4 3\nvt .5 -2\nf 1/1 3/3 2/2 4/4\n");
 }
 
+// A triangle and a tetrahedron of Gmsh's version 4.1.
+void put_msh(Seeds& seeds) {
+    for (const bool is_binary : {false, true}) {
+        msh::Text text({.is_binary = is_binary});
+        text.raw("$PhysicalNames\n1\n2 7 \"walls\"\n$EndPhysicalNames\n$Entities\n");
+        text.sizes({0, 0, 1, 0}).integers({1}).reals({0, 0, 0, 1, 1, 0}).sizes({1}).integers({7});
+        text.sizes({0}).end_line().raw("$EndEntities\n$PartitionedEntities\n").sizes({2, 0});
+        text.sizes({0, 0, 1, 0}).integers({2, 2, 1}).sizes({1}).integers({1});
+        text.reals({0, 0, 0, 1, 1, 0}).sizes({1}).integers({7}).sizes({0}).end_line();
+        text.raw("$EndPartitionedEntities\n$Nodes\n").sizes({1, 4, 3, 9}).integers({2, 1, 0});
+        text.sizes({4}).tags({9, 4, 3, 5}).reals({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}).end_line();
+        text.raw("$EndNodes\n$Elements\n").sizes({2, 2, 1, 2}).integers({2, 2, 2}).sizes({1});
+        text.tags({1, 9, 4, 3}).integers({3, 1, 4}).sizes({1}).tags({2, 9, 4, 3, 5}).end_line();
+        text.raw("$EndElements\n$ElementData\n1\n\"h\"\n0\n3\n0\n1\n1\n").integers({1});
+        text.reals({.5}).end_line().raw("$EndElementData\n");
+        seeds.put("read_msh", text.bytes());
+    }
+}
+
 void put_meshes(Seeds& seeds) {
     for (const TriangleMesh& mesh : {shapes::tetrahedron(), shapes::grid(2), shapes::cube()}) {
         seeds.put("read_ply", remesh::format_mesh("a.ply", mesh.view()));
@@ -132,6 +152,7 @@ void put_meshes(Seeds& seeds) {
         seeds.put("read_vtp", remesh::format_mesh("a.vtp", mesh.view()));
         seeds.put("read_3mf", remesh::format_mesh("a.3mf", mesh.view()));
         seeds.put("read_medit", remesh::format_mesh("a.mesh", mesh.view()));
+        seeds.put("read_msh", remesh::format_mesh("a.msh", mesh.view()));
         seeds.put("read_glb", remesh::format_mesh("a.glb", mesh.view()));
         seeds.put("read_gzip", remesh::pack_gzip(ascii_ply(mesh), {}));
     }
@@ -169,6 +190,7 @@ void put_meshes(Seeds& seeds) {
               "MeshVersionFormatted 1\nDimension\n3\n# a seed\nVertices 5\n0 0 0 1\n1 0 0 0\n"
               "0 1 0 0\n1 1 0 -3\n0 2 0 0\nEdges 1 1 2 0\nTriangles 2 1 2 3 7\n3 4 5 8\n"
               "Quadrilaterals 1 1 2 4 3 9\nCorners 1 1\nEnd\n");
+    put_msh(seeds);
     const auto glb = [](std::string json, const std::string& data) {
         json.resize((json.size() + 3) / 4 * 4, ' ');
         std::string bytes = "glTF";

@@ -24,6 +24,7 @@ constexpr MeshFormat formats[] = {
     {"vtp", read_vtp, format_vtp, holds_all, true, TexturePlace::Nothing, any_double},
     {"vtu", read_vtp, format_vtu, holds_all, true, TexturePlace::Nothing, any_double},
     {"mesh", read_medit, format_medit, medit_holds, false, TexturePlace::Nothing, any_double},
+    {"msh", read_msh, format_msh, msh_holds, false, TexturePlace::Nothing, any_double},
     {"3mf", read_3mf, format_3mf, holds_3mf, false, TexturePlace::Nothing, any_double,
      MaterialPlace::Colors, ""},
     {"glb", read_gltf, format_glb, gltf_holds, true, TexturePlace::Corners, any_float,
@@ -73,6 +74,16 @@ std::vector<Vec2> coordinates_of_vertices(const MeshView& mesh, const TextureCoo
         }
     }
     return result;
+}
+
+const Attribute* labels_to_write(const std::vector<Attribute>& attributes, std::string_view name) {
+    const auto fits = [](const Attribute& attribute) {
+        return is_label(attribute) && attribute.type != NumberType::UInt32;
+    };
+    const Attribute* const named = find_attribute(attributes, name);
+    if (named != nullptr && fits(*named)) return named;
+    const auto found = std::ranges::find_if(attributes, fits);
+    return found == attributes.end() ? nullptr : &*found;
 }
 
 std::string mesh_formats(const char* mark) {

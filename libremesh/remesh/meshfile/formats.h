@@ -11,7 +11,7 @@ namespace remesh {
 
 //! \throw IoError, InvalidInput, Cancelled  as read_mesh.
 using MeshReader = MeshFile(SourceFile file);
-MeshReader read_ply, read_obj, read_off, read_stl, read_vtk, read_medit, read_3mf;
+MeshReader read_ply, read_obj, read_off, read_stl, read_vtk, read_medit, read_3mf, read_msh;
 MeshReader read_vtp;   //!< And .vtu.
 MeshReader read_gltf;  //!< Both kinds: the bytes tell.
 
@@ -19,11 +19,11 @@ MeshReader read_gltf;  //!< Both kinds: the bytes tell.
 using MeshWriter = std::string(const MeshView& mesh, const MeshAttributes& attributes,
                                Ticker ticker);
 MeshWriter format_ply, format_obj, format_off, format_stl, format_vtk, format_vtp, format_vtu,
-    format_medit, format_glb, format_gltf, format_3mf;
+    format_medit, format_glb, format_gltf, format_3mf, format_msh;
 
 //! Whether a format can hold an attribute, one of `all`.
 using AttributeTest = bool(const Attribute& attribute, ElementKind kind, const MeshAttributes& all);
-AttributeTest obj_holds, off_holds, stl_holds, medit_holds, gltf_holds, holds_3mf;
+AttributeTest obj_holds, off_holds, stl_holds, medit_holds, gltf_holds, holds_3mf, msh_holds;
 
 //! Unless the text of the parts is empty.
 template <typename... Parts>
@@ -40,6 +40,11 @@ void attach(MeshAttributes attributes, MeshFile& file);
 //! several, or if there are none.
 [[nodiscard]] std::vector<Vec2> coordinates_of_vertices(const MeshView& mesh,
                                                         const TextureCoordinates& texture);
+
+//! The labels that a format writes which has one whole number of 32 bits with a sign for each
+//! element: those of the name, or else the first; nullptr: there are none.
+[[nodiscard]] const Attribute* labels_to_write(const std::vector<Attribute>& attributes,
+                                               std::string_view name);
 
 //! What is kept of MeshAttributes::materials.
 enum class MaterialPlace { Nothing, Colors, All };

@@ -297,18 +297,6 @@ private:
     std::vector<std::string> warnings_;
 };
 
-bool is_reference(const Attribute& attribute) {
-    return is_label(attribute) && attribute.type != NumberType::UInt32;
-}
-
-// The attribute that is written as references: the one of that name, or the first labels.
-const Attribute* references_of(const std::vector<Attribute>& attributes) {
-    const Attribute* const named = find_attribute(attributes, ref_name);
-    if (named != nullptr && is_reference(*named)) return named;
-    const auto found = std::ranges::find_if(attributes, is_reference);
-    return found == attributes.end() ? nullptr : &*found;
-}
-
 std::int64_t reference(const Attribute* refs, std::size_t element) {
     if (refs == nullptr || !is_value_of(NumberType::Int32, refs->values[element])) return 0;
     return static_cast<std::int64_t>(refs->values[element]);
@@ -321,13 +309,13 @@ MeshFile read_medit(SourceFile file) { return MeditReader(file).read(); }
 
 bool medit_holds(const Attribute& attribute, ElementKind kind, const MeshAttributes& all) {
     const Attribute* const refs =
-        references_of(kind == ElementKind::Vertex ? all.of_vertices : all.of_faces);
+        labels_to_write(kind == ElementKind::Vertex ? all.of_vertices : all.of_faces, ref_name);
     return refs != nullptr && refs->name == attribute.name;
 }
 
 std::string format_medit(const MeshView& mesh, const MeshAttributes& attributes, Ticker ticker) {
-    const Attribute* const vertex_refs = references_of(attributes.of_vertices);
-    const Attribute* const face_refs = references_of(attributes.of_faces);
+    const Attribute* const vertex_refs = labels_to_write(attributes.of_vertices, ref_name);
+    const Attribute* const face_refs = labels_to_write(attributes.of_faces, ref_name);
     std::string bytes = "MeshVersionFormatted 2\nDimension 3\nVertices\n" +
                         std::to_string(mesh.positions.size()) + '\n';
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {

@@ -198,9 +198,10 @@ struct ReadOptions {
 //! The format is ReadOptions::format, or that of the extension: ply (ascii and both binaries), obj
 //! (v, v/vt, v//vn and v/vt/vn, negative indices; never split along texture seams), off (OFF, COFF,
 //! NOFF, STOFF), stl (ascii, binary; welded at equal positions), vtk (legacy), vtp and vtu (VTK's
-//! XML), mesh (Medit, ascii), 3mf, glb, gltf (which may name files beside it); each also compressed
-//! with gzip. /dev/stdin is the standard input. Coordinates are kept in double. A quad is cut along
-//! the shorter of its inner diagonals, a larger polygon by clipping ears.
+//! XML), mesh (Medit, ascii), msh (Gmsh, 2.2 and 4.1), 3mf, glb, gltf (which may name files beside
+//! it); each also compressed with gzip. /dev/stdin is the standard input. Coordinates are kept in
+//! double. A quad is cut along the shorter of its inner diagonals, a larger polygon by clipping
+//! ears.
 //!
 //! \throw IoError       the file is missing, empty, unreadable, truncated, malformed or
 //!        longer than its header announces (a few stray bytes are only a warning), or the extension
@@ -236,8 +237,8 @@ void append_triangles(std::span<const Index> polygon, std::span<const Vec3> posi
 //! Writes a temporary file and renames it, so that a failed or interrupted run does not change an
 //! old file (see write_file_atomically). Binary little-endian PLY with double coordinates, OBJ and
 //! OFF with the shortest decimals that read back as the same double, binary STL (float by the
-//! format's nature), binary VTK with double coordinates, Medit and 3MF as OBJ, GLB in float;
-//! GLTF with all in one file; compressed if .gz follows the extension.
+//! format's nature), binary VTK with double coordinates, Medit, Gmsh (2.2) and 3MF as OBJ, GLB in
+//! float; GLTF with all in one file; compressed if .gz follows the extension.
 //!
 //! \throw IoError       the extension is unknown or the file cannot be written; says which
 //!        and why.

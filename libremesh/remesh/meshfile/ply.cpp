@@ -362,6 +362,7 @@ std::string label_comments(const MeshAttributes& attributes) {
     std::string text;
     for (const Attribute& attribute : attributes.of_faces) {
         for (std::size_t i = 0; i < attribute.names.size(); ++i) {
+            if (attribute.names[i].empty()) continue;
             text += joined("comment ", attribute.name, " ", i, " ", attribute.names[i], "\n");
         }
     }

@@ -197,9 +197,23 @@ void add_texture(const VtkArray& array, const SourceFile& file, PolygonSoup& sou
     }
 }
 
-// Turns an array into attributes, one for each component.
-void add_components(const VtkArray& array, ElementKind kind, std::size_t num_elements,
-                    const SourceFile& file, MeshAttributes& attributes) {
+MeshAttributes read_attributes(VtkData& data, const CellReader& cells, std::size_t num_points,
+                               const SourceFile& file) {
+    MeshAttributes attributes{.normals = data.normals, .declined = std::move(data.declined)};
+    for (const VtkArray& array : data.of_points) {
+        add_array(array, ElementKind::Vertex, num_points, file, attributes);
+    }
+    for (const VtkArray& array : data.of_cells) {
+        add_array(array, ElementKind::Face, cells.num_cells(), file, attributes);
+    }
+    spread_to_triangles(cells.cell_of_polygon(), attributes.of_faces);
+    return attributes;
+}
+
+}  // namespace
+
+void add_array(const VtkArray& array, ElementKind kind, std::size_t num_elements,
+               const SourceFile& file, MeshAttributes& attributes) {
     const bool is_vertex = kind == ElementKind::Vertex;
     std::vector<Attribute>& target = is_vertex ? attributes.of_vertices : attributes.of_faces;
     const auto decline = [&](const std::string& name, const char* reason) {
@@ -233,21 +247,6 @@ void add_components(const VtkArray& array, ElementKind kind, std::size_t num_ele
         target.push_back(std::move(part));
     }
 }
-
-MeshAttributes read_attributes(VtkData& data, const CellReader& cells, std::size_t num_points,
-                               const SourceFile& file) {
-    MeshAttributes attributes{.normals = data.normals, .declined = std::move(data.declined)};
-    for (const VtkArray& array : data.of_points) {
-        add_components(array, ElementKind::Vertex, num_points, file, attributes);
-    }
-    for (const VtkArray& array : data.of_cells) {
-        add_components(array, ElementKind::Face, cells.num_cells(), file, attributes);
-    }
-    spread_to_triangles(cells.cell_of_polygon(), attributes.of_faces);
-    return attributes;
-}
-
-}  // namespace
 
 const VtkType* find_vtk_type(std::string_view name) { return find_type(name, &VtkType::name); }
 

@@ -1,6 +1,6 @@
 //! \file
 //! What a file of VTK holds, in any of its encodings, and the mesh that it makes. Private to the
-//! readers of VTK.
+//! readers of VTK, and of Gmsh's values.
 #pragma once
 
 #include <bit>
@@ -84,6 +84,11 @@ struct VtkData {
 
 //! The components of an array that is carried over, at most.
 constexpr std::size_t most_vtk_components = 64;
+
+//! Adds an array as attributes, one for each component. What cannot be carried over is declined.
+//! \throw IoError  it has another number of values.
+void add_array(const VtkArray& array, ElementKind kind, std::size_t num_elements,
+               const SourceFile& file, MeshAttributes& attributes);
 
 //! The mesh of all faces; where there are none, the surface of the volume cells, with a warning.
 //! Other cells are skipped with a warning.
