@@ -54,6 +54,7 @@ struct PairBound {
     std::uint64_t ends = 0;  //!< edge_key(a, b).
     double most = 0;         //!< Mesh units.
 
+    //! By ends, then by length.
     [[nodiscard]] auto operator<=>(const PairBound&) const = default;
 };
 
