@@ -65,8 +65,8 @@ struct Scene {
 
 // Some half of what there were: a loop that lost its polls shows.
 const std::map<Stage, int> least_polls{
-    {Stage::Clean, 100}, {Stage::Relax, 300},   {Stage::Propagate, 50}, {Stage::Diagram, 50},
-    {Stage::Dual, 4},    {Stage::Delaunay, 20}, {Stage::Place, 20},     {Stage::Check, 8}};
+    {Stage::Clean, 100}, {Stage::Relax, 300},  {Stage::Propagate, 50}, {Stage::Diagram, 50},
+    {Stage::Dual, 4},    {Stage::Delaunay, 5}, {Stage::Place, 20},     {Stage::Check, 8}};
 // With an error the cells are found.
 const agvd::PropagationOptions with_error{.max_error = 1e-4};
 
