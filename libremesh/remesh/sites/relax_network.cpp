@@ -200,7 +200,9 @@ std::optional<NetworkPlan> divide_locked(const NetworkPlan& plan, const SizeFiel
 // Puts the sites that divide locked edges apart.
 NetworkSites undivide_locked(const NetworkPlan& plan, const NetworkPlan& divided,
                              const NetworkSites& made) {
-    NetworkSites result{.levels = made.levels, .narrow_points = made.narrow_points};
+    NetworkSites result;
+    result.levels = made.levels;
+    result.narrow_points = made.narrow_points;
     const CurveSites& curves = made.curves;
     std::vector<std::vector<double>> along(plan.network.curves.size());
     std::vector<std::uint8_t> divides(made.sites.size(), 0);
