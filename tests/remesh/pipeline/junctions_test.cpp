@@ -371,3 +371,20 @@ TEST(FaceLabels, OneIsNeededForEachFace) {
                   .features.length,
               0);
 }
+
+// Where the vertices are too few for a mesh with all curves.
+TEST(Junctions, GoBeforeCreasesWhereSheetsStayApartAndAfterThemWhereTheyAreWelded) {
+    const TriangleMesh mesh = shapes::join(
+        shapes::pages(5).mesh, shapes::moved(shapes::cubes_with_an_edge().mesh, {5, 0, 0}));
+    RemeshOptions options{.num_samples = 28, .num_threads = 1};
+    const RemeshResult apart = remesh::remesh(mesh.view(), options);
+    EXPECT_EQ(apart.junctions.apart_edges, apart.junctions.edges);
+    EXPECT_GT(apart.features.length, 5);
+    EXPECT_FALSE(apart.features.gave_up);
+    options.junctions = Junctions::Keep;
+    options.num_samples = 20;
+    const RemeshResult welded = remesh::remesh(mesh.view(), options);
+    EXPECT_EQ(welded.junctions.apart_edges, 0u);
+    EXPECT_EQ(welded.features.length, 0);
+    EXPECT_TRUE(welded.features.gave_up);
+}
