@@ -44,7 +44,7 @@ def test_the_distance_is_kept(torus):
         percent = figures["distance"]["original_diagonal_mesh_units"] / 100
         assert figures["distance"]["two_sided"]["max_percent_of_diagonal"] * percent <= 0.01
     with pytest.raises(remesh.InvalidOption, match="use longer ones, or a larger distance"):
-        remesh.remesh(V, F, max_distance=1e-9)
+        remesh.remesh(V, F, max_distance=1e-12)
 
 
 def test_sizing_gives_lengths_and_number(sphere):
