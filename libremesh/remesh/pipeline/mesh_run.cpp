@@ -69,7 +69,10 @@ public:
         const RemeshResult start = result_;
         TooFewSamples failure{options_.num_samples, 0, 0};
         Index for_creases = 0;
-        for (KeptCurves& kept : choices()) {
+        const std::vector<std::uint8_t> none(found_.is_crease.size(), 0);
+        for (const auto& [has_junctions, has_others] : choices()) {
+            KeptCurves kept{has_junctions, has_others && !found_.is_seam.empty(),
+                            has_others ? found_.is_crease : none};
             RemeshResult tried = start;
             const MadeMesh made = try_curves(kept, options_, tried);
             failure.reached = std::max(made.num_needed, options_.num_samples + 1);
@@ -110,20 +113,17 @@ private:
         check_count(sizes_.num_samples);
     }
 
-    // All curves first. Junctions go last if sheets are welded there, otherwise before creases and
-    // seams.
-    [[nodiscard]] std::vector<KeptCurves> choices() const {
-        const KeptCurves all{true, !found_.is_seam.empty(), found_.is_crease};
-        const std::vector<std::uint8_t> none(found_.is_crease.size(), 0);
-        const KeptCurves without_junctions{false, all.has_seams, all.is_crease};
-        const KeptCurves without_others{true, false, none};
-        const bool has_others = all.has_seams || has_creases(all.is_crease);
-        std::vector<KeptCurves> result{all};
-        if (has_others) result.push_back(without_others);
-        if (found_.junctions.empty()) return result;
+    // Whether junctions stay, and whether creases and seams do. All curves first. Junctions go last
+    // if sheets are welded there, otherwise before creases and seams.
+    [[nodiscard]] std::vector<std::pair<bool, bool>> choices() const {
+        const bool has_others = !found_.is_seam.empty() || has_creases(found_.is_crease);
+        const bool has_junctions = !found_.junctions.empty();
         const bool are_welded = options_.junctions == Junctions::Keep;
-        result.insert(are_welded ? result.end() : result.begin() + 1, without_junctions);
-        if (has_others) result.push_back({false, false, none});
+        std::vector<std::pair<bool, bool>> result{{true, true}};
+        if (has_junctions && !are_welded) result.emplace_back(false, true);
+        if (has_others) result.emplace_back(true, false);
+        if (has_junctions && are_welded) result.emplace_back(false, true);
+        if (has_junctions && has_others) result.emplace_back(false, false);
         return result;
     }
 
