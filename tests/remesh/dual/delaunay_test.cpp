@@ -157,6 +157,29 @@ TEST(MakeDelaunay, BoundsSaveLengthsAndChangeNothing) {
     EXPECT_GT(num_failing, 5u);
 }
 
+// In space the third vertex is nearer to the second one than on the surface: by these lengths the
+// angle at it would be 3.5 degrees, not 36.
+TEST(MakeDelaunay, BoundsProveNothingBesideObtuseCorners) {
+    const TriangleMesh mesh{{{0, 0, 0}, {1, 0, 0}, {1.3, 0.4, 0}, {0.5, -0.12, 0}},
+                            {{0, 1, 2}, {1, 0, 3}}};
+    const Surface surface = build_surface(mesh.view());
+    std::vector<SurfacePoint> points;
+    for (Index v = 0; v < 4; ++v) points.push_back(point_at(surface, v));
+    std::vector<Vec3> positions = mesh.positions;
+    positions[2] = {1.3595, 0.03, 0};
+    std::vector<remesh::PairBound> bounds;
+    for (const Index h : surface.edge_half) {
+        bounds.push_back({agvd::edge_key(surface.tail(h), surface.head(h)), surface.length_of(h)});
+    }
+    std::ranges::sort(bounds);
+    for (const std::span<const remesh::PairBound> given :
+         {std::span(bounds).first(0), std::span(bounds)}) {
+        const DelaunayResult result = remesh::make_delaunay(
+            surface, points, positions, mesh.triangles, {.bounds = given, .num_threads = 1});
+        EXPECT_EQ(result.counts.failing_before, 1u);
+    }
+}
+
 TEST(MakeDelaunay, InThePlaneEveryEdgeIsDelaunay) {
     TriangleMesh mesh = shapes::jitter(shapes::grid(30), 0.01, 2);
     for (Vec3& p : mesh.positions) p.z() = 0;
