@@ -73,7 +73,7 @@ std::string why_dropped(const FeatureCounts& features) {
     if (!features.gave_up) {
         return "to keep all, use " + std::to_string(features.samples_for_all) + " samples";
     }
-    return text + "with creases no good mesh was found";
+    return text + "with creases no mesh was found";
 }
 
 // With the digits that place it in a box of this diagonal, however far from the origin.
@@ -153,7 +153,8 @@ std::string describe(const BodyCounts& bodies) {
     add(bodies.closed, "");
     add(bodies.inside_out, " inside out (normals point inward)");
     add(bodies.cavities, " around cavities of others");
-    add(bodies.inner_bodies, " inside others, around no cavity (normals point outward)");
+    add(bodies.inner_bodies,
+        " inside others, around no cavity (normals point outward; --wrap leaves them out)");
     return text;
 }
 

@@ -21,13 +21,14 @@ constexpr int most_partings = 2;
 // Share of the triangles: more that exceed what nobody asked for are those of thin walls or shells
 // that intersect, and stay so.
 constexpr double most_beyond_aims = 0.01;
+// Share of the triangles: if more are bad, creases do not give way in places.
+constexpr double most_freeing = 0.25;
 // Around bad triangles: edits reach some edges far, and vertices to spare are found there.
 constexpr Index rings_of_places = 8;
 
-// The pairs that do not follow from the input's. None if most do, or if repairs are in vain.
-FacePairs pairs_to_part(const std::optional<CrossingFaces>& crossings, const PlacedMesh& mesh) {
+// The pairs that do not follow from the input's. None if most do.
+FacePairs pairs_to_part(const std::optional<CrossingFaces>& crossings) {
     if (!crossings || !are_mostly_added(crossings->counts())) return {};
-    if (are_too_many(crossings->added.size(), mesh.triangles.size())) return {};
     return crossings->added;
 }
 
@@ -188,23 +189,34 @@ void improve(const CurvedSurface& curved, CrossingFinder& finder, PlacedMesh& me
 
 void part_faces(const CurvedSurface& curved, CrossingFinder& finder, PlacedMesh& mesh,
                 std::optional<CrossingFaces>& crossings, const StageContext& context) {
-    for (int round = 0; round < most_partings; ++round) {
-        const FacePairs pairs = pairs_to_part(crossings, mesh);
-        if (pairs.empty()) return;
-        const MeshCurves curves = curved.curves();
+    if (pairs_to_part(crossings).empty()) return;
+    const MeshCurves curves = curved.curves();
+    const Progress progress = progress_at(Stage::Place, context.options, 1);
+    // \return whether fewer pairs are left.
+    const auto try_edits = [&](const auto& edit) {
+        const FacePairs pairs = pairs_to_part(crossings);
+        if (pairs.empty()) return false;
         PlacedMesh parted = mesh;
         {
             const StageClock clock(Stage::Place, context.result);
-            if (repair_crossings(curves, find_mobility(curved, curves, mesh), pairs, parted,
-                                 progress_at(Stage::Place, context.options, 1))
-                    .empty()) {
-                return;
-            }
+            if (!edit(pairs, find_mobility(curved, curves, mesh), parted)) return false;
         }
         CrossingFaces left = finder.tell_added(parted, *finder.find(parted));
-        if (left.added.size() >= pairs.size()) return;
+        if (left.added.size() >= pairs.size()) return false;
         mesh = std::move(parted);
         crossings = std::move(left);
+        return true;
+    };
+    const auto push = [&](const FacePairs& pairs, std::span<const Mobility> mobility,
+                          PlacedMesh& parted) {
+        return push_apart(curves, mobility, pairs, parted, progress);
+    };
+    const auto repair = [&](const FacePairs& pairs, std::span<const Mobility> mobility,
+                            PlacedMesh& parted) {
+        return !repair_crossings(curves, mobility, pairs, parted, progress).empty();
+    };
+    (void)try_edits(push);
+    for (int round = 0; round < most_partings && try_edits(repair); ++round) {
     }
 }
 
@@ -212,11 +224,13 @@ bool free_creases(const CurvedSurface& curved, const std::optional<CrossingFaces
                   PlacedMesh& mesh, const StageContext& context) {
     const TriangleMesh whole = whole_mesh(*curved.whole, mesh);
     std::vector<Index> bad;
-    for (const auto& [f, g] : pairs_to_part(crossings, mesh)) bad.insert(bad.end(), {f, g});
+    for (const auto& [f, g] : pairs_to_part(crossings)) bad.insert(bad.end(), {f, g});
     for (Index f = 0; f < whole.triangles.size(); ++f) {
         if (is_flat(whole.positions, whole.triangles[f])) bad.push_back(f);
     }
-    if (bad.empty() || are_too_many(bad.size(), mesh.triangles.size())) return false;
+    if (bad.empty() ||
+        static_cast<double>(bad.size()) > most_freeing * static_cast<double>(mesh.triangles.size()))
+        return false;
     std::vector<std::uint8_t> is_bad(mesh.points.size(), 0);
     for (const Index f : bad) {
         for (const Index v : mesh.triangles[f]) is_bad[v] = 1;

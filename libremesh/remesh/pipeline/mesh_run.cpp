@@ -30,9 +30,8 @@ bool has_own_crossings(const RemeshResult& result) {
     return are_mostly_added({result.self_intersections.value_or(0), result.new_self_intersections});
 }
 
-// As where few vertices lie on the creases of one plane.
-bool is_crushed(const RemeshResult& result) {
-    return are_too_many(result.new_self_intersections, result.mesh.triangles.size());
+bool are_mostly_narrow(const RemeshResult& result) {
+    return 2 * std::size_t{result.verdict.narrow.count} > result.mesh.triangles.size();
 }
 
 // Whether lengths in places are ours to choose.
@@ -136,30 +135,23 @@ private:
     }
 
     // Runs once more. Where faces intersect: with the creases that were left out, which may keep
-    // walls apart; if there are none, with shorter edges there, or without curves if most faces
-    // intersect, as where few vertices lie in one plane. Where the result does not reach a narrow
-    // part: with shorter edges there. Other means part the faces of wraps, and their edges are
-    // shorter on all narrow parts. Keeps the better result.
+    // walls apart, and with shorter edges. Where the result does not reach a narrow part: with
+    // shorter edges there. Other means part the faces of wraps, and their edges are shorter on all
+    // narrow parts. Keeps the better result.
     void mend(RemeshResult again, const MadeMesh& made, KeptCurves kept) {
         const bool is_wrap = options_.wrap.has_value();
         const bool crosses = has_own_crossings(result_) && !result_.features.gave_up && !is_wrap;
         const bool adds_creases = crosses && has_creases(found_.is_close);
-        const bool is_lost = has_lost_part(result_) || is_wrap;
         std::vector<SizedPoint> points(lengths_.begin(), lengths_.end());
-        if (crosses && !adds_creases && !is_crushed(result_)) {
+        if (crosses) {
             const double length = result_.verdict.spacing / 2;
             for (const SurfacePoint& p : made.crossing_corners) points.push_back({p, length});
         }
         std::span<const SurfacePoint> narrow;
-        if (is_lost) narrow = made.narrow_points;
+        if (has_lost_part(result_) || is_wrap) narrow = made.narrow_points;
         const bool shortens =
             may_shorten(options_) && (!narrow.empty() || points.size() > lengths_.size());
-        const bool keeps_creases = has_creases(kept.is_crease);
-        const bool gives_up =
-            crosses && !adds_creases && is_crushed(result_) && (keeps_creases || kept.has_seams);
-        if (!adds_creases && !shortens && !gives_up) return;
-        if (gives_up)
-            kept = {kept.has_junctions, false, std::vector<std::uint8_t>(kept.is_crease.size())};
+        if (!adds_creases && !shortens) return;
         for (Index e = 0; adds_creases && e < found_.is_close.size(); ++e) {
             kept.is_crease[e] |= found_.is_close[e];
         }
@@ -171,15 +163,15 @@ private:
                                 {options, result_});
         }
         const bool has_mesh = try_curves(kept, options, again).has_mesh;
-        // Close creases leave needles between them: they are worth it if no faces intersect.
         const Index crossings = num_more_crossings(again), before = num_more_crossings(result_);
         const bool is_nearer =
             is_wrap || again.verdict.largest_distance < result_.verdict.largest_distance;
-        const bool is_better = adds_creases || gives_up
-                                   ? again.new_self_intersections == 0
-                                   : crossings < before || (crossings == before && is_nearer);
-        if (!has_mesh || !is_better) return;
-        again.features.gave_up = result_.features.gave_up || (gives_up && keeps_creases);
+        // Close creases leave narrow faces between them: if most are, a few that intersect are
+        // better.
+        const bool is_narrow = adds_creases && are_mostly_narrow(again);
+        const bool is_better = crossings < before || (crossings == before && is_nearer);
+        if (!has_mesh || is_narrow || !is_better) return;
+        again.features.gave_up = result_.features.gave_up;
         again.features.samples_for_all =
             std::max(again.features.samples_for_all, result_.features.samples_for_all);
         again.seconds = result_.seconds;

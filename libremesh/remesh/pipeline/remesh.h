@@ -143,8 +143,7 @@ struct FeatureCounts {
     Vec3 freed_near = Vec3::Zero();  //!< The middle of the longest of these edges.
     Index uncarried_curves = 0;      //!< Creases that given sites do not lie on.
     Index samples_for_all = 0;       //!< Fewest samples that keep all creases.
-    //! All creases were dropped, because no mesh with them was found, or only one most of whose
-    //! faces intersect.
+    //! All creases were dropped, because no mesh with them was found.
     bool gave_up = false;
     double seam_length = 0;  //!< Of RemeshOptions::texture_seams that became curves, mesh units.
     double dropped_seam_length = 0;  //!< Of the others: too close to each other, or too short.

@@ -30,7 +30,7 @@ namespace remesh::detail {
 class EditedMesh : private FanMesh {
 public:
     using FanMesh::changed_since, FanMesh::face, FanMesh::Face, FanMesh::faces_at,
-        FanMesh::has_corner, FanMesh::num_faces, FanMesh::num_vertices;
+        FanMesh::has_corner, FanMesh::is_on_rim, FanMesh::num_faces, FanMesh::num_vertices;
 
     //! A state to which edits can be undone.
     struct Mark : FanMesh::Mark {
