@@ -432,10 +432,14 @@ Input prepare(const Arguments& arguments, cli::Console& console) {
                                   .keep_sites = arguments.keep_sites,
                                   .samples_per_tile = arguments.samples_per_tile,
                                   .fit = arguments.fit,
-                                  .propagation = arguments.propagation,
                                   .delaunay = arguments.delaunay,
                                   .num_threads = arguments.common.threads,
                                   .progress = progress};
+    const agvd::PropagationOptions& asked = arguments.propagation;
+    options.propagation = {.engine = asked.engine,
+                           .max_error = asked.max_error,
+                           .steiner_points = asked.steiner_points,
+                           .lambda = asked.lambda};
     if (arguments.sample_percent > 0 && options.vertex_count == remesh::VertexCount::Exact) {
         options.vertex_count = remesh::VertexCount::Raise;
     }

@@ -47,6 +47,26 @@ enum class VertexCount {
     Add,    //!< Vertices that the topology needs are added; the number is raised likewise.
 };
 
+//! How distances are computed: the fields of PropagationOptions that a remesh has.
+struct EngineOptions {
+    Engine engine = PropagationOptions{}.engine;  //!< See PropagationOptions, as the others.
+    //! With 0 the run works on the input itself, however many faces it has for each sample;
+    //! otherwise maybe on a coarse surface (RemeshResult::coarse_faces).
+    std::optional<double> max_error = {};
+    int steiner_points = PropagationOptions{}.steiner_points;  //!< See engine.
+    double lambda = PropagationOptions{}.lambda;               //!< See engine.
+
+    //! The same for propagate().
+    [[nodiscard]] PropagationOptions for_propagation(int num_threads, Progress progress) const {
+        return {.engine = engine,
+                .max_error = max_error,
+                .steiner_points = steiner_points,
+                .lambda = lambda,
+                .num_threads = num_threads,
+                .progress = std::move(progress)};
+    }
+};
+
 //! All lengths in mesh units. `{}` gives a good result.
 struct RemeshOptions {
     Index num_samples = 2000;  //!< Sites to place, >= 1: one output vertex each.
@@ -116,11 +136,7 @@ struct RemeshOptions {
     //! Whether vertices may leave the surface so that the triangles lie nearer to it. Unset: only
     //! if sites are relaxed.
     std::optional<bool> fit = {};
-    //! How distances are computed: engine, max_error, steiner_points and lambda. num_threads and
-    //! progress are ignored, as those below count; the others must have their defaults.
-    //! With a max_error of 0 the run works on the input itself, however many faces it has for each
-    //! sample; otherwise maybe on a coarse surface (RemeshResult::coarse_faces).
-    PropagationOptions propagation = {};
+    EngineOptions propagation = {};  //!< How distances are computed.
     //! Which edges to flip: those that fail by geodesic or by straight lengths, or none.
     Delaunay delaunay = DelaunayOptions{}.mode;
     int num_threads = 0;  //!< >= 0; 0: all cores.
