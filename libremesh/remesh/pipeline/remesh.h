@@ -140,7 +140,8 @@ struct RemeshOptions {
     //! Which edges to flip: those that fail by geodesic or by straight lengths, or none.
     Delaunay delaunay = DelaunayOptions{}.mode;
     int num_threads = 0;  //!< >= 0; 0: all cores.
-    //! Gets the stage and a fraction in [0, 1] on the caller's thread; return false to stop.
+    //! Gets the stage and a fraction in [0, 1] on the caller's thread; return false to stop. That
+    //! of the whole run: see overall_fraction().
     std::function<bool(Stage, double)> progress = {};
 };
 
@@ -292,5 +293,13 @@ struct RemeshResult {
 //! The same for a mesh that the caller no longer needs. If it needs no repair and no option refers
 //! to its elements, its memory, 36 bytes for each face, is released after cleaning.
 [[nodiscard]] RemeshResult remesh_moved(TriangleMesh mesh, const RemeshOptions& options = {});
+
+//! About how much of a run is done where a stage has reached this fraction, in [0, 1]: for a bar of
+//! the whole run, by the times of usual runs. It falls where stages are run again.
+//! \param fraction   as RemeshOptions::progress gets it.
+//! \param num_faces  of the mesh that is remeshed.
+//! \param options    those of the run; num_samples is a guess where sizing decides it.
+[[nodiscard]] double overall_fraction(Stage stage, double fraction, std::size_t num_faces,
+                                      const RemeshOptions& options);
 
 }  // namespace remesh
