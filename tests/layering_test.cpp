@@ -161,6 +161,17 @@ TEST(Layering, TheSearchOfBoundsIsNotInstalled) {
     EXPECT_FALSE(is_public("agvd/propagation/distance_bounds.h"));
 }
 
+// A comment says what it is about by itself.
+TEST(Comments, DoNotReferToTheOneBefore) {
+    static const std::regex vague(R"(//!?<? *(Likewise\b|Those found\.|Any value works\.).*)");
+    for (const std::string& path : source_files(AGVD_SOURCE_DIR)) {
+        std::ifstream stream(path);
+        for (std::string line; std::getline(stream, line);) {
+            EXPECT_FALSE(std::regex_search(line, vague)) << path << ": " << line;
+        }
+    }
+}
+
 TEST(Layering, ExamplesIncludeInstalledHeadersOnly) {
     static const std::regex include(R"re(\s*#\s*include\s*"([^"]*)".*)re");
     int num_includes = 0;
