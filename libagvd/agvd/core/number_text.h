@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <iterator>
 #include <string>
 
@@ -19,6 +20,11 @@ namespace agvd {
     char text[360];  // Fixed, the largest double has 309 digits before the point.
     const auto [end, error] = std::to_chars(text, std::end(text), value, form, digits);
     return {text, end};
+}
+
+//! An index that a caller gave; one that was negative there is told so.
+[[nodiscard]] inline std::string index_text(Index index) {
+    return std::to_string(static_cast<std::int32_t>(index));
 }
 
 //! Coordinates with the digits that tell a place in a mesh of this size, however far from the

@@ -34,7 +34,7 @@ void check(const std::filesystem::path& path, const MeshFormat& format, const Me
     for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
         const Index highest = std::ranges::max(mesh.triangles[f]);
         if (highest < mesh.positions.size()) continue;
-        refuse(path, "face ", f, " names vertex ", highest, ", but the mesh has only ",
+        refuse(path, "face ", f, " names vertex ", index_text(highest), ", but the mesh has only ",
                mesh.positions.size(), " vertices, counted from 0; correct or delete the face");
     }
 }

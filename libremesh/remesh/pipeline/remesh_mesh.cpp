@@ -88,7 +88,7 @@ void check_wrap(const RemeshOptions& options) {
             "wrap is given, and sites, feature_edges or locked elements, which a wrap does not "
             "have; leave out one of them");
     require(!std::holds_alternative<MaxDistance>(options.sizing.count),
-            "wrap excludes max_distance, which is not proved to the mesh that is wrapped");
+            "wrap excludes MaxDistance, which is not proved to the mesh that is wrapped");
 }
 
 void check_options(const RemeshOptions& options, const MeshView& mesh) {
