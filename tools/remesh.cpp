@@ -59,6 +59,7 @@ struct Arguments : cli::DiagramArguments {
     fs::path folder;  // Of many outputs; empty: there is one.
     bool no_clobber = false;
     std::string to;  // Format of the outputs; empty: by the extension.
+    bool ascii = false;
     int relax_steps = remesh::RemeshOptions{}.relax_steps;
     agvd::Index samples_per_tile = remesh::RemeshOptions{}.samples_per_tile;
     bool keep_sites = false;
@@ -276,6 +277,7 @@ void add_output_options(CLI::App& app, Arguments& arguments) {
                            "--out-dir: " +
                                remesh::mesh_formats(),
                            arguments.to);
+    cli::add_ascii(app, arguments.ascii);
     app.add_option("--out-dir", arguments.folder,
                    "Read many meshes, and write each to a file of its name in this folder")
         ->excludes(output)
@@ -551,8 +553,9 @@ cli::Products make_level(const Arguments& arguments, const remesh::RemeshOptions
         cli::carry_attributes(arguments.attributes, input.file, result, arguments.common.threads,
                               console.progress_of("transfer"), products.files);
     const remesh::MeshPath target{arguments.output, arguments.to};
-    products.files.push_back(
-        {arguments.output, remesh::format_mesh(target, result.mesh.view(), carried, writing)});
+    std::string bytes = remesh::format_mesh(target, result.mesh.view(), carried, writing);
+    if (arguments.ascii && bytes.starts_with("ply")) bytes = remesh::ply_as_text(std::move(bytes));
+    products.files.push_back({arguments.output, std::move(bytes)});
     const remesh::RoundingLoss loss = remesh::rounding_loss(target, result.mesh.view(), writing);
     if (loss.matters()) console.warn(remesh::describe(loss, target));
     if (!arguments.report.empty() || !arguments.page.html.empty()) {
