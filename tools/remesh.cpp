@@ -500,6 +500,8 @@ void add_pages(const Arguments& arguments, const Input& input, const remesh::Rem
                     .targets = result.sizing.targets,
                     .original_labels = cli::labels_for_page(input.file.attributes),
                     .result_labels = cli::labels_for_page(carried),
+                    .original_colors = cli::colors_for_page(input.file.attributes),
+                    .result_colors = cli::colors_for_page(carried),
                     .options = info.options};
     if (!arguments.page.html.empty()) {
         if (page.original.triangles.size() <= page::most_faces && result.kept.faces.empty()) {

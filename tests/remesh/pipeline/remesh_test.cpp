@@ -134,6 +134,24 @@ TEST(Remesh, TooFewSamplesForTheTopologyAreRefused) {
     EXPECT_THROW((void)remesh::remesh(shapes::cube().view(), {.num_samples = 0}), InvalidOption);
 }
 
+TEST(Remesh, RefusalsNameWhatTheInterfaceNames) {
+    const auto text_of = [](const remesh::RemeshOptions& options) {
+        try {
+            (void)remesh::remesh(shapes::cube().view(), options);
+        } catch (const InvalidOption& error) {
+            return std::string(error.what());
+        }
+        return std::string("accepted");
+    };
+    const remesh::Sizing near{.count = remesh::MaxDistance{0.1}};
+    EXPECT_EQ(text_of({.wrap = 0.1, .sizing = near}).rfind("wrap excludes MaxDistance", 0), 0U);
+    EXPECT_EQ(text_of({.sizing = {.count = remesh::MaxError{0.1}}}),
+              "MaxError needs AdaptiveEdges");
+    EXPECT_EQ(text_of({.sizing = {.edges = remesh::VertexLengths{{1.0}}}})
+                  .rfind("VertexLengths has 1 values", 0),
+              0U);
+}
+
 TEST(Remesh, EachOptionOfAPropagationThatItHasCounts) {
     const TriangleMesh mesh = shapes::sphere(3);
     const auto bytes_of = [&](const remesh::EngineOptions& how) {
