@@ -11,8 +11,7 @@ namespace {
 
 // Time for a million faces of the input and for a million samples: seconds of scripts/stage-shares
 // on bunny, fandisk, nefertiti, beetle, armadillo, fertility and rocker-arm, each with 500, 2000
-// and 20 000 samples; of sampling with `--relax 0`. Only their ratios
-// count.
+// and 20 000 samples; of sampling with `--relax 0`. Only their ratios count.
 struct StageWork {
     Stage stage;
     double of_faces, of_samples;

@@ -1,7 +1,6 @@
 #include "remesh/pipeline/tile_meshes.h"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <iterator>
 #include <numeric>
@@ -30,13 +29,9 @@ class TileProgress {
 public:
     explicit TileProgress(Index num_tiles) : done_(num_tiles) {}
 
-    // Does not fall where a tile is made again.
-    void tell(Index tile, Stage stage, double fraction) {
-        // Where each stage of a tile begins, of its time.
-        constexpr std::array begin{0.0, 0.05, 0.05, 0.45, 0.47, 0.56, 0.6, 0.66, 0.98, 1.0};
-        const auto s = static_cast<std::size_t>(stage);
-        const double now = begin[s] + fraction * (begin[s + 1] - begin[s]);
-        if (now > done_[tile]) done_[tile] = now;
+    // Does not fall where stages of a tile are run again.
+    void tell(Index tile, double fraction) {
+        if (fraction > done_[tile]) done_[tile] = fraction;
     }
     [[nodiscard]] double mean() const {
         const double sum = std::accumulate(done_.begin(), done_.end(), 0.0);
@@ -88,7 +83,7 @@ private:
         options.num_samples =
             tiling_.num_inner[number] + static_cast<Index>(input.cleaned.locked.vertices.size());
         options.progress = [&](Stage stage, double fraction) {
-            done.tell(number, stage, fraction);
+            done.tell(number, overall_fraction(stage, fraction, faces_[number].size(), options));
             return !progress || progress(0);
         };
         told.seconds = context_.result.seconds;
@@ -262,7 +257,7 @@ std::optional<TileMesh> mesh_in_tiles(const CurvedSurface& curved, const StageCo
             tiling.num_tiles, 1, options.num_threads,
             [&](Index t) {
                 tiles[t] = mesher.run(t, done, poller);
-                done.tell(t, Stage::Check, 1);
+                done.tell(t, 1);
             },
             poller);
     }
