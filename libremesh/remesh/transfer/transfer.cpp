@@ -6,7 +6,6 @@
 #include <charconv>
 #include <cmath>
 #include <compare>
-#include <iterator>
 #include <optional>
 #include <string>
 #include <utility>
@@ -63,7 +62,9 @@ public:
         const Triangle& corners = triangles_[face];
         std::vector<Index> found;
         const auto is_own = [&](Index v) { return ends_[v] == SearchEnd::Junction; };
-        std::ranges::copy_if(corners, std::back_inserter(found), is_own);
+        for (const Index v : corners) {
+            if (is_own(v)) found.push_back(v);
+        }
         std::vector<Index> reached{face};
         for (std::size_t i = 0; found.empty() && i < reached.size(); ++i) {
             for (std::size_t k = 0; k < 3; ++k) {
