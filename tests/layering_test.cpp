@@ -95,9 +95,10 @@ std::string complaint(const std::string& file, const std::string& line) {
         if (!row_of(file)) return "stands in a folder that has no row";
         if (*row > row_of(file)) return "points to a lower row";
         // Both libraries are built on core, mesh and intrinsic; of other folders only the other
-        // library's installed headers may be seen.
+        // library's installed headers may be seen, and the bounds of distances.
         if (file.rfind("remesh/", 0) == 0 && header.rfind("agvd/", 0) == 0 &&
-            *row > *row_of("agvd/intrinsic/simplify.h") && !is_public(header)) {
+            *row > *row_of("agvd/intrinsic/simplify.h") && !is_public(header) &&
+            header != "agvd/propagation/distance_bounds.h") {
             return "is private to the other library";
         }
         // What propagation runs on is a surface, whatever made it.
@@ -151,6 +152,22 @@ TEST(Layering, EveryIncludeKeepsToTheRows) {
             ++number;
             const std::string text = complaint(file, line);
             EXPECT_EQ(text, "") << relative << ":" << number << ": " << line;
+        }
+    }
+}
+
+TEST(Layering, TheSearchOfBoundsIsNotInstalled) {
+    EXPECT_TRUE(is_public("agvd/propagation/propagate.h"));
+    EXPECT_FALSE(is_public("agvd/propagation/distance_bounds.h"));
+}
+
+// A comment says what it is about by itself.
+TEST(Comments, DoNotReferToTheOneBefore) {
+    static const std::regex vague(R"(//!?<? *(Likewise\b|Those found\.|Any value works\.).*)");
+    for (const std::string& path : source_files(AGVD_SOURCE_DIR)) {
+        std::ifstream stream(path);
+        for (std::string line; std::getline(stream, line);) {
+            EXPECT_FALSE(std::regex_search(line, vague)) << path << ": " << line;
         }
     }
 }

@@ -222,11 +222,11 @@ void run_diagram(const DiagramRun& arguments, Console& console) {
                              picture_of_diagram(arguments.picture, page, cells, arguments.view)});
         }
     }
-    write_files(arguments, std::move(files), writing);
     console.info(remesh::to_text(propagating.engine, based.certified_error));
     console.info(std::to_string(diagram.num_sites) + " sites, " +
                  std::to_string(diagram.vertices.size()) + " Voronoi vertices, " +
                  std::to_string(diagram.edges.size()) + " Voronoi edges");
+    write_files(arguments, std::move(files), console);
 }
 
 }  // namespace

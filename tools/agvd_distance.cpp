@@ -118,7 +118,7 @@ void write(const DistanceArguments& arguments,
            const std::function<std::string(const fs::path&)>& format, Console& console) {
     std::vector<remesh::FileContent> files;
     for (const fs::path& output : arguments.outputs) files.push_back({output, format(output)});
-    write_files(arguments, std::move(files), console.progress_of("write"));
+    write_files(arguments, std::move(files), console);
 }
 
 // The mesh as it was given; a vertex at which nothing is left has no site.

@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <vector>
 
-#include "expected_work.h"
 #include "overall_progress.h"
+#include "remesh/pipeline/expected_work.h"
 
 namespace cli {
 

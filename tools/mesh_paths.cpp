@@ -56,6 +56,10 @@ CLI::Option* add_format_option(CLI::App& app, const std::string& name, const std
         ->type_name("FORMAT");
 }
 
+void add_ascii(CLI::App& app, bool& ascii) {
+    app.add_flag("--ascii", ascii, "Write .ply as text, for programs that read no other");
+}
+
 void check_format(const remesh::MeshPath& output) {
     const std::string format = remesh::mesh_format(output);
     const fs::path& path = output.path;

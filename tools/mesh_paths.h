@@ -33,6 +33,9 @@ CLI::Option* add_mesh_outputs(CLI::App& app, const std::string& name, const std:
 CLI::Option* add_format_option(CLI::App& app, const std::string& name, const std::string& help,
                                std::string& format);
 
+//! Adds --ascii, for ply_as_text().
+void add_ascii(CLI::App& app, bool& ascii);
+
 //! \throw agvd::IoError  the format is unknown.
 //! \throw agvd::InvalidOption  the extension names another format than --to.
 void check_format(const remesh::MeshPath& output);

@@ -67,12 +67,13 @@ page::Polylines cells_for_page(const agvd::MeshView& input,
     const remesh::CleanResult clean = remesh::clean_input(input, cleaning);
     const agvd::Surface surface =
         agvd::build_surface(clean.mesh.view(), options.num_threads, progress_of("clean"));
-    agvd::PropagationOptions propagating = options.propagation;
-    propagating.num_threads = options.num_threads;
     try {
         const std::vector<agvd::SurfacePoint> on_surface = remesh::to_cleaned(sites, input, clean);
-        return lines_for_page(clean.mesh.view(),
-                              based_diagram(surface, on_surface, propagating, progress_of).diagram);
+        return lines_for_page(
+            clean.mesh.view(),
+            based_diagram(surface, on_surface,
+                          options.propagation.for_propagation(options.num_threads, {}), progress_of)
+                .diagram);
     } catch (const agvd::InvalidInput&) {
         return {};
     }

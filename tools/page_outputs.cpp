@@ -1,10 +1,12 @@
 #include "page_outputs.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <string_view>
 
 #include "page/viewer.h"
 #include "picture.h"
+#include "remesh/meshfile/materials.h"
 
 namespace cli {
 
@@ -49,6 +51,20 @@ page::FaceLabels labels_for_page(const remesh::MeshAttributes& attributes) {
         return {attribute.name, attribute.values};
     }
     return {};
+}
+
+std::vector<page::VertexValues> colors_for_page(const remesh::MeshAttributes& attributes) {
+    constexpr double most = 255;
+    std::vector<page::VertexValues> colors;
+    for (const remesh::Attribute* const part : remesh::colors_of(attributes.of_vertices)) {
+        if (part->name == "alpha") continue;
+        colors.push_back({.key = part->name, .values = {}});
+        for (std::size_t v = 0; v < part->values.size(); ++v) {
+            const double value = most * remesh::intensity(*part, v);
+            colors.back().values.push_back(value > 0 ? std::min(value, most) : 0);  // Not NaN.
+        }
+    }
+    return colors;
 }
 
 std::vector<remesh::FileContent> make_pages(const PageArguments& arguments, page::Page page,

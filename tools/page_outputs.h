@@ -36,6 +36,10 @@ void check_page_options(const PageArguments& arguments);
 //! The first property of faces that holds labels, as one number each. Empty: there is none.
 [[nodiscard]] page::FaceLabels labels_for_page(const remesh::MeshAttributes& attributes);
 
+//! Red, green and blue of the vertices, from 0 to 255. Empty: they have no colours.
+[[nodiscard]] std::vector<page::VertexValues> colors_for_page(
+    const remesh::MeshAttributes& attributes);
+
 //! The files that are asked for.
 //! \param page  without version and command, which are added.
 //! \throw agvd::Cancelled  the progress callback returned false.

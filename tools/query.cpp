@@ -6,6 +6,7 @@
 #include "agvd/mesh/cut_surface.h"
 #include "given_surface.h"
 #include "help.h"
+#include "mesh_paths.h"
 #include "remesh/clean/carry.h"
 #include "remesh/meshfile/atomic_file.h"
 #include "remesh/sites/prepared_surface.h"
@@ -90,7 +91,7 @@ void add_edge_lengths(CLI::App& app, DiagramArguments& arguments) {
 
 CLI::Option* add_outputs(CLI::App& app, QueryArguments& arguments) {
     start_group(app, heading::files);
-    app.add_flag("--ascii", arguments.ascii, "Write .ply as text, for programs that read no other");
+    add_ascii(app, arguments.ascii);
     return app
         .add_option("-o,--output", arguments.outputs,
                     "File to write; repeat the option to write more files")
@@ -186,12 +187,15 @@ std::vector<SurfacePoint> points_on(const OpenedInput& input, const fs::path& pa
 }
 
 void write_files(const QueryArguments& arguments, std::vector<remesh::FileContent> files,
-                 const agvd::Progress& progress) {
+                 Console& console) {
     for (remesh::FileContent& file : files) {
         if (!arguments.ascii || file.path.extension() != ".ply") continue;
         file.bytes = remesh::ply_as_text(std::move(file.bytes));
     }
-    remesh::write_files_atomically(files, progress);
+    remesh::write_files_atomically(files, console.progress_of("write"));
+    for (const remesh::FileContent& file : files) {
+        console.info("written: " + file.path.string());
+    }
 }
 
 void write_lines(const QueryArguments& arguments, const remesh::Lines& lines, Console& console) {
@@ -200,7 +204,7 @@ void write_lines(const QueryArguments& arguments, const remesh::Lines& lines, Co
     for (const fs::path& output : arguments.outputs) {
         files.push_back({output, remesh::format_lines(output, lines, writing)});
     }
-    write_files(arguments, std::move(files), writing);
+    write_files(arguments, std::move(files), console);
 }
 
 }  // namespace cli

@@ -107,9 +107,9 @@ void add_edge_lengths(CLI::App& app, DiagramArguments& arguments);
                                                         const std::filesystem::path& path,
                                                         Console& console);
 
-//! Writes all files, or none; PLY as --ascii asks for.
+//! Writes all files, or none, PLY as --ascii asks for, and lists them.
 void write_files(const QueryArguments& arguments, std::vector<remesh::FileContent> files,
-                 const agvd::Progress& progress);
+                 Console& console);
 
 //! Writes the lines to all outputs, or to none.
 void write_lines(const QueryArguments& arguments, const remesh::Lines& lines, Console& console);

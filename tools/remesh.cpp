@@ -59,6 +59,7 @@ struct Arguments : cli::DiagramArguments {
     fs::path folder;  // Of many outputs; empty: there is one.
     bool no_clobber = false;
     std::string to;  // Format of the outputs; empty: by the extension.
+    bool ascii = false;
     int relax_steps = remesh::RemeshOptions{}.relax_steps;
     agvd::Index samples_per_tile = remesh::RemeshOptions{}.samples_per_tile;
     bool keep_sites = false;
@@ -276,6 +277,7 @@ void add_output_options(CLI::App& app, Arguments& arguments) {
                            "--out-dir: " +
                                remesh::mesh_formats(),
                            arguments.to);
+    cli::add_ascii(app, arguments.ascii);
     app.add_option("--out-dir", arguments.folder,
                    "Read many meshes, and write each to a file of its name in this folder")
         ->excludes(output)
@@ -432,10 +434,14 @@ Input prepare(const Arguments& arguments, cli::Console& console) {
                                   .keep_sites = arguments.keep_sites,
                                   .samples_per_tile = arguments.samples_per_tile,
                                   .fit = arguments.fit,
-                                  .propagation = arguments.propagation,
                                   .delaunay = arguments.delaunay,
                                   .num_threads = arguments.common.threads,
                                   .progress = progress};
+    const agvd::PropagationOptions& asked = arguments.propagation;
+    options.propagation = {.engine = asked.engine,
+                           .max_error = asked.max_error,
+                           .steiner_points = asked.steiner_points,
+                           .lambda = asked.lambda};
     if (arguments.sample_percent > 0 && options.vertex_count == remesh::VertexCount::Exact) {
         options.vertex_count = remesh::VertexCount::Raise;
     }
@@ -494,6 +500,8 @@ void add_pages(const Arguments& arguments, const Input& input, const remesh::Rem
                     .targets = result.sizing.targets,
                     .original_labels = cli::labels_for_page(input.file.attributes),
                     .result_labels = cli::labels_for_page(carried),
+                    .original_colors = cli::colors_for_page(input.file.attributes),
+                    .result_colors = cli::colors_for_page(carried),
                     .options = info.options};
     if (!arguments.page.html.empty()) {
         if (page.original.triangles.size() <= page::most_faces && result.kept.faces.empty()) {
@@ -547,8 +555,9 @@ cli::Products make_level(const Arguments& arguments, const remesh::RemeshOptions
         cli::carry_attributes(arguments.attributes, input.file, result, arguments.common.threads,
                               console.progress_of("transfer"), products.files);
     const remesh::MeshPath target{arguments.output, arguments.to};
-    products.files.push_back(
-        {arguments.output, remesh::format_mesh(target, result.mesh.view(), carried, writing)});
+    std::string bytes = remesh::format_mesh(target, result.mesh.view(), carried, writing);
+    if (arguments.ascii && bytes.starts_with("ply")) bytes = remesh::ply_as_text(std::move(bytes));
+    products.files.push_back({arguments.output, std::move(bytes)});
     const remesh::RoundingLoss loss = remesh::rounding_loss(target, result.mesh.view(), writing);
     if (loss.matters()) console.warn(remesh::describe(loss, target));
     if (!arguments.report.empty() || !arguments.page.html.empty()) {

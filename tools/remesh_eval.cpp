@@ -60,6 +60,8 @@ page::Page page_of(const Arguments& arguments, const remesh::MeshFile& original,
             .evaluation = evaluation,
             .original_labels = cli::labels_for_page(original.attributes),
             .result_labels = cli::labels_for_page(result.attributes),
+            .original_colors = cli::colors_for_page(original.attributes),
+            .result_colors = cli::colors_for_page(result.attributes),
             .options = {.num_threads = arguments.options.num_threads}};
 }
 

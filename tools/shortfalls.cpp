@@ -28,9 +28,8 @@ std::string describe_crossings(const remesh::RemeshResult& result, const std::st
     const std::string text = "the result has " + std::to_string(*result.self_intersections) +
                              " pairs of intersecting faces, the input has " +
                              std::to_string(in_input);
-    const agvd::Vec3& near = result.crossing_near;
-    const std::string where = ", one near " + agvd::number_text(near.x()) + ' ' +
-                              agvd::number_text(near.y()) + ' ' + agvd::number_text(near.z());
+    const std::string where =
+        ", one near " + agvd::place_text(result.crossing_near, result.verdict.diagonal);
     if (in_input == 0) return text + (fresh > 0 ? where : "") + "; use " + more;
     if (fresh == 0) {
         return text + "; they are where the input intersects itself, and " + more +
@@ -53,10 +52,8 @@ std::string describe_lost_part(const remesh::RemeshResult& result, const std::st
     constexpr double most_spacings = 2;
     const remesh::Verdict& verdict = result.verdict;
     if (!(verdict.largest_distance > most_spacings * spacing_of(result))) return {};
-    const auto text = [](double number) { return agvd::number_text(number, 4); };
-    const agvd::Vec3& at = verdict.farthest;
-    return "the result is " + text(verdict.largest_distance) + " away from the input at " +
-           text(at.x()) + ' ' + text(at.y()) + ' ' + text(at.z()) +
+    return "the result is " + agvd::number_text(verdict.largest_distance, 4) +
+           " away from the input at " + agvd::place_text(verdict.farthest, verdict.diagonal) +
            ", farther than two distances of neighbouring vertices; use " + more;
 }
 

@@ -40,7 +40,7 @@ async function checkColors(page, modes) {
     const difference = await compare(page, "plain", mode);
     changes(difference);
     assert.equal(difference.outside, 0, `${mode} changes what is no mesh`);
-    const hasScale = !["label", "patch"].includes(mode);
+    const hasScale = !["label", "color", "patch"].includes(mode);
     assert.equal(await page.locator("#legend").isVisible(), hasScale);
   }
   for (const mode of modes.slice(1)) changes(await compare(page, modes[0], mode));
@@ -292,6 +292,28 @@ function labelledPly(property) {
           `property int ${property}`, "end_header", ...points,
           ...quads.map((quad, i) => `4 ${quad.join(" ")} ${i}`), ""].join("\n");
 }
+
+test("colours of vertices", async (browser) => {
+  const input = at("coloured.ply");
+  const points = ["0 0 0 255 0 0", "1 0 0 255 0 0", "0 1 0 255 0 0", "0 0 1 255 0 0"];
+  writeFileSync(input, ["ply", "format ascii 1.0", "element vertex 4", "property double x", "property double y",
+    "property double z", "property uchar red", "property uchar green", "property uchar blue", "element face 4",
+    "property list uchar int vertex_indices", "end_header", ...points,
+    "3 0 2 1", "3 0 1 3", "3 1 2 3", "3 2 0 3", ""].join("\n"));
+  const { html } = makePage(input, "coloured out", "-n", "100");
+  const { page, problems, close } = await openPage(browser, html);
+  await checkColors(page, ["quality", "angle", "distance", "color", "patch"]);
+  await page.selectOption("#color", "color");
+  await take(page, "color", "result");
+  const [red, green, blue] = await page.evaluate(() => {
+    const { data, width, height } = window.pictures.color;
+    const middle = 4 * (Math.floor(height / 2) * width + Math.floor(width / 2));
+    return [...data.subarray(middle, middle + 3)];
+  });
+  assert.ok(red > 80 && green < red / 4 && blue < red / 4, `${red} ${green} ${blue}`);
+  assert.deepEqual(problems, []);
+  await close();
+});
 
 // Paths, file and property names that end the element they stand in, or begin others.
 const hostile = [

@@ -62,6 +62,37 @@ TEST_F(Pages, PictureIsAPng) {
     EXPECT_EQ(bytes("p.png"), bytes("q.png"));
 }
 
+TEST_F(Pages, AllFilesThatWereWrittenAreListed) {
+    const std::string out = at("out.ply"), cells = at("cells.ply");
+    const auto expect_listed = [](const auto& outcome, const std::string& file) {
+        EXPECT_NE(outcome.err.find("written: " + file + '\n'), std::string::npos) << outcome.err;
+    };
+    std::vector<std::string> more{at("map.txt"), at("report.json")};
+    std::vector<std::string> options{in_, out, "-n", "60", "--map", more[0], "--report", more[1]};
+    if (has_viewer()) {
+        more.push_back(at("a.html"));
+        options.insert(options.end(), {"--html", more.back()});
+    }
+    const auto outcome = remesh(options);
+    expect_listed(outcome, out);
+    for (const std::string& file : more) expect_listed(outcome, file);
+    const auto diagram =
+        run(AGVD_PROGRAM, {"diagram", in_, "-n", "9", "-o", out, "--cells", cells});
+    expect_listed(diagram, out);
+    expect_listed(diagram, cells);
+}
+
+TEST_F(Pages, APageIsNoPdf) {
+    for (const auto& outcome :
+         {remesh({in_, at("out.ply"), "-n", "60", "--html", at("x.pdf")}),
+          run(AGVD_PROGRAM, {"diagram", in_, "-n", "9", "-o", at("a.ply"), "--html", at("x.pdf")}),
+          run(REMESH_EVAL_PROGRAM, {in_, in_, "--html", at("x.pdf")})}) {
+        EXPECT_EQ(outcome.exit_code, 2);
+        EXPECT_NE(outcome.err.find("name it .html"), std::string::npos) << outcome.err;
+    }
+    EXPECT_FALSE(exists("out.ply") || exists("a.ply") || exists("x.pdf"));
+}
+
 TEST_F(Pages, LevelsHaveAPageEach) {
     if (!has_viewer()) GTEST_SKIP() << "built without the viewer";
     const auto outcome =

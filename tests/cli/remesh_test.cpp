@@ -28,6 +28,17 @@ TEST_F(Remesh, WritesAMeshOfTheSameTopologyAndNothingOnStdout) {
     }
 }
 
+TEST_F(Remesh, WritesPlyAsTextIfAsked) {
+    const std::string in = put("in.ply", shapes::sphere(3));
+    EXPECT_EQ(remesh({in, "-n", "60", "-q", at("a.ply")}).exit_code, 0);
+    EXPECT_EQ(remesh({in, "-n", "60", "-q", "--ascii", at("b.ply")}).exit_code, 0);
+    EXPECT_EQ(bytes("b.ply").rfind("ply\nformat ascii 1.0\n", 0), 0U);
+    EXPECT_EQ(remesh::read_mesh(at("a.ply")).mesh.positions,
+              remesh::read_mesh(at("b.ply")).mesh.positions);
+    EXPECT_EQ(remesh({in, "-n", "60", "-q", "--ascii", at("c.off")}).exit_code, 0);
+    EXPECT_EQ(bytes("c.off").rfind("OFF\n", 0), 0U);
+}
+
 TEST_F(Remesh, TakesTheOutputAsOptionAndSamplesByEitherName) {
     const std::string in = put("in.off", shapes::sphere(3));
     EXPECT_EQ(remesh({in, "--samples", "80", at("a.off")}).exit_code, 0);

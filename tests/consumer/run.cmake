@@ -71,6 +71,16 @@ foreach(folder IN ITEMS remesh libremesh-dev)
 endforeach()
 
 # The same project with the sources inside it; that it configures is enough. scripts/check-install
-# builds it.
-run(${CMAKE_COMMAND} -G Ninja -S ${CMAKE_CURRENT_LIST_DIR} -B ${WORK_DIR}/embedded
-    -D CMAKE_CXX_COMPILER=${CXX} -D REMESH_SOURCE_DIR=${SOURCE_DIR})
+# builds it. That there is no build type is told, and the sources are compiled in batches.
+execute_process(COMMAND ${CMAKE_COMMAND} -G Ninja -S ${CMAKE_CURRENT_LIST_DIR} -B ${WORK_DIR}/embedded
+    -D CMAKE_CXX_COMPILER=${CXX} -D REMESH_SOURCE_DIR=${SOURCE_DIR}
+    COMMAND_ERROR_IS_FATAL ANY OUTPUT_QUIET ERROR_VARIABLE told)
+if(NOT told MATCHES "there is no build type")
+    message(FATAL_ERROR "a missing build type is not told:\n${told}")
+endif()
+run(${CMAKE_COMMAND} --build ${WORK_DIR}/embedded -- -n)
+string(REGEX MATCHALL "Building CXX object remesh" steps "${output}")
+list(LENGTH steps num_steps)
+if(num_steps EQUAL 0 OR num_steps GREATER 50)
+    message(FATAL_ERROR "${num_steps} sources of the libraries are compiled, not in batches")
+endif()

@@ -114,8 +114,7 @@ class FailingAllocations : public Scratch {};
 TEST_F(FailingAllocations, OfARemeshThrow) {
     const TriangleMesh mesh = shapes::join(shapes::subdivide(shapes::cube()), shapes::grid(3));
     const TriangleMesh before = mesh;
-    const remesh::RemeshOptions options{
-        .num_samples = 40, .relax_steps = 3, .propagation = {.num_threads = 1}};
+    const remesh::RemeshOptions options{.num_samples = 40, .relax_steps = 3, .num_threads = 1};
     const TriangleMesh expected = remesh::remesh(mesh.view(), options).mesh;
     expect_each_may_fail<TriangleMesh>(
         [&] { return remesh::remesh(mesh.view(), options).mesh; },

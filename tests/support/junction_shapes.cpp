@@ -109,6 +109,17 @@ TriangleMesh round_pipe_on_plate(Index sides) {
     return mesh.take();
 }
 
+TriangleMesh three_lobes(Index sides, double height) {
+    Patchwork mesh;
+    for (const double up : {0., height, -1.}) {
+        mesh.add(sides / 4, sides, [=](double u, double v) {
+            const double radius = 1 + 0.4 * std::cos(6 * pi * v);
+            return on_circle(v, u * radius, up * (1 - u * u));
+        });
+    }
+    return mesh.take();
+}
+
 TriangleMesh twisted_pages(Index sides) {
     Patchwork mesh;
     for (const double page : {0., 1., 2.}) {

@@ -41,6 +41,10 @@ struct JunctionShape {
 //! A round pipe on a round plate: the junction is closed.
 //! \param sides  of the circle of radius 1.
 [[nodiscard]] agvd::TriangleMesh round_pipe_on_plate(agvd::Index sides);
+//! A flat wall with three lobes, closed by a cap of this height on one side, of 1 on the other:
+//! three sheets with one smooth rim.
+//! \param sides  of the rim.
+[[nodiscard]] agvd::TriangleMesh three_lobes(agvd::Index sides, double height);
 //! Three pages around a circle, each the next one after a turn: one sheet comes thrice.
 [[nodiscard]] agvd::TriangleMesh twisted_pages(agvd::Index sides);
 //! Four pages around the z axis from -1 to 1, flattest in other pairs above the origin than below:

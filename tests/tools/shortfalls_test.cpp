@@ -44,6 +44,23 @@ TEST(Shortfalls, CrossingsAreWarnedOfAndRefusedIfStrict) {
     EXPECT_EQ(cli::shortfalls_of(result, {}, true), Warnings());
 }
 
+// A piece of 10 m of a map.
+TEST(Shortfalls, PlacesFarFromTheOriginHaveTheirDigits) {
+    RemeshResult result;
+    result.mesh.positions.resize(4);
+    result.input_topology.components = {{.area = 4}};
+    result.verdict.diagonal = 10;
+    result.verdict.largest_distance = 2.5;
+    result.verdict.farthest = {500123.25, 5400012.5, 3};
+    result.self_intersections = 3;
+    result.new_self_intersections = 3;
+    result.crossing_near = {500124.75, 5400013, 3};
+    const Warnings warnings = cli::shortfalls_of(result, {}, false);
+    ASSERT_EQ(warnings.size(), 2U);
+    EXPECT_NE(warnings[0].find("at 500123.25 5400012.5 3,"), std::string::npos) << warnings[0];
+    EXPECT_NE(warnings[1].find("near 500124.75 5400013 3;"), std::string::npos) << warnings[1];
+}
+
 TEST(Shortfalls, WhereLengthsAreGivenShorterOnesAreTheAdvice) {
     RemeshResult result;
     result.self_intersections = 3;
@@ -92,7 +109,7 @@ TEST(Shortfalls, ASlitLongerThanTheSpacingIsWarnedOf) {
     EXPECT_EQ(cli::shortfalls_of(result, {}, false), Warnings());
 }
 
-// Likewise.
+// Four vertices on an area of 4, too.
 TEST(Shortfalls, APartThatIsFartherThanTwoSpacingsIsWarnedOfAndRefusedIfStrict) {
     RemeshResult result;
     result.mesh.positions.resize(4);

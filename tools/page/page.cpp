@@ -104,9 +104,16 @@ std::string format_page(const Page& page, const agvd::Progress& progress) {
     original.mesh.name = page.original_name;
     result.mesh.name = page.result_name;
     original.mesh.cells = page.cells;
-    if (!original.thin) original.mesh.labels = page.original_labels;
+    const auto add = [](const std::vector<VertexValues>& more, PageMesh& mesh) {
+        mesh.values.insert(mesh.values.end(), more.begin(), more.end());
+    };
+    if (!original.thin) {
+        original.mesh.labels = page.original_labels;
+        add(page.original_colors, original.mesh);
+    }
     if (!result.thin) {
         result.mesh.labels = page.result_labels;
+        add(page.result_colors, result.mesh);
         if (!page.targets.empty()) result.mesh.values.push_back({"target", page.targets});
     }
     const MeshBlock of_original = to_block(original.mesh), of_result = to_block(result.mesh);

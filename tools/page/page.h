@@ -23,8 +23,11 @@ struct Page {
     std::vector<double> targets = {};    //!< Edge length at each vertex of the result, or none.
     FaceLabels original_labels = {};     //!< Of one property of both meshes, or none.
     FaceLabels result_labels = {};       //!< Of the same property, or none.
-    Polylines cells = {};                //!< On the original.
-    remesh::RemeshOptions options = {};  //!< Of creases and threads.
+    //! Red, green and blue of vertices, 0 to 255, or none.
+    std::vector<VertexValues> original_colors = {};
+    std::vector<VertexValues> result_colors = {};  //!< See original_colors.
+    Polylines cells = {};                          //!< On the original.
+    remesh::RemeshOptions options = {};            //!< Of creases and threads.
 };
 
 //! The whole file. The same bytes for the same page, whatever the number of threads.

@@ -271,7 +271,7 @@ Json to_json(const std::vector<ForcedFace>& forced, const TriangleMesh& mesh) {
 }
 
 // What the window engine takes if nothing is asked for; the others then have no bound.
-std::optional<double> max_error_of(const PropagationOptions& options) {
+std::optional<double> max_error_of(const EngineOptions& options) {
     if (options.max_error || options.engine != Engine::Window) return options.max_error;
     return default_max_error;
 }

@@ -76,14 +76,6 @@ std::string why_dropped(const FeatureCounts& features) {
     return text + "with creases no mesh was found";
 }
 
-// With the digits that place it in a box of this diagonal, however far from the origin.
-std::string describe_place(const Vec3& at, double diagonal) {
-    const double far = at.cwiseAbs().maxCoeff() / diagonal;
-    const int digits = 4 + (far > 1 ? std::min(12, static_cast<int>(std::log10(far)) + 1) : 0);
-    return agvd::number_text(at.x(), digits) + ' ' + agvd::number_text(at.y(), digits) + ' ' +
-           agvd::number_text(at.z(), digits);
-}
-
 // Empty without creases.
 std::string describe(const FeatureCounts& features) {
     if (features.curves == 0 &&
@@ -172,7 +164,7 @@ std::string describe_lost(const Verdict& verdict, const FeatureCounts& features)
     }
     if (features.freed_length > 0) {
         add("creases of length " + significant(features.freed_length) + " (given up near " +
-            describe_place(features.freed_near, verdict.diagonal) +
+            agvd::place_text(features.freed_near, verdict.diagonal) +
             ", where faces would intersect or be flat)");
     }
     if (verdict.thin_walls > 0) {
@@ -222,7 +214,7 @@ std::string describe_verdict(const RemeshResult& result) {
            "\ndistance: farthest at least " +
            significant(100 * verdict.largest_distance / verdict.diagonal) +
            " % of the size, from the input's vertex at " +
-           describe_place(verdict.farthest, verdict.diagonal) + "\ntoo small for edges of " +
+           agvd::place_text(verdict.farthest, verdict.diagonal) + "\ntoo small for edges of " +
            significant(verdict.spacing) + ": " + (lost.empty() ? "nothing" : lost);
 }
 

@@ -26,7 +26,7 @@ double atan2(double y, double x) {
     const double across = std::abs(y), along = std::abs(x);
     const bool is_steep = across > along;
     const double low = is_steep ? along : across, high = is_steep ? across : along;
-    // Also for 0 / 0 and infinity / infinity.
+    // Equal ones, also two zeros or two infinities, are not divided.
     const double ratio = low == high ? (high > 0 ? 1 : 0) : low / high;
     // The nearest multiple of pi / 8 and its tangent.
     double base = 0, tangent = 0;

@@ -43,7 +43,7 @@ public:
     Poller(const Poller&) = delete;
     Poller& operator=(const Poller&) = delete;
 
-    //! Any thread.
+    //! May be called on any thread.
     //! \throw Cancelled if the callback said stop, now or before.
     void poll() {
         if (progress_ == nullptr) return;

@@ -102,7 +102,7 @@ void ArcConics::collect_sources(std::size_t site, Relays relays) {
     }
 }
 
-// That on the right, mostly the next one.
+// The window whose interval begins where that of `window` ends; mostly the next one.
 std::optional<std::size_t> ArcConics::window_beside(std::size_t window) const {
     const Vec2& end = relays_[window].relay->end;
     for (std::size_t step = 1; step < relays_.size(); ++step) {

@@ -31,7 +31,7 @@ struct NodeId {
 
 //! The tail or the head of an arc, in one word.
 struct ArcEnd {
-    Index word = no_index;  //!< None.
+    Index word = no_index;  //!< no_index: there is no arc.
 
     [[nodiscard]] static constexpr ArcEnd tail_of(Index arc) { return {2 * arc}; }
     [[nodiscard]] static constexpr ArcEnd head_of(Index arc) { return {2 * arc + 1}; }

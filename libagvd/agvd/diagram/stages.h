@@ -15,7 +15,7 @@ namespace agvd {
 //! Keeps references. Stages name mixed faces by their positions in Propagation::mixed_faces.
 struct StageInput {
     const Surface& surface;
-    std::span<const SurfacePoint> points;  //!< Those of the sites that own their own places.
+    std::span<const SurfacePoint> points;  //!< Of the sites that own their own places.
     std::span<const Index> site_of_point;  //!< #points.
     const SitePlacement& placement;        //!< Of the points; their sites, not their numbers.
     const Propagation& propagation;

@@ -56,7 +56,7 @@ struct FacePolygon {
 //! One of the faces of a flip or split, or of a merge: its slot there.
 class OperationLink {
 public:
-    constexpr OperationLink() = default;  //!< None.
+    constexpr OperationLink() = default;  //!< To no operation.
     [[nodiscard]] static OperationLink to_flip(std::size_t flip, Index slot) {
         return OperationLink(EitherIndex::first(2 * static_cast<Index>(flip) + slot));
     }

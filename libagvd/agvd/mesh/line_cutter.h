@@ -70,7 +70,7 @@ private:
     std::vector<FacePiece> pieces_;
 
     // The face at hand.
-    std::vector<LocalPoint> points_;  // Those on its sides first, counter-clockwise.
+    std::vector<LocalPoint> points_;  // On its sides first, counter-clockwise; then inside.
     std::vector<Ends> links_;
     Index num_on_sides_ = 0;
 };

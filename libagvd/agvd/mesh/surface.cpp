@@ -36,8 +36,7 @@ void check_elements(const MeshView& mesh, Ticker& ticker) {
         const Triangle& t = mesh.triangles[f];
         for (const Index v : t) {
             if (v >= mesh.positions.size()) {
-                throw InvalidInput("face " + std::to_string(f) + " names vertex " +
-                                   (v == no_index ? "-1" : std::to_string(v)) +
+                throw InvalidInput("face " + std::to_string(f) + " names vertex " + index_text(v) +
                                    ", but the mesh has only " +
                                    std::to_string(mesh.positions.size()) +
                                    " vertices, counted from 0; correct or delete the face");

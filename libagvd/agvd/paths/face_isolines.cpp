@@ -80,7 +80,7 @@ enum class PieceKind : std::uint8_t { Kept, Outside, Hidden };
 struct CurvePart {
     Vec2 from, to;
     PieceKind kind;
-    Index arc = no_index;  // That it is a part of.
+    Index arc = no_index;  // The arc that it is a part of.
 };
 
 class FaceLevel {

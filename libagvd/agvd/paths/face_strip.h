@@ -14,7 +14,7 @@ struct FaceStrip {
     SurfacePoint source;           //!< Seen from the face of the first half-edge.
     SurfacePoint target;           //!< Seen from the face across the last one; without any,
                                    //!< from the face of the source.
-    std::vector<Index> crossed{};  //!< None is on the boundary.
+    std::vector<Index> crossed{};  //!< Half-edges in their order; none is on the boundary.
 };
 
 //! Appends a crossing of a half-edge, or undoes the last one if it is the reverse.

@@ -131,7 +131,7 @@ private:
     Chosen go_across(const Chosen& chosen) {
         const Index h = chosen.relay->half_edge;
         ImageLine line{h, position_in_frame(surface_, chosen.view, h), chosen.from};
-        // That of parallel paths is some point behind.
+        // Parallel paths have no image: a point farther back serves.
         if (is_parallel(*chosen.relay)) line.image += line.image - line.from;
         const bool is_exact = field_.propagation.certified_error == 0;
         double way = 0;

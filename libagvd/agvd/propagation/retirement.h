@@ -18,7 +18,7 @@ struct VertexLabel {
 //! lists of relays are those of Propagation, but in no order.
 struct RetiredFaces {
     std::vector<Index> faces;        //!< All of them.
-    std::vector<Index> mixed_faces;  //!< Those that may hold more than one label.
+    std::vector<Index> mixed_faces;  //!< Faces that may hold more than one label.
     std::vector<RelayRange> relay_ranges;
     std::vector<Relay> relays;
     std::function<VertexLabel(Index vertex)> label;  //!< Of their corners.

@@ -109,7 +109,7 @@ void leave_own(const Surface& surface, std::span<const SiteShape> shapes,
     for (const auto& [side, owner] : of_side) {
         if (is_in_region(side, owner.first)) continue;
         sources[owner.second].own_sides.push_back(side);
-        // Those with a start let paths through.
+        // Shapes with a start let paths through.
         if (owner.first > 0) continue;
         for (const Index vertex : {surface.tail(side), surface.head(side)}) {
             sources[of_vertex.at(vertex).second].sector_sides.push_back(side);

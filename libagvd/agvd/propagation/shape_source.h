@@ -40,7 +40,7 @@ struct ShapeSource {
 //! Cost: O(n log n) of the shape's edges and faces.
 [[nodiscard]] ShapeSource shape_source(const Surface& surface, const SiteShape& shape);
 
-//! That of each shape.
+//! The source of each shape.
 [[nodiscard]] std::vector<ShapeSource> sources_of(const Surface& surface,
                                                   std::span<const SiteShape> shapes);
 

@@ -88,7 +88,7 @@ public:
         return find_in_face(face);
     }
 
-    //! Those that hold a face.
+    //! The regions that hold a face.
     [[nodiscard]] std::span<const PlacedRegion> regions_of(Index face) const {
         if (regions_.empty()) return {};
         const auto [first, last] = std::equal_range(

@@ -87,7 +87,7 @@ private:
     void drop_opposite() {
         std::vector<std::int64_t> votes(is_dead_.size(), 0);  // By face, then by wall.
         enum Trait : unsigned { alone = 1, closed = 2, odd = 4, inner = 8 };
-        std::vector<unsigned> traits(is_dead_.size(), 0);  // Likewise.
+        std::vector<unsigned> traits(is_dead_.size(), 0);  // By face, then by wall.
         std::vector<bool> is_rim(soup_.mesh.positions.size(), false);
         for_each_edge(sides_, [&](std::span<const EdgeSide> edge) {
             soup_.ticker.tick(edge.size());

@@ -12,6 +12,7 @@
 
 #include "agvd/core/error.h"
 #include "agvd/core/groups.h"
+#include "agvd/core/number_text.h"
 #include "agvd/mesh/closest_point.h"
 #include "agvd/mesh/scale.h"
 #include "agvd/mesh/surface_points.h"
@@ -185,8 +186,8 @@ std::vector<Index> carried_edges(std::span<const std::array<Index, 2>> edges, co
     std::vector<SurfacePoint> middles;
     for (auto& [ends, face] : middle_of) {
         if (face.area < 0) {
-            throw InvalidInput("the edge between vertices " + std::to_string(ends.first) + " and " +
-                               std::to_string(ends.second) +
+            throw InvalidInput("the edge between vertices " + index_text(ends.first) + " and " +
+                               index_text(ends.second) +
                                " is not an edge of the mesh; name the two ends of an edge, "
                                "counted from 0");
         }
@@ -248,7 +249,7 @@ std::vector<SiteShape> carry_shapes(std::span<const ShapeView> shapes, const Mes
         next = end;
         for (const Index face : shape.faces) {
             if (face >= num_faces) {
-                throw InvalidSites("a region of the sites names face " + std::to_string(face) +
+                throw InvalidSites("a region of the sites names face " + index_text(face) +
                                    ", but the mesh has only " + std::to_string(num_faces) +
                                    " faces, counted from 0; correct it");
             }

@@ -345,7 +345,7 @@ private:
     const std::span<const std::uint8_t> stays_;
     const CoarsenOptions& options_;
     Poller poller_;
-    std::vector<Triangle> triangles_;  // Those that are left.
+    std::vector<Triangle> triangles_;  // Not collapsed so far.
     std::vector<std::uint8_t> mark_;   // #H of these.
     std::vector<Index> name_;          // #V: the vertex that it was collapsed into in this round.
     std::vector<std::uint8_t> is_used_;

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "agvd/core/error.h"
+#include "agvd/core/number_text.h"
 #include "agvd/core/parallel.h"
 #include "agvd/mesh/scale.h"
 #include "agvd/mesh/surface_points.h"
@@ -146,8 +147,7 @@ void check_elements(const MeshView& mesh, Ticker ticker) {
         ticker.tick();
         for (const Index v : mesh.triangles[f]) {
             if (v < mesh.positions.size()) continue;
-            throw InvalidInput("face " + std::to_string(f) + " names vertex " +
-                               (v == no_index ? "-1" : std::to_string(v)) +
+            throw InvalidInput("face " + std::to_string(f) + " names vertex " + index_text(v) +
                                ", but the mesh has only " + std::to_string(mesh.positions.size()) +
                                " vertices, counted from 0; correct or delete the face");
         }

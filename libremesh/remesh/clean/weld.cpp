@@ -94,7 +94,7 @@ double longest_slit(Soup& soup, std::span<const EdgeSide> open, std::span<const 
     std::vector<bool> is_tip(soup.mesh.positions.size(), false), stays_open = is_tip;
     std::vector<double> length(soup.mesh.positions.size(),
                                0);  // By position, of edges from it upwards.
-    std::vector<Index> part(soup.mesh.positions.size(), 0);  // Likewise.
+    std::vector<Index> part(soup.mesh.positions.size(), 0);  // By position.
     for_each_edge(open, [&](std::span<const EdgeSide> edge) {
         soup.ticker.tick();
         const Index low = edge[0].low(), high = edge[0].high();

@@ -88,7 +88,7 @@ public:
                                              [&](Index f) { return has_corner(f, head(h)); });
         return num_sides == 2 ? other : no_index;
     }
-    //! Those that are there.
+    //! The triangles that are there.
     [[nodiscard]] std::vector<Triangle> triangles() const {
         std::vector<Triangle> result;
         result.reserve(faces_.size());

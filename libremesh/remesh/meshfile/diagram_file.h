@@ -105,7 +105,7 @@ enum class Repeats { Told, Allowed };
 
 //! What a file of `agvd diagram` holds.
 struct DiagramFile {
-    TriangleMesh mesh;                //!< That the diagram lies on.
+    TriangleMesh mesh;                //!< On which the diagram lies.
     std::vector<SurfacePoint> sites;  //!< On the mesh; in the order of the cells if each is a site.
     SitePoints points;                //!< What they stand for.
     std::vector<GivenShape> shapes;   //!< Lines and regions among the sites.

@@ -12,7 +12,7 @@ constexpr std::uint32_t json_chunk = 0x4E4F534A, bin_chunk = 0x004E4942;
 constexpr int max_depth = 64;
 
 struct GltfComponent {
-    std::uint64_t number;  // That of glTF.
+    std::uint64_t number;  // By which glTF names the type.
     NumberType type;
     double largest;  // See GltfArray.
 };

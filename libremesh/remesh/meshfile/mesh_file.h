@@ -71,8 +71,8 @@ enum class ElementKind { Vertex, Face };
 //! A number for each vertex or each face. What has several components, such as a colour, is one
 //! attribute for each.
 struct Attribute {
-    std::string name;                       //!< That of PLY: "quality", "red", "material", ...
-    NumberType type = NumberType::Float64;  //!< That of the file.
+    std::string name;                       //!< As PLY calls it: "quality", "red", "material", ...
+    NumberType type = NumberType::Float64;  //!< As in the file.
     std::vector<double> values = {};        //!< All types fit; NaN and infinity may occur.
     //! Of labels that have names, such as materials: value i is called names[i].
     std::vector<std::string> names = {};

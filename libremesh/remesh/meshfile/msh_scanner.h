@@ -44,7 +44,7 @@ public:
     //! A number that is a text in binary files as well.
     std::int64_t text_integer(const char* what);
     double text_real(const char* what);
-    //! Likewise, one that is not negative.
+    //! A number that must not be negative, and is a text in binary files as well.
     std::uint64_t text_count(const char* what);
     //! The name in quotes that comes next and ends a line.
     std::string quoted_name();

@@ -3,6 +3,8 @@
 // are never split (format: Wavefront, Advanced Visualizer Manual, appendix B1).
 
 #include <algorithm>
+#include <numeric>
+#include <utility>
 
 #include "remesh/meshfile/formats.h"
 #include "remesh/meshfile/materials.h"
@@ -147,16 +149,43 @@ void take_coordinates(std::string_view rest, PolygonSoup& soup) {
     texture.set_corner(soup.num_corners(), static_cast<Index>(number - 1));
 }
 
+// The named labels of a statement; null: there are none.
+const Attribute* labels_of(const LabelStatement& statement, const MeshAttributes& attributes) {
+    const Attribute* const labels = find_attribute(attributes.of_faces, statement.attribute);
+    return labels == nullptr || labels->names.empty() ? nullptr : labels;
+}
+
+std::size_t label_of(const Attribute& labels, Index face) {
+    return static_cast<std::size_t>(labels.values[face]);
+}
+
+// Faces of one object, group and material follow each other; those that come first stay first.
+std::vector<Index> order_by_labels(const MeshAttributes& attributes, Index num_faces) {
+    std::vector<Index> order(num_faces);
+    std::iota(order.begin(), order.end(), Index{0});
+    for (const LabelStatement& statement : label_statements) {
+        const Attribute* const labels = labels_of(statement, attributes);
+        if (labels == nullptr) continue;
+        std::vector<Index> first(labels->names.size(), num_faces);  // Face of each label.
+        for (Index f = num_faces; f-- > 0;) first[label_of(*labels, f)] = f;
+        std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) {
+            return first[label_of(*labels, a)] < first[label_of(*labels, b)];
+        });
+    }
+    return order;
+}
+
 // Statements for the labels that differ from those of the face before: object, group, material.
-void append_labels(std::string& bytes, const std::vector<Attribute>& of_faces, std::size_t face) {
+// \param before  no_index: the face is the first one.
+void append_labels(std::string& bytes, const MeshAttributes& attributes, Index face, Index before) {
     for (std::size_t i = label_statements.size(); i-- > 0;) {
-        const auto& [keyword, name] = label_statements[i];
-        const Attribute* const labels = find_attribute(of_faces, name);
-        if (labels == nullptr || labels->names.empty()) continue;
-        const auto at = [&](std::size_t f) { return static_cast<std::size_t>(labels->values[f]); };
-        const std::string& label = labels->names[at(face)];
-        if (face == 0 ? label.empty() : at(face) == at(face - 1)) continue;
-        bytes.append(keyword).append(" ").append(label.empty() ? "none" : label) += '\n';
+        const Attribute* const labels = labels_of(label_statements[i], attributes);
+        if (labels == nullptr) continue;
+        const std::size_t at = label_of(*labels, face);
+        const std::string& label = labels->names[at];
+        if (before == no_index ? label.empty() : at == label_of(*labels, before)) continue;
+        bytes.append(label_statements[i].keyword).append(" ");
+        bytes.append(label.empty() ? "none" : label) += '\n';
     }
 }
 
@@ -269,9 +298,10 @@ std::string format_obj(const MeshView& mesh, const MeshAttributes& attributes, T
         }
     }
     const auto texture = append_texture(bytes, attributes.texture, ticker);
-    for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    Index before = no_index;
+    for (const Index f : order_by_labels(attributes, static_cast<Index>(mesh.triangles.size()))) {
         ticker.tick();
-        append_labels(bytes, attributes.of_faces, f);
+        append_labels(bytes, attributes, f, std::exchange(before, f));
         append_face(bytes, mesh.triangles[f], f, attributes.normals.has_value(), texture);
     }
     return bytes;

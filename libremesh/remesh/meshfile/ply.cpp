@@ -208,7 +208,7 @@ void read_vertices(Values& values, const PlyElement& element, const PlyHeader& h
     for (const PlyProperty& property : element.properties) {
         axis_of.push_back(std::find(used.begin(), used.end(), &property) - used.begin());
     }
-    const std::array known = texture_pair(element);  // Those that do not count as well.
+    const std::array known = texture_pair(element);  // No attributes, also where they do not count.
     PlyAttributes others(element, ElementKind::Vertex,
                          {axes[0], axes[1], axes[2], known[0], known[1]}, file, attributes);
     for (std::uint64_t v = 0; v < element.count; ++v) {

@@ -59,7 +59,7 @@ public:
                              "; it is truncated: export the file again");
     }
     double real(PlyType) { return scan_.number("a number"); }
-    //! None if the word is no value of the type.
+    //! The value; nothing if the word is no value of the type.
     std::optional<double> attribute(PlyType type) {
         if (!scan_.has_word()) scan_.fail_expecting("a number");
         const std::optional<double> value = as_number(scan_.rest_of_word());

@@ -292,7 +292,7 @@ private:
     Model3mf model_;
     std::map<std::string, std::string> spaces_;  // By prefix.
     std::map<std::uint64_t, Group> groups_;      // By id.
-    Object3mf* object_ = nullptr;                // That is open.
+    Object3mf* object_ = nullptr;                // Whose element is open.
     Group* group_ = nullptr;
     std::size_t object_depth_ = no_depth, group_depth_ = no_depth;
     std::optional<std::uint64_t> object_group_, object_property_;

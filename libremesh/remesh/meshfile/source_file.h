@@ -26,7 +26,7 @@ struct SourceFile {
     [[noreturn]] void fail_malformed(std::size_t offset, Parts... parts) const {
         throw IoError(place(offset) + joined(parts...));
     }
-    //! Likewise; the remedy is a new export.
+    //! Throws IoError: the file is damaged; the remedy is a new export.
     template <typename... Parts>
     [[noreturn]] void fail_damaged(std::size_t offset, Parts... parts) const {
         fail_malformed(offset, parts..., "; export the file again");

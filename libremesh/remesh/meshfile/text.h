@@ -68,7 +68,7 @@ void append_line(std::string& bytes, const char* prefix, const Row& row) {
     bytes.back() = '\n';
 }
 
-//! Likewise, behind a blank in place of the line end that is there.
+//! Appends a blank and the numbers of a row to the last line.
 template <typename Row>
 void append_to_line(std::string& bytes, const Row& row) {
     bytes.pop_back();

@@ -157,7 +157,7 @@ public:
         return value;
     }
 
-    //! Likewise, one that is not negative.
+    //! The next integer, which must not be negative.
     std::uint64_t count(const std::string& what) {
         const std::size_t start = offset();
         const std::int64_t value = integer(what.c_str());

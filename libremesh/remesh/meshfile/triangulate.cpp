@@ -144,7 +144,7 @@ std::vector<Vec2> project(std::span<const Index> polygon, std::span<const Vec3> 
 struct Ring {
     std::vector<Vec2> point;
     std::vector<std::size_t> previous, next;
-    CornerTree reflex;  // Those that do not turn left.
+    CornerTree reflex;  // Corners that do not turn left.
 
     explicit Ring(std::vector<Vec2> points)
         : point(std::move(points)), previous(point.size()), next(point.size()), reflex(point) {

@@ -115,7 +115,7 @@ private:
     std::map<std::string_view, std::size_t> num_cells_;  // By section.
     std::string xml_;                                    // Of the sections.
     std::string data_;                                   // Behind the '_' of AppendedData.
-    std::string section_;                                // That is open.
+    std::string section_;                                // The section that is open.
     std::size_t array_begin_ = 0;  // In the data, of the one that is open: its size comes first.
 };
 

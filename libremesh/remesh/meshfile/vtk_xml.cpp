@@ -159,7 +159,7 @@ private:
 // Decodes arrays.
 class VtkXmlArrays {
 public:
-    // Both outlive this.
+    // \param file, xml  outlive this.
     VtkXmlArrays(const SourceFile& file, const VtkXmlFile& xml)
         : file_(file), xml_(xml), ticker_(file.ticker) {}
 

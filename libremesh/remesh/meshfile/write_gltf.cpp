@@ -45,7 +45,7 @@ struct GltfBuffer {
 // The file's vertices: those of a mesh, once for each pair of texture coordinates that they have.
 struct GltfVertices {
     std::vector<Index> source;  // Vertices of the mesh.
-    std::vector<Vec2> texture;  // Likewise; empty: there is none.
+    std::vector<Vec2> texture;  // Of these vertices; empty: there is none.
     std::vector<Triangle> triangles;
 };
 

@@ -34,7 +34,7 @@ void check(const std::filesystem::path& path, const MeshFormat& format, const Me
     for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
         const Index highest = std::ranges::max(mesh.triangles[f]);
         if (highest < mesh.positions.size()) continue;
-        refuse(path, "face ", f, " names vertex ", highest, ", but the mesh has only ",
+        refuse(path, "face ", f, " names vertex ", index_text(highest), ", but the mesh has only ",
                mesh.positions.size(), " vertices, counted from 0; correct or delete the face");
     }
 }
@@ -204,10 +204,9 @@ std::string describe(const RoundingLoss& loss, const MeshPath& path) {
         text += " and " + percent_of(loss.shortest_edge) + " of the shortest edge";
     }
     if (loss.merged > 0) text += ", and " + std::to_string(loss.merged) + " fall onto others";
-    const Vec3& m = loss.middle;
     return text +
            "; write .ply, .obj or .off, or move the mesh to the origin first (its middle is at " +
-           short_number(m.x()) + " " + short_number(m.y()) + " " + short_number(m.z()) + ")";
+           place_text(loss.middle, loss.diagonal) + ")";
 }
 
 }  // namespace remesh

@@ -16,7 +16,7 @@ constexpr std::uint64_t in_large_numbers = 0xFFFFFFFF;  // The number has eight 
 constexpr std::uint16_t encrypted = 1, stored = 0, deflated = 8;
 constexpr const char* zip_again = "; save the file again";
 
-constexpr std::uint16_t zip_version = 20;      // That of deflated parts.
+constexpr std::uint16_t zip_version = 20;      // Of the format, which deflated parts need.
 constexpr std::uint16_t first_of_1980 = 0x21;  // Times would make different bytes in each run.
 
 }  // namespace

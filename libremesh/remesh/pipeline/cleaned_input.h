@@ -22,7 +22,7 @@ struct CleanedInput {
     MeshView given = {};
     Surface surface = {};                   //!< Of the cleaned mesh.
     std::vector<Index> vertex_origin = {};  //!< See CleanResult; empty: nothing was changed.
-    std::vector<Index> face_origin = {};    //!< Likewise; alone: only the order was.
+    std::vector<Index> face_origin = {};    //!< See CleanResult; alone: only the order changed.
     Topology topology = {};                 //!< Of the surface.
     LockedElements locked = {};             //!< Of the surface.
     //! Of a coarse input (see coarse_input) the one that it stands for; otherwise null.

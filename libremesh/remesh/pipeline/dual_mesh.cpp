@@ -61,10 +61,10 @@ private:
         Propagation propagation;
         {
             const StageClock clock(Stage::Propagate, result);
-            PropagationOptions propagating = options.propagation;
-            propagating.num_threads = options.num_threads;
-            propagating.progress = progress_of(Stage::Propagate, options);
-            propagation = propagate(base_, std::move(domain_.prepared.layout), sites_, propagating);
+            propagation =
+                propagate(base_, std::move(domain_.prepared.layout), sites_,
+                          options.propagation.for_propagation(
+                              options.num_threads, progress_of(Stage::Propagate, options)));
             result.certified_error = propagation.certified_error;
             result.propagation_bytes = propagation.peak_bytes;
         }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "agvd/core/error.h"
+#include "agvd/core/number_text.h"
 #include "agvd/core/random.h"
 #include "agvd/core/types.h"
 
@@ -28,7 +29,7 @@ private:
 
 void require_vertex(const MeshView& given, Index vertex) {
     if (vertex < given.positions.size()) return;
-    throw InvalidInput("vertex " + std::to_string(vertex) + " is to stay, but the mesh has only " +
+    throw InvalidInput("vertex " + index_text(vertex) + " is to stay, but the mesh has only " +
                        std::to_string(given.positions.size()) +
                        " vertices, counted from 0; name one of these");
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "agvd/core/number_text.h"
 #include "agvd/core/parallel.h"
 #include "agvd/mesh/scale.h"
 #include "remesh/curves/crease_chains.h"
@@ -237,11 +238,10 @@ RemeshResult meet_distance(const CleanedInput& cleaned, const RemeshOptions& opt
         finer.sizing.count = aim;
         lengths.insert(lengths.end(), found.lengths.begin(), found.lengths.end());
     }
-    throw ConstraintUnmet("the largest distance asked for is " + std::to_string(limit) + ", and " +
-                          std::to_string(best.largest) + " was reached with " +
+    throw ConstraintUnmet("the largest distance asked for is " + number_text(limit) + ", and " +
+                          number_text(best.largest) + " was reached with " +
                           std::to_string(num_vertices) + " vertices, near " +
-                          std::to_string(best.where.x()) + ' ' + std::to_string(best.where.y()) +
-                          ' ' + std::to_string(best.where.z()) + "; allow a larger distance");
+                          place_text(best.where, box.longest_side()) + "; allow a larger distance");
 }
 
 }  // namespace remesh::detail

@@ -5,6 +5,7 @@
 
 #include "agvd/core/error.h"
 #include "agvd/core/number_text.h"
+#include "agvd/mesh/scale.h"
 #include "remesh/pipeline/domain.h"
 #include "remesh/pipeline/improvable_mesh.h"
 #include "remesh/placement/shape_quality.h"
@@ -42,11 +43,10 @@ struct Breach {
 [[noreturn]] void refuse(const std::string& asked, const Breach& breach, const TriangleMesh& mesh,
                          const std::string& remedy) {
     const auto [a, b, c] = corners_of(mesh.view(), breach.face);
-    const Vec3 at = (a + b + c) / 3;
     throw ConstraintUnmet(asked + ", and " + number_text(breach.value, 6) + " was reached with " +
                           std::to_string(mesh.positions.size()) + " vertices, near " +
-                          std::to_string(at.x()) + ' ' + std::to_string(at.y()) + ' ' +
-                          std::to_string(at.z()) + "; " + remedy);
+                          place_text((a + b + c) / 3, box_of(mesh.view()).longest_side()) + "; " +
+                          remedy);
 }
 
 }  // namespace

@@ -47,6 +47,26 @@ enum class VertexCount {
     Add,    //!< Vertices that the topology needs are added; the number is raised likewise.
 };
 
+//! How distances are computed: the fields of PropagationOptions that a remesh has.
+struct EngineOptions {
+    Engine engine = PropagationOptions{}.engine;  //!< See PropagationOptions, as the others.
+    //! With 0 the run works on the input itself, however many faces it has for each sample;
+    //! otherwise maybe on a coarse surface (RemeshResult::coarse_faces).
+    std::optional<double> max_error = {};
+    int steiner_points = PropagationOptions{}.steiner_points;  //!< See engine.
+    double lambda = PropagationOptions{}.lambda;               //!< See engine.
+
+    //! The same for propagate().
+    [[nodiscard]] PropagationOptions for_propagation(int num_threads, Progress progress) const {
+        return {.engine = engine,
+                .max_error = max_error,
+                .steiner_points = steiner_points,
+                .lambda = lambda,
+                .num_threads = num_threads,
+                .progress = std::move(progress)};
+    }
+};
+
 //! All lengths in mesh units. `{}` gives a good result.
 struct RemeshOptions {
     Index num_samples = 2000;  //!< Sites to place, >= 1: one output vertex each.
@@ -116,15 +136,12 @@ struct RemeshOptions {
     //! Whether vertices may leave the surface so that the triangles lie nearer to it. Unset: only
     //! if sites are relaxed.
     std::optional<bool> fit = {};
-    //! How distances are computed: engine, max_error, steiner_points and lambda. num_threads and
-    //! progress are ignored, as those below count; the others must have their defaults.
-    //! With a max_error of 0 the run works on the input itself, however many faces it has for each
-    //! sample; otherwise maybe on a coarse surface (RemeshResult::coarse_faces).
-    PropagationOptions propagation = {};
+    EngineOptions propagation = {};  //!< How distances are computed.
     //! Which edges to flip: those that fail by geodesic or by straight lengths, or none.
     Delaunay delaunay = DelaunayOptions{}.mode;
     int num_threads = 0;  //!< >= 0; 0: all cores.
-    //! Gets the stage and a fraction in [0, 1] on the caller's thread; return false to stop.
+    //! Gets the stage and a fraction in [0, 1] on the caller's thread; return false to stop. That
+    //! of the whole run: see overall_fraction().
     std::function<bool(Stage, double)> progress = {};
 };
 
@@ -275,5 +292,13 @@ struct RemeshResult {
 //! The same for a mesh that the caller no longer needs. If it needs no repair and no option refers
 //! to its elements, its memory, 36 bytes for each face, is released after cleaning.
 [[nodiscard]] RemeshResult remesh_moved(TriangleMesh mesh, const RemeshOptions& options = {});
+
+//! About how much of a run is done where a stage has reached this fraction, in [0, 1]: for a bar of
+//! the whole run, by the times of usual runs. It falls where stages are run again.
+//! \param fraction   as RemeshOptions::progress gets it.
+//! \param num_faces  of the mesh that is remeshed.
+//! \param options    those of the run; num_samples is a guess where sizing decides it.
+[[nodiscard]] double overall_fraction(Stage stage, double fraction, std::size_t num_faces,
+                                      const RemeshOptions& options);
 
 }  // namespace remesh

@@ -88,19 +88,10 @@ void check_wrap(const RemeshOptions& options) {
             "wrap is given, and sites, feature_edges or locked elements, which a wrap does not "
             "have; leave out one of them");
     require(!std::holds_alternative<MaxDistance>(options.sizing.count),
-            "wrap excludes max_distance, which is not proved to the mesh that is wrapped");
-}
-
-// What only other uses of a propagation have.
-void check_propagation(const PropagationOptions& options) {
-    require(options.points == SitePoints{} && options.shapes.empty() &&
-                options.relay_faces.empty() && options.max_distance == infinity,
-            "points, shapes, relay_faces and max_distance of propagation have no meaning for a "
-            "remesh; leave them out");
+            "wrap excludes MaxDistance, which is not proved to the mesh that is wrapped");
 }
 
 void check_options(const RemeshOptions& options, const MeshView& mesh) {
-    check_propagation(options.propagation);
     require(options.num_samples >= 1, "num_samples is 0; use 1 or more");
     require(options.relax_steps >= 0,
             "relax_steps is " + std::to_string(options.relax_steps) + "; use 0 or more");

@@ -2,6 +2,7 @@
 #include <string>
 #include <utility>
 
+#include "agvd/core/number_text.h"
 #include "agvd/mesh/surface_points.h"
 #include "remesh/pipeline/cleaned_input.h"
 #include "remesh/pipeline/crossings.h"
@@ -18,8 +19,7 @@ std::vector<Index> locked_vertices(const Region& region, const std::vector<Index
     for (const RimVertex& rim : region.rim) result.push_back(rim.vertex);
     for (const Index v : locked) {
         if (v >= region.number.size()) {
-            throw InvalidInput("vertex " + std::to_string(v) +
-                               " is locked, but the mesh has only " +
+            throw InvalidInput("vertex " + index_text(v) + " is locked, but the mesh has only " +
                                std::to_string(region.number.size()) +
                                " vertices, counted from 0; name one of these");
         }
@@ -40,8 +40,8 @@ Edges edges_inside(const MeshView& mesh, const Region& region, const Edges& edge
     Edges result;
     for (const auto& [a, b] : edges) {
         if (!has_edge(all, edge_key(a, b))) {
-            throw InvalidInput("the " + what + " edge between vertices " + std::to_string(a) +
-                               " and " + std::to_string(b) +
+            throw InvalidInput("the " + what + " edge between vertices " + index_text(a) + " and " +
+                               index_text(b) +
                                " is not an edge of the mesh; name the two ends of an edge, counted "
                                "from 0");
         }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <iterator>
+#include <numeric>
 #include <utility>
 
 #include "agvd/core/error.h"
@@ -23,6 +24,24 @@ struct MeshedTile {
     RemeshResult told = {};
 };
 
+// The fractions of all tiles, of which each thread moves those of its own.
+class TileProgress {
+public:
+    explicit TileProgress(Index num_tiles) : done_(num_tiles) {}
+
+    // Does not fall where stages of a tile are run again.
+    void tell(Index tile, double fraction) {
+        if (fraction > done_[tile]) done_[tile] = fraction;
+    }
+    [[nodiscard]] double mean() const {
+        const double sum = std::accumulate(done_.begin(), done_.end(), 0.0);
+        return sum / static_cast<double>(done_.size());
+    }
+
+private:
+    std::vector<std::atomic<double>> done_;
+};
+
 class TileMesher {
 public:
     // \param is_crease  #E of the whole surface. All outlive this.
@@ -37,10 +56,10 @@ public:
     }
 
     // \param poller  polled by all threads.
-    [[nodiscard]] MeshedTile run(Index number, Poller& poller) const {
+    [[nodiscard]] MeshedTile run(Index number, TileProgress& done, Poller& poller) const {
         MeshedTile tile;
         try {
-            tile.made = mesh(number, poller, tile.told);
+            tile.made = mesh(number, done, poller, tile.told);
         } catch (const InvalidInput&) {
             // Cutting left a face too narrow.
         }
@@ -48,7 +67,7 @@ public:
     }
 
 private:
-    [[nodiscard]] std::optional<TileMesh> mesh(Index number, Poller& poller,
+    [[nodiscard]] std::optional<TileMesh> mesh(Index number, TileProgress& done, Poller& poller,
                                                RemeshResult& told) const {
         const Progress progress = poller.progress();
         Tile tile = take_tile(tiling_, faces_[number], Ticker(poller));
@@ -63,7 +82,10 @@ private:
         options.num_threads = 1;
         options.num_samples =
             tiling_.num_inner[number] + static_cast<Index>(input.cleaned.locked.vertices.size());
-        if (progress) options.progress = [&](Stage, double) { return progress(0); };
+        options.progress = [&](Stage stage, double fraction) {
+            done.tell(number, overall_fraction(stage, fraction, faces_[number].size(), options));
+            return !progress || progress(0);
+        };
         told.seconds = context_.result.seconds;
         for (auto& [stage, seconds] : told.seconds) seconds = 0;
         std::optional<TileMesh> made = mesh_tile(input, {options, told});
@@ -223,10 +245,9 @@ std::optional<TileMesh> mesh_in_tiles(const CurvedSurface& curved, const StageCo
         }
     }
     std::vector<MeshedTile> tiles(tiling.num_tiles);
-    std::atomic<Index> num_done = 0;
+    TileProgress done(tiling.num_tiles);
     const Progress progress = [&](double) {
-        return !options.progress ||
-               options.progress(Stage::Relax, static_cast<double>(num_done) / tiling.num_tiles);
+        return !options.progress || options.progress(Stage::Relax, done.mean());
     };
     const auto start = std::chrono::steady_clock::now();
     {
@@ -235,8 +256,8 @@ std::optional<TileMesh> mesh_in_tiles(const CurvedSurface& curved, const StageCo
         parallel_each(
             tiling.num_tiles, 1, options.num_threads,
             [&](Index t) {
-                tiles[t] = mesher.run(t, poller);
-                ++num_done;
+                tiles[t] = mesher.run(t, done, poller);
+                done.tell(t, 1);
             },
             poller);
     }

@@ -121,7 +121,7 @@ struct FeatureCoverage {
     double length = 0;  //!< Of the original's sharp edges, mesh units.
     //! Share of it within .1 % of the diagonal of the result's blunt edges; 1 if there is none.
     double covered = 1;
-    double covered_closely = 1;  //!< Likewise, within .02 %.
+    double covered_closely = 1;  //!< Share of it within .02 % of the diagonal.
     double result_length = 0;    //!< Of the result's sharp edges, mesh units.
     //! Share of it farther than .1 % of the diagonal from the original's blunt edges and boundary;
     //! 0 if there is none.
@@ -193,7 +193,7 @@ struct Evaluation {
 //! faces meet there at more than 40 degrees, or if it has not two.
 struct NarrowFaces {
     Index count = 0;             //!< Of all.
-    Index at_acute_corners = 0;  //!< That angle lies between two sharp edges.
+    Index at_acute_corners = 0;  //!< The angle below pi / 6 lies between two sharp edges.
     //! Of the others: with a vertex on a wall that is thinner than the edges there are long.
     Index at_thin_walls = 0;
     Index between_creases = 0;  //!< Of the others: all three corners are on sharp edges.
@@ -204,7 +204,7 @@ struct NarrowFaces {
 struct BodyCounts {
     Index closed = 0;        //!< Closed components.
     Index holes = 0;         //!< Connected chains of the edges with one face.
-    Index hole_edges = 0;    //!< These edges.
+    Index hole_edges = 0;    //!< Edges of all holes.
     Index inside_out = 0;    //!< Closed components in no other one whose normals point inward.
     Index cavities = 0;      //!< Closed components in others whose normals point inward.
     Index inner_bodies = 0;  //!< The same whose normals point outward.

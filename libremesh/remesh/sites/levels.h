@@ -56,7 +56,7 @@ public:
                                             std::span<const SurfacePoint> sites,
                                             std::span<const ChainEdge> chain, Narrow narrow) const;
 
-    //! Those that were run.
+    //! The levels that were run.
     [[nodiscard]] const std::vector<RelaxLevel>& levels() const { return levels_; }
 
 private:

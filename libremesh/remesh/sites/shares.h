@@ -24,7 +24,7 @@ namespace detail {
 void set_areas(std::vector<Component>& components, std::span<const double> area_of_face);
 
 //! find_components with areas in squares of the local length (SizeField::area_of_face).
-//! \param sizes  null: areas are in mesh units. Likewise below.
+//! \param sizes  null: areas are in mesh units, here and below.
 [[nodiscard]] std::vector<Component> sized_components(const Surface& surface,
                                                       const SizeField* sizes,
                                                       const Progress& progress = {});

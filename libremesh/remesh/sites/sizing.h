@@ -33,22 +33,22 @@ struct VertexDensities {
 
 //! Lengths are scaled so that RemeshOptions::num_samples vertices come out.
 struct NumSamples {};
-//! > 0, mesh units: the mean edge of the result.
+//! The mean edge of the result has this length.
 struct MeanEdge {
-    double length = 0;  //!< See above.
+    double length = 0;  //!< > 0, mesh units.
 };
-//! > 0: faces of the result, up to a few along the boundary.
+//! The result has so many faces, up to a few along the boundary.
 struct NumFaces {
-    Index number = 0;  //!< See above.
+    Index number = 0;  //!< > 0.
 };
-//! > 0, mesh units: lengths are those of length_for_error. Needs AdaptiveEdges.
+//! Lengths are those of length_for_error. Needs AdaptiveEdges.
 struct MaxError {
-    double error = 0;  //!< See above.
+    double error = 0;  //!< > 0, mesh units.
 };
-//! > 0, mesh units: the result and the input lie no farther from each other, and edges are
-//! adaptive. Excludes lengths and densities.
+//! The result and the input lie no farther from each other, and edges are adaptive. Excludes
+//! lengths and densities.
 struct MaxDistance {
-    double distance = 0;  //!< See above.
+    double distance = 0;  //!< > 0, mesh units.
 };
 //! VertexLengths or FaceLengths count as they are, not scaled.
 struct CountOfLengths {};

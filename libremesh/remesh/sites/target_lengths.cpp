@@ -164,7 +164,7 @@ double length_for_error(double curvature, double error) {
 // The result is the least sum over all paths, whatever the order.
 void limit_growth(const Surface& surface, std::span<const std::pair<Index, Index>> joined,
                   double slope, Paths paths, std::span<double> length, Ticker& ticker) {
-    std::vector<std::pair<Index, Index>> copies;  // Both ways, sorted.
+    std::vector<std::pair<Index, Index>> copies;  // Each pair in both orders, sorted.
     for (const auto& [a, b] : joined) {
         copies.emplace_back(a, b);
         copies.emplace_back(b, a);

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <compare>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -18,6 +19,7 @@ namespace remesh {
 namespace {
 
 using detail::NearestOnSheet;
+using detail::SearchEnd;
 
 constexpr Index vertex_grain = 256, face_grain = 64;
 
@@ -42,25 +44,80 @@ std::array<std::array<double, 3>, 16> part_centers() {
 
 using Centers = std::array<std::array<double, 3>, 16>;
 
-// Starts each search at the nearest of the three corners and the point of the sample before.
-FaceSamples sample_face(const MeshView& result, const Triangle& t,
-                        std::span<const SurfacePoint> points, const Centers& centers,
+// Where searches from the vertices of a result end. Those on junctions belong to several sheets,
+// and tell nothing of the sheet of a face.
+class ResultSheets {
+public:
+    ResultSheets(const MeshView& result, std::vector<SearchEnd> ends)
+        : triangles_(result.triangles), ends_(std::move(ends)) {
+        if (std::ranges::find(ends_, SearchEnd::Ball) == ends_.end()) return;
+        faces_.emplace(triangles_by_vertex(triangles_, ends_.size()));
+    }
+
+    [[nodiscard]] SearchEnd end_at(Index vertex) const { return ends_[vertex]; }
+
+    // Vertices of the sheet of a face: its corners that are on no junction; else one of the faces
+    // beside it; else all its corners.
+    [[nodiscard]] std::vector<Index> vertices_of(Index face) const {
+        const Triangle& corners = triangles_[face];
+        std::vector<Index> found;
+        const auto is_own = [&](Index v) { return ends_[v] == SearchEnd::Junction; };
+        for (const Index v : corners) {
+            if (is_own(v)) found.push_back(v);
+        }
+        std::vector<Index> reached{face};
+        for (std::size_t i = 0; found.empty() && i < reached.size(); ++i) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                const Index next = across(reached[i], k);
+                if (next == no_index || reached.size() == most_reached) continue;
+                if (std::ranges::find(reached, next) == reached.end()) reached.push_back(next);
+            }
+            const Triangle& t = triangles_[reached[i]];
+            const auto own = std::ranges::find_if(t, is_own);
+            if (own != t.end()) found = {*own};
+        }
+        return found.empty() ? std::vector<Index>(corners.begin(), corners.end()) : found;
+    }
+
+private:
+    static constexpr std::size_t most_reached = 64;
+
+    // The other face at an edge of two.
+    [[nodiscard]] Index across(Index face, std::size_t k) const {
+        const Index a = triangles_[face][k], b = triangles_[face][(k + 1) % 3];
+        Index other = no_index;
+        for (const Index f : faces_->of(a)) {
+            if (f == face || std::ranges::find(triangles_[f], b) == triangles_[f].end()) continue;
+            if (other != no_index) return no_index;
+            other = f;
+        }
+        return other;
+    }
+
+    std::span<const Triangle> triangles_;
+    std::vector<SearchEnd> ends_;  // By vertex.
+    std::optional<Groups> faces_;  // At each vertex; none: no vertex is on a junction.
+};
+
+// Starts each search at the nearest vertex of the face's sheet or the point of the sample before.
+FaceSamples sample_face(const MeshView& result, Index face, std::span<const SurfacePoint> points,
+                        const ResultSheets& sheets, const Centers& centers,
                         const NearestOnSheet& nearest) {
-    std::array<SurfacePoint, 4> starts{points[t[0]], points[t[1]], points[t[2]], points[t[0]]};
-    std::array<Vec3, 4> at;
-    for (std::size_t k = 0; k < 4; ++k) at[k] = position(nearest.mesh(), starts[k]);
+    const std::vector<Index> known = sheets.vertices_of(face);
+    std::vector<ClosestPoint> starts(1);  // That of the sample before, then of the vertices.
+    for (const Index v : known) starts.push_back({points[v], position(nearest.mesh(), points[v])});
+    starts[0] = starts[1];
     FaceSamples faces{};
     for (std::size_t i = 0; i < faces.size(); ++i) {
         Vec3 point = Vec3::Zero();
-        for (std::size_t k = 0; k < 3; ++k) point += centers[i][k] * result.positions[t[k]];
-        std::size_t first = 3;
         for (std::size_t k = 0; k < 3; ++k) {
-            if ((at[k] - point).squaredNorm() < (at[first] - point).squaredNorm()) first = k;
+            point += centers[i][k] * result.positions[result.triangles[face][k]];
         }
-        const ClosestPoint found = nearest.query(point, starts[first]);
-        starts[3] = found.point;
-        at[3] = found.position;
-        faces[i] = found.point.face.value();
+        const auto first = std::ranges::min_element(starts, {}, [&](const ClosestPoint& start) {
+            return (start.position - point).squaredNorm();
+        });
+        starts[0] = nearest.query(point, first->point, sheets.end_at(known[0]));
+        faces[i] = starts[0].point.face.value();
     }
     return faces;
 }
@@ -243,16 +300,19 @@ InputMap map_to_input(const MeshView& input, const MeshView& result,
     const NearestOnSheet nearest(input, Ticker(poller));
     InputMap map;
     map.vertices.resize(sites.size());
+    std::vector<SearchEnd> ends(sites.size(), SearchEnd::Junction);
     const auto map_vertex = [&](Index v) {
-        map.vertices[v] = nearest.query(result.positions[v], sites[v]).point;
+        if (nearest.is_on_junction(sites[v])) ends[v] = SearchEnd::Ball;
+        map.vertices[v] = nearest.query(result.positions[v], sites[v], ends[v]).point;
     };
     parallel_each(static_cast<Index>(sites.size()), vertex_grain, options.num_threads, map_vertex,
                   poller);
     if (!options.with_faces) return map;
     const Centers centers = part_centers();
+    const ResultSheets sheets(result, std::move(ends));
     map.faces.resize(result.triangles.size());
     const auto map_face = [&](Index f) {
-        map.faces[f] = sample_face(result, result.triangles[f], map.vertices, centers, nearest);
+        map.faces[f] = sample_face(result, f, map.vertices, sheets, centers, nearest);
     };
     parallel_each(static_cast<Index>(map.faces.size()), face_grain, options.num_threads, map_face,
                   poller);

@@ -32,8 +32,9 @@ struct InputMap {
 
 //! For each vertex of a result the nearest point of the input on its sheet: within the distance of
 //! its site only the part counts that is connected with the site there, so walls may be as thin as
-//! they like. A vertex at its site up to rounding stays there bit for bit. Samples of faces are
-//! found likewise, from their corners.
+//! they like; and not across edges with more than two faces, unless the site lies on one. A vertex
+//! at its site up to rounding stays there bit for bit. Samples of faces are found likewise, from
+//! their corners.
 //! \param input   what remesh() got: any triangles, also dirty ones.
 //! \param sites   of the result's vertices, on `input`: RemeshResult::sites.
 //! \throw InvalidOption  num_threads < 0, or there is not one site for each vertex.

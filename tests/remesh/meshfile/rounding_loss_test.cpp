@@ -82,7 +82,7 @@ TEST(RoundingLoss, TheTextHasFiguresAndARemedy) {
     EXPECT_EQ(remesh::describe(loss, {"b/a.stl"}),
               "b/a.stl: stl stores coordinates in single precision: vertices move by up to 0.25, "
               "2.5 % of the diagonal and 25 % of the shortest edge, and 7 fall onto others; write "
-              ".ply, .obj or .off, or move the mesh to the origin first (its middle is at 5e+05 "
-              "5.4e+06 12)");
+              ".ply, .obj or .off, or move the mesh to the origin first (its middle is at "
+              "500000 5400000 12)");
     EXPECT_EQ(remesh::describe({}, {"a.stl"}), "");
 }

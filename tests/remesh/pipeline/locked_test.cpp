@@ -246,6 +246,15 @@ TEST(Locked, WhatIsNotThereIsRefused) {
         }
         return std::string("accepted");
     };
+    const auto minus_one = static_cast<Index>(-1);
+    EXPECT_NE(text_of({.num_samples = 50, .locked = {minus_one}}).find("vertex -1 is"),
+              std::string::npos);
+    for (const RemeshOptions& options :
+         {RemeshOptions{.num_samples = 50, .feature_edges = {{minus_one, 0}}},
+          RemeshOptions{.num_samples = 50, .locked_edges = {{minus_one, 0}}}}) {
+        EXPECT_NE(text_of(options).find("-1"), std::string::npos) << text_of(options);
+        EXPECT_EQ(text_of(options).find("4294967295"), std::string::npos) << text_of(options);
+    }
     EXPECT_NE(text_of({.num_samples = 50, .locked = {count}})
                   .find("vertex " + std::to_string(count) + " is to stay, but the mesh has only"),
               std::string::npos);

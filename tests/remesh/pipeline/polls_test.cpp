@@ -68,7 +68,7 @@ const std::map<Stage, int> least_polls{
     {Stage::Clean, 100}, {Stage::Relax, 300},  {Stage::Propagate, 50}, {Stage::Diagram, 50},
     {Stage::Dual, 4},    {Stage::Delaunay, 5}, {Stage::Place, 20},     {Stage::Check, 8}};
 // With an error the cells are found.
-const agvd::PropagationOptions with_error{.max_error = 1e-4};
+const remesh::EngineOptions with_error{.max_error = 1e-4};
 
 std::map<Stage, int> count_polls(const TriangleMesh& mesh, remesh::RemeshOptions options) {
     std::map<Stage, int> polls;

@@ -134,18 +134,39 @@ TEST(Remesh, TooFewSamplesForTheTopologyAreRefused) {
     EXPECT_THROW((void)remesh::remesh(shapes::cube().view(), {.num_samples = 0}), InvalidOption);
 }
 
-TEST(Remesh, OptionsOfAPropagationThatMeanNothingAreRefused) {
-    const TriangleMesh mesh = shapes::sphere(2);
-    std::vector<agvd::PropagationOptions> wrong(4);
-    wrong[0].points.start.assign(50, 0);
-    wrong[1].shapes.emplace_back();
-    wrong[2].relay_faces = {0};
-    wrong[3].max_distance = 1;
-    for (const agvd::PropagationOptions& options : wrong) {
-        remesh::RemeshOptions given{.num_samples = 50};
-        given.propagation = options;
-        EXPECT_THROW((void)remesh::remesh(mesh.view(), given), InvalidOption);
-    }
+TEST(Remesh, RefusalsNameWhatTheInterfaceNames) {
+    const auto text_of = [](const remesh::RemeshOptions& options) {
+        try {
+            (void)remesh::remesh(shapes::cube().view(), options);
+        } catch (const InvalidOption& error) {
+            return std::string(error.what());
+        }
+        return std::string("accepted");
+    };
+    const remesh::Sizing near{.count = remesh::MaxDistance{0.1}};
+    EXPECT_EQ(text_of({.wrap = 0.1, .sizing = near}).rfind("wrap excludes MaxDistance", 0), 0U);
+    EXPECT_EQ(text_of({.sizing = {.count = remesh::MaxError{0.1}}}),
+              "MaxError needs AdaptiveEdges");
+    EXPECT_EQ(text_of({.sizing = {.edges = remesh::VertexLengths{{1.0}}}})
+                  .rfind("VertexLengths has 1 values", 0),
+              0U);
+}
+
+TEST(Remesh, EachOptionOfAPropagationThatItHasCounts) {
+    const TriangleMesh mesh = shapes::sphere(3);
+    const auto bytes_of = [&](const remesh::EngineOptions& how) {
+        return remesh::remesh(mesh.view(), {.num_samples = 50, .propagation = how})
+            .propagation_bytes;
+    };
+    std::set<std::size_t> seen{bytes_of({.max_error = 0}), bytes_of({.max_error = 0.3})};
+    remesh::EngineOptions steiner{.engine = agvd::Engine::Steiner};
+    auto& [engine, max_error, steiner_points, lambda] = steiner;  // There are no others.
+    seen.insert(bytes_of(steiner));
+    steiner_points = 2;
+    seen.insert(bytes_of(steiner));
+    lambda = 100;
+    seen.insert(bytes_of(steiner));
+    EXPECT_EQ(seen.size(), 5u);
 }
 
 TEST(Remesh, ANumberThatMayBeRaisedIsRaisedToWhatTheTopologyNeeds) {

@@ -1,6 +1,7 @@
 // Large results are made in tiles; what holds for results in one piece holds for them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -199,6 +200,30 @@ TEST(Tiles, SizesThatAreTooSmallAreRefused) {
         FAIL();
     } catch (const agvd::InvalidOption& error) {
         EXPECT_STREQ(error.what(), "samples_per_tile is 499; use 0, for one piece, or 500 or more");
+    }
+}
+
+// So that a time left that follows from it does not grow.
+TEST(Tiles, TellHowFarTheyAreWithinThem) {
+    const TriangleMesh mesh = shapes::torus(60, 30);
+    RemeshOptions options = with_samples(2000);
+    options.num_threads = 1;
+    std::vector<double> of_tiles, of_all;
+    options.progress = [&](remesh::Stage stage, double fraction) {
+        if (stage == remesh::Stage::Relax) of_tiles.push_back(fraction);
+        of_all.push_back(remesh::overall_fraction(stage, fraction, mesh.triangles.size(), options));
+        return true;
+    };
+    const RemeshResult result = remesh::remesh(mesh.view(), options);
+    ASSERT_GT(result.tiles, 2);
+    for (std::vector<double>* fractions : {&of_tiles, &of_all}) {
+        EXPECT_TRUE(std::ranges::is_sorted(*fractions));
+        EXPECT_GE(fractions->front(), 0);
+        EXPECT_LE(fractions->back(), 1);
+        for (std::size_t i = 1; i < fractions->size(); ++i) {
+            EXPECT_LT((*fractions)[i] - (*fractions)[i - 1], 0.2);
+        }
+        EXPECT_GT(agvd::distinct(*fractions).size(), 10U * result.tiles);
     }
 }
 

@@ -9,11 +9,13 @@
 #include <set>
 
 #include "agvd/core/random.h"
+#include "agvd/mesh/any_mesh.h"
 #include "agvd/mesh/closest_point.h"
 #include "agvd/mesh/surface.h"
 #include "agvd/mesh/surface_points.h"
 #include "remesh/pipeline/remesh.h"
 #include "remesh/transfer/transfer.h"
+#include "support/junction_shapes.h"
 #include "support/shapes.h"
 
 using agvd::Index;
@@ -220,4 +222,30 @@ TEST(KeptLabels, NoFaceHasALabelThatNoneOfTheFacesUnderItHas) {
     EXPECT_GT(num_on_one_side, num_faces / 2);
     EXPECT_LT(range.first, 25);
     EXPECT_GT(range.second, 335);
+}
+
+// Where two sheets meet at a small angle the nearest face may be of the other one.
+TEST(KeptLabels, FacesAtJunctionsHaveTheLabelOfTheirSheet) {
+    for (const double height : {0.15, 0.3, 0.6}) {
+        const TriangleMesh mesh = shapes::three_lobes(80, height);
+        const auto labels = labels_of(mesh, [](const Vec3& p) {
+            return std::abs(p.z()) < 1e-9 ? Index{0} : p.z() > 0 ? Index{1} : Index{2};
+        });
+        const std::vector<double> given(labels.begin(), labels.end());
+        for (const Index count : {60, 100, 150, 200, 300}) {
+            const auto made = remesh::remesh(mesh.view(), {.num_samples = count,
+                                                           .face_labels = labels,
+                                                           .junctions = remesh::Junctions::Keep});
+            const auto map = remesh::map_to_input(mesh.view(), made.mesh.view(), made.sites,
+                                                  {.with_faces = true});
+            const auto values = transfer_face_values(given, map.faces, remesh::ValueKind::Label);
+            EXPECT_EQ(made.junctions.apart_edges, 0) << height << ' ' << count;
+            agvd::for_each_edge(agvd::sorted_edge_sides(made.mesh.triangles),
+                                [&](const auto& edge) {
+                                    if (edge.size() != 2) return;
+                                    EXPECT_EQ(values[edge[0].face()], values[edge[1].face()])
+                                        << height << ' ' << count;
+                                });
+        }
+    }
 }

@@ -24,7 +24,7 @@ export interface MeshInput {
   triangles: Numbers;
   /** By name: one value for each vertex. Integers are labels, but for red, green, blue and alpha. */
   vertexData?: Record<string, Values>;
-  /** Likewise, for each face. */
+  /** By name: one value for each face. */
   faceData?: Record<string, Values>;
   /** Texture coordinates: six for each face, u and v of its corners; NaN where a corner has none. */
   uv?: Numbers;

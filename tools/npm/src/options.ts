@@ -23,9 +23,9 @@ export interface RemeshOptions {
   adaptive?: boolean;
   /** The length of edges at each vertex, or one for all, or the name of values of the mesh. */
   sizing?: Numbers | number | string;
-  /** Likewise at each face. */
+  /** The length of edges at each face. */
   faceSizing?: Numbers | string;
-  /** Likewise vertices per area at each vertex, in any unit. */
+  /** Vertices per area at each vertex, in any unit; or the name of values. */
   density?: Numbers | string;
   minEdge?: Length;
   maxEdge?: Length;

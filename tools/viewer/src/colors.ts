@@ -2,7 +2,7 @@
 import type { PageMesh } from "./page_data";
 import { Edges, faceShapes } from "./shapes";
 
-export type ColorMode = "plain" | "quality" | "angle" | "distance" | "nearest" | "target" | "label" | "patch";
+export type ColorMode = "plain" | "quality" | "angle" | "distance" | "nearest" | "target" | "label" | "color" | "patch";
 
 export interface NamedMode { mode: ColorMode; name: string }
 
@@ -13,6 +13,7 @@ export const reportModes: NamedMode[] = [
   { mode: "distance", name: "Distance to the other" },
   { mode: "target", name: "Target length" },
   { mode: "label", name: "Label" },
+  { mode: "color", name: "Colours of the vertices" },
   { mode: "patch", name: "Patch" },
 ];
 
@@ -84,6 +85,7 @@ export function scaleOf(mode: ColorMode, meshes: PageMesh[], diagonal: number): 
 /** Whether a mode shows something of one of the meshes. */
 export function hasMode(mode: ColorMode, meshes: PageMesh[]): boolean {
   if (mode === "label") return meshes.some((mesh) => mesh.labels !== null);
+  if (mode === "color") return meshes.some((mesh) => mesh.values.has("red"));
   if (mode === "distance" || mode === "nearest" || mode === "target") return meshes.some((mesh) => mesh.values.has(mode));
   return true;
 }
@@ -100,6 +102,11 @@ export function cornerColors(mode: ColorMode, mesh: PageMesh, edges: () => Edges
     fillByVertex(colors, mesh.corners, values.values, scale, unit);
   } else if (mode === "label" && mesh.labels) {
     fillByName(colors, mesh.labels.ofFaces, mesh.labels.hasNone);
+  } else if (mode === "color" && mesh.values.has("red")) {
+    ["red", "green", "blue"].forEach((part, k) => {
+      const ofVertices = mesh.values.get(part)!.values;
+      mesh.corners.forEach((vertex, corner) => { colors[4 * corner + k] = ofVertices[vertex]; });
+    });
   } else if (mode === "patch") {
     fillByName(colors, edges().patches, false);
   } else {

@@ -67,7 +67,7 @@ export interface PageMesh extends TriangleMesh {
   creases: Uint32Array;
   /** Six coordinates for each piece of a line between cells. */
   cellLines: Float32Array;
-  /** Likewise, of lines of equal distance. */
+  /** Six coordinates for each piece of a line of equal distance. */
   isolines: Float32Array;
   /** Three coordinates each. */
   sites: Float32Array;

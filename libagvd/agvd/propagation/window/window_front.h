@@ -392,7 +392,7 @@ void close_edges(WindowFront& front);
 //!                  if more are, the run starts again with the nearest window first. There a
 //!                  half-edge drops what comes after 2^11 windows, and relative_error is infinite.
 //! \param keeps     windows of other faces may be given back once nothing can come there any more.
-//!                  That changes nothing else.
+//!                  The results are the same.
 //! \param start    distance of the site from itself, >= 0.
 //! \throw Cancelled  the next run begins anew.
 void run_front(WindowFront& front, const SurfacePoint& site, std::span<const float> bounds,

@@ -28,7 +28,7 @@ struct FrontItem {
     //! Of an item that is no half-edge.
     [[nodiscard]] constexpr bool is_beam() const { return (word & beam_bit) != 0; }
     [[nodiscard]] constexpr Index record() const { return (word & ~beam_bit) / 2; }
-    //! Any order that is the same in every run.
+    //! By the word, so that the order is the same in every run.
     constexpr auto operator<=>(const FrontItem&) const = default;
 
 private:
