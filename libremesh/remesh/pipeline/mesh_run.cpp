@@ -30,6 +30,11 @@ bool has_own_crossings(const RemeshResult& result) {
     return are_mostly_added({result.self_intersections.value_or(0), result.new_self_intersections});
 }
 
+// As where few vertices lie on the creases of one plane.
+bool is_crushed(const RemeshResult& result) {
+    return 4 * std::size_t{result.new_self_intersections} > result.mesh.triangles.size();
+}
+
 bool are_mostly_narrow(const RemeshResult& result) {
     return 2 * std::size_t{result.verdict.narrow.count} > result.mesh.triangles.size();
 }
@@ -135,15 +140,17 @@ private:
     }
 
     // Runs once more. Where faces intersect: with the creases that were left out, which may keep
-    // walls apart, and with shorter edges. Where the result does not reach a narrow part: with
-    // shorter edges there. Other means part the faces of wraps, and their edges are shorter on all
-    // narrow parts. Keeps the better result.
+    // walls apart, and with shorter edges; or without curves if most faces intersect. Where the
+    // result does not reach a narrow part: with shorter edges there. Other means part the faces of
+    // wraps, and their edges are shorter on all narrow parts. Keeps the better result.
     void mend(RemeshResult again, const MadeMesh& made, KeptCurves kept) {
         const bool is_wrap = options_.wrap.has_value();
         const bool crosses = has_own_crossings(result_) && !result_.features.gave_up && !is_wrap;
-        const bool adds_creases = crosses && has_creases(found_.is_close);
+        const bool gives_up =
+            crosses && is_crushed(result_) && (has_creases(kept.is_crease) || kept.has_seams);
+        const bool adds_creases = crosses && !gives_up && has_creases(found_.is_close);
         std::vector<SizedPoint> points(lengths_.begin(), lengths_.end());
-        if (crosses) {
+        if (crosses && !gives_up) {
             const double length = result_.verdict.spacing / 2;
             for (const SurfacePoint& p : made.crossing_corners) points.push_back({p, length});
         }
@@ -151,7 +158,10 @@ private:
         if (has_lost_part(result_) || is_wrap) narrow = made.narrow_points;
         const bool shortens =
             may_shorten(options_) && (!narrow.empty() || points.size() > lengths_.size());
-        if (!adds_creases && !shortens) return;
+        if (!adds_creases && !shortens && !gives_up) return;
+        const bool drops_creases = gives_up && has_creases(kept.is_crease);
+        if (gives_up)
+            kept = {kept.has_junctions, false, std::vector<std::uint8_t>(kept.is_crease.size())};
         for (Index e = 0; adds_creases && e < found_.is_close.size(); ++e) {
             kept.is_crease[e] |= found_.is_close[e];
         }
@@ -166,12 +176,13 @@ private:
         const Index crossings = num_more_crossings(again), before = num_more_crossings(result_);
         const bool is_nearer =
             is_wrap || again.verdict.largest_distance < result_.verdict.largest_distance;
-        // Close creases leave narrow faces between them: if most are, a few that intersect are
-        // better.
-        const bool is_narrow = adds_creases && are_mostly_narrow(again);
+        // Without creases a mesh is worth it if no faces intersect. Close creases leave narrow
+        // faces between them: if most are, a few that intersect are better.
+        const bool is_fine =
+            gives_up ? crossings == 0 : !(adds_creases && are_mostly_narrow(again));
         const bool is_better = crossings < before || (crossings == before && is_nearer);
-        if (!has_mesh || is_narrow || !is_better) return;
-        again.features.gave_up = result_.features.gave_up;
+        if (!has_mesh || !is_fine || !is_better) return;
+        again.features.gave_up = result_.features.gave_up || drops_creases;
         again.features.samples_for_all =
             std::max(again.features.samples_for_all, result_.features.samples_for_all);
         again.seconds = result_.seconds;

@@ -1,6 +1,8 @@
 // Whether other programs fill wrapped meshes with tetrahedra: TetGen and gmsh. They refuse surfaces
 // that are open or intersect themselves.
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
 #include <functional>
 #include <numbers>
 
@@ -111,7 +113,22 @@ protected:
     }
 };
 
+class TetGen : public VolumeMeshers {};
+
 }  // namespace
+
+// AGVD_LONG=1 asks for 1000 soups.
+TEST_F(TetGen, FillsTheWrapsOfSoups) {
+    if (!has("tetgen")) GTEST_SKIP() << "there is no program tetgen";
+    if (!remesh::find_self_intersections(shapes::cube())) GTEST_SKIP() << "needs CGAL";
+    const std::uint64_t last = std::getenv("AGVD_LONG") != nullptr ? 1000 : 12;
+    for (std::uint64_t seed = 4; seed <= last; ++seed) {
+        const TriangleMesh soup = shapes::dirty_solids(seed);
+        const TriangleMesh mesh = remesh::remesh(soup, {.num_samples = 400, .wrap = 0}).mesh;
+        EXPECT_TRUE(fills_by_tetgen(mesh)) << seed;
+        std::filesystem::remove(at("solid.1.ele"));
+    }
+}
 
 TEST_P(VolumeMeshers, FillWraps) {
     const bool has_tetgen = has("tetgen"), has_gmsh = has("gmsh");
