@@ -14,9 +14,10 @@ function(agvd_flags target)
     target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fno-tree-vectorize>)
     # Some hot loops have & and | in place of branches that could not be predicted.
     target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:Clang>:-Wno-bitwise-instead-of-logical>)
-    # In a shared library, too, calls of its own functions are direct and may be inlined.
-    if(BUILD_SHARED_LIBS)
-        set_target_properties(${target} PROPERTIES VISIBILITY_INLINES_HIDDEN ON)
+    # The programs and the Python module share what is compiled. In a shared library, too, calls of its own functions
+    # are direct and may be inlined.
+    if(NOT EMSCRIPTEN)
+        set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON VISIBILITY_INLINES_HIDDEN ON)
         target_compile_options(${target} PRIVATE -fno-semantic-interposition)
     endif()
     if(AGVD_SANITIZE)

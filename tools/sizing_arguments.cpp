@@ -4,6 +4,7 @@
 
 #include "agvd/mesh/scale.h"
 #include "help.h"
+#include "remesh/meshfile/diagram_file.h"
 #include "remesh/meshfile/solution_file.h"
 #include "remesh/transfer/transfer.h"
 
@@ -40,6 +41,28 @@ std::string check_label_length(const std::string& text) {
     return "the value is " + text +
            "; use NAME=VALUE:LENGTH, the length above 0 or a percentage of the diagonal of the "
            "mesh (such as material=steel:2%)";
+}
+
+// FILE:L or FILE:L:R. The file's name may have colons.
+std::optional<PlaceLength> parse_place(const std::string& text) {
+    const std::size_t last = text.rfind(':');
+    if (last == 0 || last == std::string::npos) return {};
+    const std::optional<Amount> end = parse_amount(text.substr(last + 1));
+    if (!end) return {};
+    const std::size_t before = text.rfind(':', last - 1);
+    if (before != 0 && before != std::string::npos) {
+        const auto length = parse_amount(text.substr(before + 1, last - before - 1));
+        if (length) return PlaceLength{text.substr(0, before), *length, end};
+    }
+    return PlaceLength{text.substr(0, last), *end, {}};
+}
+
+// Checks the option; an empty text: valid.
+std::string check_place(const std::string& text) {
+    if (parse_place(text)) return {};
+    return "the value is " + text +
+           "; use FILE:LENGTH or FILE:LENGTH:RADIUS, both above 0 or a percentage of the diagonal "
+           "of the mesh (such as ears.txt:0.5%:3%)";
 }
 
 constexpr const char* other_faces = "*";
@@ -183,6 +206,17 @@ void add_sizing_options(CLI::App& app, SizingArguments& arguments) {
         ->excludes(distance)
         ->excludes(lengths)
         ->excludes(densities);
+    const auto take_places = [&arguments](const std::vector<std::string>& texts) {
+        for (const std::string& text : texts) arguments.places.push_back(parse_place(text).value());
+    };
+    app.add_option_function<std::vector<std::string>>(
+           "--size-at", take_places,
+           "Length L of the edges at the points, lines or faces that this file names as --sites "
+           "does, and up to the distance R around them; from there edges grow by --gradation "
+           "along the surface. Repeat it for more files")
+        ->check(CLI::Validator(check_place, ""))
+        ->type_name("FILE:L|L%[:R|R%]")
+        ->allow_extra_args(false);
     add_length(app, "--min-edge,--hmin", "No edge is meant to be shorter", arguments.min_edge);
     add_length(app, "--max-edge,--hmax", "No edge is meant to be longer", arguments.max_edge);
     const auto take_gradation = [&arguments](const std::string& text) {
@@ -230,11 +264,13 @@ remesh::Sizing sizing_for(const SizingArguments& arguments, const std::filesyste
             .values;
     };
     const bool is_even = !arguments.is_adaptive && !arguments.max_distance &&
-                         arguments.target_lengths.empty() && !wants_attributes(arguments);
+                         arguments.target_lengths.empty() && arguments.places.empty() &&
+                         !wants_attributes(arguments);
     if (is_even && (arguments.min_edge || arguments.max_edge || arguments.gradation)) {
         throw agvd::InvalidOption(
             "--min-edge, --max-edge and --gradation bound edges that differ; add --adaptive, "
-            "--max-distance, --sizing, --edge-length-of or --density, or leave them out");
+            "--max-distance, --sizing, --size-at, --edge-length-of or --density, or leave them "
+            "out");
     }
     const auto in_mesh_units = [&](const Amount& amount) {
         return length_of(amount, mesh.mesh.view());
@@ -255,6 +291,18 @@ remesh::Sizing sizing_for(const SizingArguments& arguments, const std::filesyste
         sizing.edges = remesh::VertexLengths{values_of("--sizing: ", arguments.target_lengths)};
     } else if (!arguments.densities.empty()) {
         sizing.edges = remesh::VertexDensities{values_of("--density: ", arguments.densities)};
+    }
+    for (const PlaceLength& place : arguments.places) {
+        remesh::SitesFile file = remesh::read_sites(place.file, mesh.mesh.view(), progress,
+                                                    remesh::Repeats::Allowed, mesh.face_polygon);
+        remesh::SizedPlace made{.points = std::move(file.sites),
+                                .length = in_mesh_units(place.length),
+                                .radius = place.radius ? in_mesh_units(*place.radius) : 0};
+        for (const remesh::GivenShape& shape : file.shapes) {
+            made.edges.insert(made.edges.end(), shape.edges.begin(), shape.edges.end());
+            made.faces.insert(made.faces.end(), shape.faces.begin(), shape.faces.end());
+        }
+        if (made.length > 0) sizing.places.push_back(std::move(made));
     }
     // Of a mesh without extent a percentage is 0, and no length is asked for.
     const auto take = [&](const std::optional<Amount>& amount, auto count) {

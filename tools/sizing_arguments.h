@@ -23,6 +23,13 @@ struct LabelLength {
     Amount length;      //!< Mesh units, or percent of the diagonal.
 };
 
+//! The length of the edges at what a file names.
+struct PlaceLength {
+    std::string file;  //!< As --sites takes it.
+    Amount length;     //!< Mesh units, or percent of the diagonal, as the radius.
+    std::optional<Amount> radius;
+};
+
 struct SizingArguments {
     bool is_adaptive = false;
     agvd::Index num_faces = 0;  //!< 0: not given.
@@ -32,6 +39,7 @@ struct SizingArguments {
     std::string target_lengths;              //!< Name of a vertex property, or a .sol file.
     std::string densities;                   //!< Name of a vertex property; both empty: none.
     std::vector<LabelLength> label_lengths;  //!< Empty: none.
+    std::vector<PlaceLength> places;         //!< Empty: none.
     std::optional<double> gradation;
     //! --samples: if it is not given, target lengths give the number.
     const CLI::Option* samples = nullptr;
@@ -44,7 +52,8 @@ CLI::Option* add_length(CLI::App& app, const std::string& flag, const std::strin
 //! In mesh units. Cost: O(#F) for a percentage.
 [[nodiscard]] double length_of(const Amount& length, const agvd::MeshView& mesh);
 
-//! Adds --adaptive, --sizing, --density, --edge-length-of, --faces, --edge-length, --max-distance,
+//! Adds --adaptive, --sizing, --density, --edge-length-of, --size-at, --faces, --edge-length,
+//! --max-distance,
 //! --min-edge, --max-edge, --gradation, --min-angle, --max-angle and --longest-edge, after
 //! --samples and --sites.
 void add_sizing_options(CLI::App& app, SizingArguments& arguments);
@@ -60,7 +69,7 @@ void add_sizing_options(CLI::App& app, SizingArguments& arguments);
 //! \throw agvd::InvalidOption  it has no property of that name, whose text lists those it has; or no
 //!        such label.
 //! \throw agvd::IoError, agvd::InvalidInput, agvd::Cancelled  as remesh::read_lengths, which reads a
-//!        .sol file.
+//!        .sol file, and remesh::read_sites, which reads files of places.
 [[nodiscard]] remesh::Sizing sizing_for(const SizingArguments& arguments,
                                         const std::filesystem::path& path,
                                         const remesh::MeshFile& mesh,

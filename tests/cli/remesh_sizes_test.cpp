@@ -220,6 +220,35 @@ TEST_F(Remesh, LabelsGiveLengthsOfEdges) {
     }
 }
 
+TEST_F(Remesh, EdgesAreShortAtPlacesOfAFile) {
+    const agvd::TriangleMesh ball = shapes::sphere(4);
+    const std::string in = put("in.off", ball);
+    const auto& [a, b, c] = ball.triangles[100];
+    const std::string line = "l " + std::to_string(a) + " " + std::to_string(b);
+    const std::string places = put("a:b.txt", "p 0 0 1\nr 3 4  # a region\n" + line + "\n");
+    const auto counts = [&](const std::string& value) {
+        const auto outcome =
+            remesh({in, at("out.off"), "-n", "500", "--size-at", value, "--report", "-"});
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        const auto report = nlohmann::json::parse(outcome.out);
+        EXPECT_EQ(report["options"]["sizing"]["given_places"], 1);
+        EXPECT_EQ(report["output_vertices"], 500);
+        EXPECT_NEAR(report["sizing"]["least_target_mesh_units"], 0.04, 0.002);
+        const auto near_pole = [](const agvd::Vec3& p) { return p.z() > std::cos(0.3); };
+        return std::ranges::count_if(remesh::read_mesh(at("out.off")).mesh.positions, near_pole);
+    };
+    const auto at_point = counts(places + ":0.04"), around = counts(places + ":0.04:0.3");
+    EXPECT_GT(at_point, 20);
+    EXPECT_GT(around, 3 * at_point / 2);
+    for (const char* wrong :
+         {"places.txt", ":1", "places.txt:", "places.txt:0", "places.txt:1:0"}) {
+        const auto outcome = remesh({in, at("never.off"), "--size-at", wrong});
+        EXPECT_EQ(outcome.exit_code, 2) << outcome.err;
+        EXPECT_NE(outcome.err.find("use FILE:LENGTH"), std::string::npos) << wrong << outcome.err;
+    }
+    EXPECT_EQ(remesh({in, at("never.off"), "--size-at", "nowhere.txt:1"}).exit_code, 3);
+}
+
 TEST_F(Remesh, WrongNumbersAndLengthsAreRefused) {
     const std::string in = put("in.off", shapes::sphere(2));
     const std::vector<std::string> wrong[] = {{"-n", "0"},

@@ -67,6 +67,18 @@ def test_sizing_gives_lengths_and_number(sphere):
     assert len(bounded.V) == 400
 
 
+def test_edges_are_short_at_places(sphere):
+    V, F = sphere
+    pole = int(V[:, 2].argmax())
+    regions = [np.flatnonzero((F == pole).any(axis=1))]
+    for where in (dict(sites=[pole]), dict(regions=regions), dict(lines=[[pole, F[regions[0][0]]
+                                                                        [F[regions[0][0]] != pole][0]]])):
+        result = remesh.remesh(V, F, 400, size_at=[dict(where, length=0.05, radius=0.2)])
+        assert len(result.V) == 400
+        near = result.F[(result.V[result.F, 2] > 0.98).all(axis=1)]
+        assert mean_edge(result.V, near) == pytest.approx(0.05, rel=0.2)
+
+
 def test_bounds_of_all_triangles(organic):
     V, F = organic
     result = remesh.remesh(V, F, 1000, min_angle=25, max_angle=100, longest_edge="3%")
@@ -148,6 +160,8 @@ WRONG_OPTIONS = [
     (dict(min_edge=1), "min_edge, max_edge and gradation bound edges that differ"),
     (dict(adaptive=True, gradation=0.5), "gradation is 0.5"),
     (dict(adaptive=True, sizing=np.ones(1026)), "several of adaptive, sizing, face_sizing and density"),
+    (dict(size_at=[dict(sites=[0])]), "size_at holds .*; give dictionaries with a length"),
+    (dict(size_at=[dict(length=0, sites=[0])]), "length of size_at is 0"),
     (dict(sizing=np.ones(5)), r"sizing has the shape \(5,\) and holds float64, but the mesh has 1026"),
     (dict(sizing="name"), "sizing: the mesh has no values 'name' of vertices; it has: none"),
     (dict(features="sharp"), "features is 'sharp'; use 'auto', 'off' or an angle in degrees"),

@@ -187,6 +187,7 @@ Json to_json(const Sizing& sizing) {
     object["given_target_lengths"] = lengths != nullptr ? lengths->values.size() : 0;
     object["given_face_lengths"] = of_faces != nullptr ? of_faces->values.size() : 0;
     object["given_densities"] = densities != nullptr ? densities->values.size() : 0;
+    object["given_places"] = sizing.places.size();
     object["min_edge_mesh_units"] = sizing.min_edge;
     object["max_edge_mesh_units"] = sizing.max_edge;
     object["gradation"] = sizing.gradation;

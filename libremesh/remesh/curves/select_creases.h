@@ -17,6 +17,7 @@ namespace remesh {
 struct SizedPoint {
     SurfacePoint at;
     double length = 0;  //!< Mesh units.
+    double radius = 0;  //!< Mesh units: so far around it edges have this length.
 };
 
 //! How fast lengths grow beside strips, over the distance.

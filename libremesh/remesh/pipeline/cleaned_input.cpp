@@ -27,7 +27,7 @@ Topology topology_of(const CleanResult& clean, const Progress& progress) {
 // Later stages carry them to the cleaned mesh.
 bool refers_to_input(const RemeshOptions& options) {
     return options.sites || !options.feature_edges.empty() || !options.texture_seams.empty() ||
-           !options.face_labels.empty() ||
+           !options.face_labels.empty() || !options.sizing.places.empty() ||
            !(options.sizing.is_even() || options.sizing.is_adaptive()) || !options.locked.empty() ||
            !options.locked_edges.empty();
 }

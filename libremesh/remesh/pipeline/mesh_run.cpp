@@ -8,6 +8,7 @@
 #include "remesh/pipeline/domain.h"
 #include "remesh/pipeline/mesh_with_curves.h"
 #include "remesh/pipeline/sample_count.h"
+#include "remesh/pipeline/sized_places.h"
 #include "remesh/pipeline/sizes.h"
 #include "remesh/pipeline/stage_context.h"
 #include "remesh/sites/network_plan.h"
@@ -56,9 +57,10 @@ public:
             std::span<const SizedPoint> lengths, const DistanceBound* bound)
         : cleaned_(cleaned),
           options_(given),
-          lengths_(lengths),
+          lengths_(points_of_places(cleaned, given.sizing.places)),
           bound_(bound),
           result_(std::move(after_cleaning)) {
+        lengths_.insert(lengths_.end(), lengths.begin(), lengths.end());
         find_lengths();
         if (sizes_.num_samples != options_.num_samples) {
             options_.num_samples = sizes_.num_samples;
@@ -140,17 +142,18 @@ private:
     }
 
     // Runs once more. Where faces intersect: with the creases that were left out, which may keep
-    // walls apart, and with shorter edges; or without curves if most faces intersect. Where the
+    // walls apart, and with shorter edges; if very many do, without curves. Where the
     // result does not reach a narrow part: with shorter edges there. Other means part the faces of
     // wraps, and their edges are shorter on all narrow parts. Keeps the better result.
     void mend(RemeshResult again, const MadeMesh& made, KeptCurves kept) {
         const bool is_wrap = options_.wrap.has_value();
         const bool crosses = has_own_crossings(result_) && !result_.features.gave_up && !is_wrap;
-        const bool gives_up =
-            crosses && is_crushed(result_) && (has_creases(kept.is_crease) || kept.has_seams);
-        const bool adds_creases = crosses && !gives_up && has_creases(found_.is_close);
-        std::vector<SizedPoint> points(lengths_.begin(), lengths_.end());
-        if (crosses && !gives_up) {
+        const bool is_in_vain = crosses && is_crushed(result_);
+        const bool gives_up = is_in_vain && (has_creases(kept.is_crease) || kept.has_seams);
+        const bool parts = crosses && !is_in_vain;
+        const bool adds_creases = parts && has_creases(found_.is_close);
+        std::vector<SizedPoint> points = lengths_;
+        if (parts) {
             const double length = result_.verdict.spacing / 2;
             for (const SurfacePoint& p : made.crossing_corners) points.push_back({p, length});
         }
@@ -191,7 +194,7 @@ private:
 
     const CleanedInput& cleaned_;
     RemeshOptions options_;
-    std::span<const SizedPoint> lengths_;
+    std::vector<SizedPoint> lengths_;  // Of places, and those given.
     const DistanceBound* bound_;
     RemeshResult result_;
     FoundCurves found_;

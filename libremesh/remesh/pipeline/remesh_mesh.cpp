@@ -62,6 +62,13 @@ void check_sizing(const Sizing& sizing, const MeshView& mesh) {
         check_values("VertexDensities", densities->values, num_vertices, "vertex", "vertices");
     }
     check_count(sizing);
+    for (const SizedPlace& place : sizing.places) {
+        require(
+            place.length > 0 && std::isfinite(place.length),
+            "length of SizedPlace is " + std::to_string(place.length) + "; use a length above 0");
+        require(place.radius >= 0, "radius of SizedPlace is " + std::to_string(place.radius) +
+                                       "; use a length of 0 or more");
+    }
     require(sizing.min_edge >= 0 && sizing.max_edge > 0 && sizing.min_edge <= sizing.max_edge,
             "min_edge is " + std::to_string(sizing.min_edge) + " and max_edge " +
                 std::to_string(sizing.max_edge) +
@@ -83,10 +90,10 @@ void check_wrap(const RemeshOptions& options) {
     if (!options.wrap) return;
     require(*options.wrap >= 0 && std::isfinite(*options.wrap),
             "wrap is " + std::to_string(*options.wrap) + "; use a length of 0 or more");
-    require(!options.sites && options.feature_edges.empty() && options.locked.empty() &&
-                options.locked_edges.empty() && !options.lock_boundary,
-            "wrap is given, and sites, feature_edges or locked elements, which a wrap does not "
-            "have; leave out one of them");
+    require(!options.sites && options.feature_edges.empty() && options.sizing.places.empty() &&
+                options.locked.empty() && options.locked_edges.empty() && !options.lock_boundary,
+            "wrap is given, and sites, feature_edges, places or locked elements, which a wrap does "
+            "not have; leave out one of them");
     require(!std::holds_alternative<MaxDistance>(options.sizing.count),
             "wrap excludes MaxDistance, which is not proved to the mesh that is wrapped");
 }
@@ -129,6 +136,10 @@ void scale_lengths(Sizing& sizing, int exponent) {
     if (auto* mean = std::get_if<MeanEdge>(&sizing.count)) scale(mean->length);
     if (auto* most = std::get_if<MaxError>(&sizing.count)) scale(most->error);
     if (auto* most = std::get_if<MaxDistance>(&sizing.count)) scale(most->distance);
+    for (SizedPlace& place : sizing.places) {
+        scale(place.length);
+        scale(place.radius);
+    }
     scale(sizing.min_edge);
     scale(sizing.max_edge);
 }
@@ -167,8 +178,9 @@ bool is_part(const MeshView& mesh, const RemeshOptions& options) {
             "region has " + std::to_string(region.size()) + " values, but the mesh has " +
                 std::to_string(mesh.triangles.size()) + " faces; give one for each, or none");
     require(!options.sites && !(options.drop_components > 0) && !(options.cleaning.weld > 0) &&
-                options.cleaning.fill_holes == 0 && !options.wrap,
-            "a region is given, and sites, drop_components, weld, fill_holes or wrap as well; "
+                options.cleaning.fill_holes == 0 && options.sizing.places.empty() && !options.wrap,
+            "a region is given, and sites, places, drop_components, weld, fill_holes or wrap as "
+            "well; "
             "leave out one of them");
     if (std::find(region.begin(), region.end(), 0) == region.end()) return false;
     check_options(options, mesh);

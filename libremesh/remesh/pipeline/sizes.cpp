@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
 #include <numbers>
 #include <utility>
 
@@ -161,18 +163,33 @@ std::vector<double> most_lengths_on(const FieldBase& on, const Surface& surface,
     return carry_values(most, on);
 }
 
-// Lowers bounds at the corners of the base's faces, or the ends of its edges, that have points.
+// Lowers bounds at the corners of the base's faces, or the ends of its edges, that have points, and
+// at the vertices in their radius.
 // \param most  #V of the base, or empty: there are no bounds.
-void limit_at_points(const FieldBase& on, std::span<const SizedPoint> points,
+void limit_at_points(const FieldBase& on, std::span<const SizedPoint> points, Ticker& ticker,
                      std::vector<double>& most) {
     if (points.empty()) return;
     const Surface& surface = on.base->surface();
     most.resize(surface.num_vertices(), infinity);
+    std::map<std::pair<double, double>, std::vector<double>> distances;  // By length and radius.
     for (const SizedPoint& point : points) {
         const SurfacePoint at = on.base->to_intrinsic(point.at);
-        for (std::size_t k = 0; k < 3; ++k) {
-            double& here = most[surface.mesh.triangles[at.face.value()][k]];
-            if (at.barycentric[k] > on_edge) here = std::min(here, point.length);
+        const auto lower = [&](std::vector<double>& values, double value) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                double& here = values[surface.mesh.triangles[at.face.value()][k]];
+                if (at.barycentric[k] > on_edge) here = std::min(here, value);
+            }
+        };
+        lower(most, point.length);
+        if (!(point.radius > 0)) continue;
+        std::vector<double>& distance = distances[{point.length, point.radius}];
+        distance.resize(surface.num_vertices(), infinity);
+        lower(distance, std::numeric_limits<double>::min());
+    }
+    for (auto& [place, distance] : distances) {
+        limit_growth(surface, on.joined, 1, Paths::Lines, distance, ticker);
+        for (Index v = 0; v < most.size(); ++v) {
+            if (distance[v] <= place.second) most[v] = std::min(most[v], place.first);
         }
     }
 }
@@ -237,8 +254,8 @@ RunSizes find_sizes(const CleanedInput& cleaned, const FoundCurves& found, doubl
         narrow_points.empty() ? most_lengths_on(on, cleaned.surface, locked, options.num_threads)
                               : narrow_lengths(*on.base, narrow_points, on.joined, spacing,
                                                num_sites, portable::log(sizing.gradation), ticker);
-    limit_at_points(on, found.strips, most);
-    limit_at_points(on, short_points, most);
+    limit_at_points(on, found.strips, ticker, most);
+    limit_at_points(on, short_points, ticker, most);
     if (!found.strips.empty()) {
         sizing.gradation = std::max(sizing.gradation, gradation_for(strip_slope));
     }

@@ -5,6 +5,7 @@
 //! of Sizing and Bounds in tests/remesh/pipeline.
 #pragma once
 
+#include <array>
 #include <variant>
 #include <vector>
 
@@ -53,18 +54,29 @@ struct MaxDistance {
 //! VertexLengths or FaceLengths count as they are, not scaled.
 struct CountOfLengths {};
 
+//! A part of the caller's mesh where edges have a length. They grow from there along the surface.
+struct SizedPlace {
+    std::vector<SurfacePoint> points = {};
+    std::vector<std::array<Index, 2>> edges = {};  //!< Pairs of vertices.
+    std::vector<Index> faces = {};
+    double length = 0;  //!< > 0, mesh units; not scaled to the number of vertices.
+    double radius = 0;  //!< >= 0, mesh units: edges have this length so far around it.
+};
+
 //! Where edges are how long, and what gives their number. `{}` gives even edges.
 struct Sizing {
     //! Where edges are how long.
     std::variant<EvenEdges, AdaptiveEdges, VertexLengths, FaceLengths, VertexDensities> edges = {};
     //! What gives the number of vertices.
     std::variant<NumSamples, MeanEdge, NumFaces, MaxError, MaxDistance, CountOfLengths> count = {};
+    //! Where edges are shorter than these lengths say.
+    std::vector<SizedPlace> places = {};
     double min_edge = 0;         //!< >= 0, mesh units: no target is shorter ...
     double max_edge = infinity;  //!< ... or longer.
     //! >= 1. Over a distance d targets grow by at most d times its logarithm.
     double gradation = 1.3;
 
-    //! Whether `edges` is EvenEdges.
+    //! Whether `edges` is EvenEdges; there may be places all the same.
     [[nodiscard]] bool is_even() const { return std::holds_alternative<EvenEdges>(edges); }
     //! Whether `edges` is AdaptiveEdges.
     [[nodiscard]] bool is_adaptive() const { return std::holds_alternative<AdaptiveEdges>(edges); }

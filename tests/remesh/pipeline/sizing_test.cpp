@@ -295,3 +295,114 @@ TEST(Sizing, WrongOptionsAreRefused) {
         EXPECT_THROW((void)remesh::remesh(mesh.view(), {.sizing = sizing}), agvd::InvalidOption);
     }
 }
+
+namespace {
+
+// The mean edge of the triangles whose corners all lie in a box.
+double mean_edge_in(const TriangleMesh& mesh, const agvd::MeshBox& box) {
+    double sum = 0, count = 0;
+    for (const Triangle& t : mesh.triangles) {
+        const bool is_inside = std::ranges::all_of(t, [&](Index v) {
+            const Vec3& p = mesh.positions[v];
+            return (p.array() >= box.low.array()).all() && (p.array() <= box.high.array()).all();
+        });
+        for (std::size_t k = 0; is_inside && k < 3; ++k) {
+            sum += (mesh.positions[t[k]] - mesh.positions[t[(k + 1) % 3]]).norm();
+            ++count;
+        }
+    }
+    return sum / count;
+}
+
+agvd::MeshBox box_around(const Vec3& middle, double reach) {
+    agvd::MeshBox box;
+    box.add(middle - Vec3::Constant(reach));
+    box.add(middle + Vec3::Constant(reach));
+    return box;
+}
+
+// A plate of 2 x 2 whose sides are .02 apart, and the vertex in the middle of its top.
+std::pair<TriangleMesh, Index> plate_and_middle() {
+    TriangleMesh plate = parts::box({1, 1, 1}, 16);
+    Index middle = 0;
+    double least = 1e9;
+    for (Index v = 0; v < plate.positions.size(); ++v) {
+        Vec3& p = plate.positions[v];
+        p = p.cwiseProduct(Vec3(2, 2, 0.02));
+        const double distance = (p - Vec3(1, 1, 0.02)).norm();
+        if (distance < least) middle = v;
+        least = std::min(least, distance);
+    }
+    return {std::move(plate), middle};
+}
+
+}  // namespace
+
+// Edges grow along the surface: those on the other side of the plate stay long.
+TEST(Sizing, PlacesShortenEdgesOnTheirSideOfAWall) {
+    const auto [plate, middle] = plate_and_middle();
+    const agvd::Surface surface = agvd::build_surface(plate.view());
+    const Vec3 top = plate.positions[middle];
+    remesh::SizedPlace place{.points = {agvd::point_at(surface, middle)}, .length = 0.03};
+    for (const double radius : {0.0, 0.25}) {
+        place.radius = radius;
+        const RemeshOptions options{.num_samples = 1500, .sizing = {.places = {place}}};
+        const RemeshResult result = remesh::remesh(plate.view(), options);
+        EXPECT_EQ(result.mesh.positions.size(), 1500u);
+        const agvd::MeshBox near = box_around(top + Vec3(0, 0, 0.015), radius > 0 ? 0.2 : 0.1);
+        agvd::MeshBox above = near;
+        above.low.z() = 0.011;
+        const double on_top = mean_edge_in(result.mesh, above);
+        EXPECT_GT(on_top, 0.027);
+        EXPECT_LT(on_top, radius > 0 ? 0.036 : 0.055);
+        agvd::MeshBox below = box_around(top - Vec3(0, 0, 0.02), 0.4);
+        below.high.z() = 0.009;
+        EXPECT_GT(mean_edge_in(result.mesh, below), 0.08);
+    }
+}
+
+TEST(Sizing, PlacesAreLinesAndRegions) {
+    const TriangleMesh grid = shapes::grid(16);  // Of the unit square.
+    const Index edge = 7;
+    const auto result_for = [&](const remesh::SizedPlace& place) {
+        return remesh::remesh(grid.view(), {.num_samples = 600, .sizing = {.places = {place}}});
+    };
+    const Triangle& t = grid.triangles[edge];
+    const Vec3 &a = grid.positions[t[0]], &b = grid.positions[t[1]];
+    const Vec3 middle = (a + b) / 2;
+    const double even = remesh::remesh(grid.view(), {.num_samples = 600}).sizing.mean_edge;
+    for (const remesh::SizedPlace& place :
+         {remesh::SizedPlace{.edges = {{t[1], t[0]}}, .length = 0.3 * even},
+          remesh::SizedPlace{.faces = {edge}, .length = 0.3 * even}}) {
+        const RemeshResult result = result_for(place);
+        EXPECT_NEAR(result.sizing.least_target, 0.3 * even, 0.02 * even);
+        EXPECT_LT(mean_edge_in(result.mesh, box_around(middle, 1.2 * even)), 0.6 * even);
+    }
+    EXPECT_THROW((void)result_for({.edges = {{0, 289 - 1}}, .length = 0.1}), agvd::InvalidInput);
+    EXPECT_THROW((void)result_for({.faces = {9999}, .length = 0.1}), agvd::InvalidInput);
+    EXPECT_THROW((void)result_for({.faces = {0}}), agvd::InvalidOption);
+    EXPECT_THROW((void)result_for({.faces = {0}, .length = 1, .radius = -1}), agvd::InvalidOption);
+    RemeshOptions wrapped{.sizing = {.places = {{.faces = {0}, .length = 0.1}}}};
+    wrapped.wrap = 0;
+    EXPECT_THROW((void)remesh::remesh(grid.view(), wrapped), agvd::InvalidOption);
+}
+
+TEST(Sizing, PlacesScaleWithTheMesh) {
+    const TriangleMesh ball = shapes::sphere(4);
+    const agvd::Surface surface = agvd::build_surface(ball.view());
+    const RemeshOptions options{
+        .num_samples = 400,
+        .sizing = {
+            .places = {{.points = {agvd::point_at(surface, 5)}, .length = 0.05, .radius = 0.2}}}};
+    const RemeshResult one = remesh::remesh(ball.view(), options);
+    EXPECT_GT(one.sizing.low_ratio, 0.78);
+    EXPECT_LT(one.sizing.high_ratio, 1.28);
+    RemeshOptions large = options;
+    large.sizing.places[0].length = std::ldexp(0.05, 700);
+    large.sizing.places[0].radius = std::ldexp(0.2, 700);
+    TriangleMesh scaled = ball;
+    for (Vec3& p : scaled.positions) p *= std::ldexp(1, 700);
+    const RemeshResult other = remesh::remesh(scaled.view(), large);
+    EXPECT_EQ(one.mesh.triangles, other.mesh.triangles);
+    EXPECT_NEAR(one.sizing.least_target, 0.05, 1e-3);
+}

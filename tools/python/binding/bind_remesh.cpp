@@ -219,6 +219,21 @@ void bind_remesh(py::module_& module) {
         },
         py::arg("values").noconvert());
     options.def(
+        "add_place",
+        [](RemeshOptions& self, const Indices& faces, const Doubles& places,
+           const std::vector<Indices>& lines, const std::vector<Indices>& regions, double length,
+           double radius) {
+            remesh::SizedPlace place{
+                .points = points_of(faces, places), .length = length, .radius = radius};
+            for (const remesh::GivenShape& shape : shapes_of(lines, regions, 0)) {
+                place.edges.insert(place.edges.end(), shape.edges.begin(), shape.edges.end());
+                place.faces.insert(place.faces.end(), shape.faces.begin(), shape.faces.end());
+            }
+            self.sizing.places.push_back(std::move(place));
+        },
+        py::arg("faces").noconvert(), py::arg("barycentric").noconvert(), py::arg("lines"),
+        py::arg("regions"), py::arg("length"), py::arg("radius"));
+    options.def(
         "set_densities",
         [](RemeshOptions& self, const Doubles& values) {
             self.sizing.edges = remesh::VertexDensities{vector_of(values)};

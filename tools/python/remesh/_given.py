@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from . import _arrays, _kinds, _remesh
+from . import _arrays, _kinds, _options, _remesh
 from ._remesh import InvalidInput, InvalidOption, InvalidSites
 from ._stages import take_sites
 
@@ -22,6 +22,24 @@ def all_sites(mesh: _kinds.Given, sites: Any, groups: Any, weights: Any, lines: 
         faces, barycentric = take_sites(mesh, sites)
     return _remesh.GivenSites(faces, barycentric, _groups(groups, len(faces), num_shapes),
                               _weights(weights, len(faces), num_shapes), *shapes)
+
+
+def set_places(options: _remesh.Options, mesh: _kinds.Given, size_at: Any) -> None:
+    """Says where edges have which length: see remesh()."""
+    for place in [] if size_at is None else size_at:
+        known = {"sites", "lines", "regions", "length", "radius"}
+        if not isinstance(place, dict) or "length" not in place or not known.issuperset(place):
+            raise InvalidOption(f"size_at holds {place!r}; give dictionaries with a length, one or "
+                                "more of sites, lines and regions, and maybe a radius")
+        sites, lines, regions = (place.get(name) for name in ("sites", "lines", "regions"))
+        if sites is None and (lines is not None or regions is not None):
+            points = np.empty(0, np.uint32), np.empty((0, 3))
+        else:
+            points = take_sites(mesh, sites)
+        radius = place.get("radius", 0)
+        options.add_place(*points, *_shapes(mesh, lines, regions),
+                          _options.length(mesh, place["length"], "length of size_at"),
+                          0 if radius == 0 else _options.length(mesh, radius, "radius of size_at"))
 
 
 def surface_of(mesh: _kinds.Given, barriers: Any, edge_lengths: Any,

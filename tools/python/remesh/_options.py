@@ -51,14 +51,14 @@ def only_one(**given: Any) -> None:
 
 
 def set_sizing(options: _remesh.Options, mesh: _kinds.Given, *, has_count: bool, adaptive: bool,
-               sizing: Any, face_sizing: Any, density: Any, max_distance: Any, min_edge: Any,
-               max_edge: Any, gradation: Any) -> None:
+               sizing: Any, face_sizing: Any, density: Any, size_at: Any, max_distance: Any,
+               min_edge: Any, max_edge: Any, gradation: Any) -> None:
     """Says where edges are how long."""
-    differs = adaptive or any(v is not None for v in (sizing, face_sizing, density, max_distance))
+    differs = adaptive or any(v is not None for v in (sizing, face_sizing, density, size_at, max_distance))
     if not differs and any(v is not None for v in (min_edge, max_edge, gradation)):
         raise InvalidOption("min_edge, max_edge and gradation bound edges that differ; add "
-                            "adaptive, max_distance, sizing, face_sizing or density, or leave "
-                            "them out")
+                            "adaptive, max_distance, sizing, face_sizing, size_at or density, or "
+                            "leave them out")
     has_values = [v is not None for v in (sizing, face_sizing, density)]
     if sum(has_values) + bool(adaptive) > 1:
         raise InvalidOption("several of adaptive, sizing, face_sizing and density are given; use "

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _arrays, _kinds, _options, _page, _remesh, _transfer
+from . import _arrays, _given, _kinds, _options, _page, _remesh, _transfer
 from ._arguments import checked
 from ._remesh import InvalidOption
 from ._stages import Progress
@@ -100,6 +100,7 @@ def remesh(
     sizing: Any = None,
     face_sizing: Any = None,
     density: Any = None,
+    size_at: Any = None,
     min_edge: Any = None,
     max_edge: Any = None,
     gradation: Any = None,
@@ -162,6 +163,10 @@ def remesh(
     - ``face_sizing``: likewise, at each face (#F numbers, or the name of values of the mesh), such
       as ``np.where(labels == 3, 0.05, 0.2)``.
     - ``density``: likewise, vertices per area in any unit.
+    - ``size_at``: places where edges have a length, a dictionary each: ``length`` (mesh units or
+      percent of the diagonal), and one or more of ``sites``, ``lines`` and ``regions`` as in
+      voronoi(); with ``radius`` up to this distance around them. From there edges grow by
+      ``gradation`` along the surface.
     - ``min_edge``, ``max_edge``, ``gradation`` (1.3): bounds of edges that differ.
 
     Bounds of all triangles; ConstraintUnmet where they cannot be kept:
@@ -256,8 +261,10 @@ def remesh(
         options.set_max_distance(_options.length(mesh, max_distance, "max_distance"))
     has_count = any(v is not None for v in (n, n_clusters, faces, edge_length, max_distance, sites))
     _options.set_sizing(options, mesh, has_count=has_count, adaptive=adaptive, sizing=sizing,
-                        face_sizing=face_sizing, density=density, max_distance=max_distance,
-                        min_edge=min_edge, max_edge=max_edge, gradation=gradation)
+                        face_sizing=face_sizing, density=density, size_at=size_at,
+                        max_distance=max_distance, min_edge=min_edge, max_edge=max_edge,
+                        gradation=gradation)
+    _given.set_places(options, mesh, size_at)
     _options.set_bounds(options, mesh, min_angle, max_angle, longest_edge)
     _options.set_features(options, mesh, features, feature_edges, face_labels)
     _options.set_sites(options, mesh, sites, keep_sites)
