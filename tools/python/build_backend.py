@@ -1,7 +1,7 @@
-"""Lets pip build and install the Python module: `pip install --no-build-isolation .`
+"""Lets pip build and install the Python module: `pip install --no-build-isolation .`, or `pip wheel`
 
 CMake does the work, in build/pip; a second run compiles what has changed. Only the standard library
-is needed. Options for CMake come from the environment variable REMESH_CMAKE_ARGS, such as
+is needed. The wheel holds the program `remesh`, and the shared libraries that not every Linux has. Options for CMake come from the environment variable REMESH_CMAKE_ARGS, such as
 `-DAGVD_WITH_CGAL=OFF`, and are split as a shell would.
 """
 
@@ -21,6 +21,8 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 BUILD = ROOT / "build" / "pip"
 NAME = "remesh"
+# Shared libraries that a Python with NumPy has already.
+EVERYWHERE = re.compile(r"ld-linux|linux-vdso|lib(c|m|dl|rt|pthread|gcc_s|stdc\+\+)\.so")
 
 
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
@@ -51,17 +53,33 @@ def _configure():
     generator = ["-G", "Ninja"] if shutil.which("ninja") else []
     # The same as release, but for what the module does not need.
     subprocess.run(["cmake", *generator, "-S", ROOT, "-B", BUILD, "-DCMAKE_BUILD_TYPE=Release",
-                    "-DAGVD_BUILD_PYTHON=ON", "-DAGVD_BUILD_TOOLS=OFF", "-DAGVD_BUILD_TESTS=OFF",
+                    "-DAGVD_BUILD_PYTHON=ON", "-DAGVD_BUILD_TOOLS=ON", "-DAGVD_BUILD_TESTS=OFF",
                     "-DAGVD_INSTALL=OFF", "-DAGVD_PYTHON_DIR=.", f"-DPython_EXECUTABLE={sys.executable}",
                     *shlex.split(os.environ.get("REMESH_CMAKE_ARGS", ""))], check=True)
 
 
 def _install(staging):
-    """Builds the libraries and the module, and puts the package into a folder."""
+    """Builds the module and the program, and puts the package into a folder."""
     jobs = os.environ.get("CMAKE_BUILD_PARALLEL_LEVEL", str(os.cpu_count() or 1))
-    subprocess.run(["cmake", "--build", BUILD, "--target", "remesh_python", "-j", jobs], check=True)
+    subprocess.run(["cmake", "--build", BUILD, "--target", "remesh_python", "remesh_program", "-j",
+                    jobs], check=True)
     subprocess.run(["cmake", "--install", BUILD, "--component", "python", "--strip",
                     "--prefix", staging], check=True)
+    package = staging / NAME
+    program = package / "bin" / NAME
+    program.parent.mkdir()
+    shutil.copy(BUILD / "tools" / NAME, program)
+    subprocess.run(["strip", program], check=True)
+    for binary in [program, *package.glob("*.so")]:
+        for library in _libraries_of(binary):
+            shutil.copy(library, package)
+
+
+def _libraries_of(binary):
+    """The files of the shared libraries that it needs and not every Linux has."""
+    listed = subprocess.run(["ldd", binary], check=True, capture_output=True, text=True).stdout
+    found = re.findall(r"^\s*(\S+) => (\S+)", listed, re.MULTILINE)
+    return [path for name, path in found if not EVERYWHERE.match(name)]
 
 
 def _version():

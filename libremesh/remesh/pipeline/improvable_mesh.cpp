@@ -207,16 +207,20 @@ void part_faces(const CurvedSurface& curved, CrossingFinder& finder, PlacedMesh&
         crossings = std::move(left);
         return true;
     };
-    const auto push = [&](const FacePairs& pairs, std::span<const Mobility> mobility,
-                          PlacedMesh& parted) {
-        return push_apart(curves, mobility, pairs, parted, progress);
-    };
     const auto repair = [&](const FacePairs& pairs, std::span<const Mobility> mobility,
                             PlacedMesh& parted) {
         return !repair_crossings(curves, mobility, pairs, parted, progress).empty();
     };
-    (void)try_edits(push);
-    for (int round = 0; round < most_partings && try_edits(repair); ++round) {
+    // Creases are left last. The sheets of wraps are so thin that needles would come of it.
+    for (const Mobility most : {Mobility::Free, Mobility::Boundary}) {
+        const auto push = [&](const FacePairs& pairs, std::span<const Mobility> mobility,
+                              PlacedMesh& parted) {
+            return push_apart(curves, mobility, pairs, most, parted, progress);
+        };
+        const bool is_pushed = !context.options.wrap && try_edits(push);
+        if (most == Mobility::Boundary && !is_pushed) return;
+        for (int round = 0; round < most_partings && try_edits(repair); ++round) {
+        }
     }
 }
 

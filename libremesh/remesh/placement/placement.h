@@ -120,11 +120,12 @@ std::vector<Index> keep_bounds(const detail::MeshCurves& curves,
 //! Moves vertices of intersecting faces off the surface, away from a sheet that faces them, as long
 //! as fewer pairs intersect. Those on the rim stay.
 //! \param pairs  of faces that intersect.
+//! \param most   Free: those on creases stay as well; or Boundary.
 //! \return whether any have moved. Cost: O(#surface log #surface), and some queries for each corner.
 //! \throw Cancelled  the progress callback returned false; `mesh` is unchanged.
 bool push_apart(const detail::MeshCurves& curves, std::span<const detail::Mobility> mobility,
-                std::span<const std::pair<Index, Index>> pairs, PlacedMesh& mesh,
-                const Progress& progress = {});
+                std::span<const std::pair<Index, Index>> pairs, detail::Mobility most,
+                PlacedMesh& mesh, const Progress& progress = {});
 
 //! Edits faces that intersect until they do not, with their number of vertices kept, as by
 //! repair_shape().

@@ -30,8 +30,13 @@ constexpr double least_cosine = 0.5;
 
 class SheetPush {
 public:
-    SheetPush(EditedMesh& mesh, const Surface& surface, Ticker& ticker)
-        : mesh_(mesh), surface_(surface), tree_(surface.mesh), guard_(mesh), ticker_(ticker) {}
+    SheetPush(EditedMesh& mesh, const Surface& surface, Mobility most, Ticker& ticker)
+        : mesh_(mesh),
+          most_(most),
+          surface_(surface),
+          tree_(surface.mesh),
+          guard_(mesh),
+          ticker_(ticker) {}
 
     void run(std::vector<Index> faces) {
         double step = first_step;
@@ -63,7 +68,7 @@ private:
     }
     void push(Index v, double step) {
         ticker_.tick(100);
-        if (mesh_.mobility(v) >= Mobility::Node || mesh_.is_on_rim(v)) return;
+        if (mesh_.mobility(v) > most_ || mesh_.is_on_rim(v)) return;
         const auto [away, is_new] = away_.try_emplace(v, Vec3::Zero());
         if (is_new) away->second = find_way(v);
         if (away->second.isZero(0)) return;
@@ -99,6 +104,7 @@ private:
     }
 
     EditedMesh& mesh_;
+    const Mobility most_;  // Of vertices that move.
     const Surface& surface_;
     const ClosestPointTree tree_;
     CrossingGuard<EditedMesh> guard_;
@@ -109,7 +115,7 @@ private:
 }  // namespace
 
 bool push_apart(const detail::MeshCurves& curves, std::span<const Mobility> mobility,
-                std::span<const std::pair<Index, Index>> pairs, PlacedMesh& mesh,
+                std::span<const std::pair<Index, Index>> pairs, Mobility most, PlacedMesh& mesh,
                 const Progress& progress) {
     Poller poller(progress);
     Ticker ticker(poller);
@@ -117,7 +123,7 @@ bool push_apart(const detail::MeshCurves& curves, std::span<const Mobility> mobi
     const EditedMesh::Mark start = edited.mark();
     std::vector<Index> faces;
     for (const auto& [f, g] : pairs) faces.insert(faces.end(), {f, g});
-    SheetPush(edited, curves.whole(), ticker).run(distinct(std::move(faces)));
+    SheetPush(edited, curves.whole(), most, ticker).run(distinct(std::move(faces)));
     for (Index v = 0; v < mesh.offsets.size(); ++v) mesh.offsets[v] = edited.offset(v);
     return edited.mark().faces > start.faces;
 }

@@ -202,7 +202,7 @@ TEST(SelectCreases, TheRimsOfAThinPlateStayWhereShorterEdgesAreWorthTheirVertice
     const Rims rims(thickness, spacing, 600);
     EXPECT_EQ(rims.left, rims.plate.all);
     ASSERT_FALSE(rims.strips.empty());
-    for (const auto& [at, length] : rims.strips) {
+    for (const auto& [at, length, radius] : rims.strips) {
         EXPECT_NEAR(length, 3 * thickness, 0.2 * thickness);
         const double z = position(rims.plate.surface.mesh.view(), at).z();
         EXPECT_NEAR(std::min(std::abs(z), std::abs(z - thickness)), 0, 1e-12);

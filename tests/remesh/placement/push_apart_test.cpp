@@ -52,8 +52,8 @@ Pairs find_pairs(const MovableMesh& mesh) {
     return found;
 }
 
-bool push(MovableMesh& mesh, const Pairs& pairs) {
-    return push_apart(mesh.curves(), mesh.mobility, pairs, mesh.placed);
+bool push(MovableMesh& mesh, const Pairs& pairs, Mobility most = Mobility::Boundary) {
+    return push_apart(mesh.curves(), mesh.mobility, pairs, most, mesh.placed);
 }
 
 // How far a vertex of one of the spheres is moved away from the center.
@@ -95,4 +95,13 @@ TEST(PushApart, FixedVerticesAndFacesOfOtherPairsStay) {
     EXPECT_TRUE(push(shell, pairs));
     for (Index v = 0; v < half; ++v) EXPECT_EQ(shell.placed.offsets[v], Vec3::Zero()) << v;
     EXPECT_LT(find_pairs(shell).size(), pairs.size());
+}
+
+TEST(PushApart, VerticesOnCurvesMoveIfAsked) {
+    MovableMesh shell = coarse_mesh(0.98, true);
+    const Pairs pairs = find_pairs(shell);
+    std::ranges::fill(shell.mobility, Mobility::Boundary);
+    EXPECT_FALSE(push(shell, pairs, Mobility::Free));
+    EXPECT_TRUE(push(shell, pairs, Mobility::Boundary));
+    EXPECT_TRUE(find_pairs(shell).empty());
 }

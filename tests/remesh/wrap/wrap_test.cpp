@@ -185,5 +185,5 @@ TEST(Wrap, OptionsThatNameElementsOfTheMeshAreRefused) {
               std::string::npos);
     RemeshOptions near{.wrap = 0};
     near.sizing = {.edges = remesh::AdaptiveEdges{}, .count = remesh::MaxDistance{0.1}};
-    EXPECT_NE(refusal_of(cube, near).find("max_distance"), std::string::npos);
+    EXPECT_NE(refusal_of(cube, near).find("MaxDistance"), std::string::npos);
 }
