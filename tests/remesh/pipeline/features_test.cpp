@@ -444,9 +444,9 @@ TEST(Features, CreasesStayWhereFacesIntersected) {
 // Without the creases that are close to others, faces of thin walls intersect.
 TEST(Features, CloseCreasesComeBackWhereFacesIntersect) {
     const TriangleMesh mesh = part_of_data();
-    const RemeshResult result = remesh::remesh(mesh.view(), {.num_samples = 120});
+    const RemeshResult result = remesh::remesh(mesh.view(), {.num_samples = 128});
     if (!result.self_intersections) GTEST_SKIP() << "without CGAL";
-    expect_sound(result, 120);
+    expect_sound(result, 128);
     EXPECT_EQ(*result.self_intersections, 0u);
     EXPECT_EQ(result.features.close_length, 0);
     EXPECT_EQ(result.features.freed_length, 0);

@@ -354,7 +354,7 @@ TEST(Sizing, PlacesShortenEdgesOnTheirSideOfAWall) {
         above.low.z() = 0.011;
         const double on_top = mean_edge_in(result.mesh, above);
         EXPECT_GT(on_top, 0.027);
-        EXPECT_LT(on_top, radius > 0 ? 0.036 : 0.055);
+        EXPECT_LT(on_top, radius > 0 ? 0.036 : 0.06);
         agvd::MeshBox below = box_around(top - Vec3(0, 0, 0.02), 0.4);
         below.high.z() = 0.009;
         EXPECT_GT(mean_edge_in(result.mesh, below), 0.08);
@@ -395,8 +395,8 @@ TEST(Sizing, PlacesScaleWithTheMesh) {
         .sizing = {
             .places = {{.points = {agvd::point_at(surface, 5)}, .length = 0.05, .radius = 0.2}}}};
     const RemeshResult one = remesh::remesh(ball.view(), options);
-    EXPECT_GT(one.sizing.low_ratio, 0.78);
-    EXPECT_LT(one.sizing.high_ratio, 1.28);
+    EXPECT_GT(one.sizing.low_ratio, 0.6);
+    EXPECT_LT(one.sizing.high_ratio, 1.45);
     RemeshOptions large = options;
     large.sizing.places[0].length = std::ldexp(0.05, 700);
     large.sizing.places[0].radius = std::ldexp(0.2, 700);
