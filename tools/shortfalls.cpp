@@ -107,6 +107,14 @@ void warn_of_bounds(const remesh::SizingResult& sizes, const remesh::Sizing& wan
     if (sizes.largest_target > 0 && sizes.least_target < (1 - tolerance) * wanted.min_edge) {
         warnings.push_back(count + "many for --min-edge; use fewer, or shorter edges");
     }
+    if (wanted.places.empty()) return;
+    const double length =
+        std::ranges::min_element(wanted.places, {}, &remesh::SizedPlace::length)->length;
+    if (sizes.least_target > (1 + tolerance) * length) {
+        warnings.push_back(count +
+                           "few for --size-at; use more, longer edges, or a larger "
+                           "--gradation");
+    }
 }
 
 void warn_of_seams(const remesh::FeatureCounts& counts, Warnings& warnings) {

@@ -228,11 +228,12 @@ TEST_F(Remesh, EdgesAreShortAtPlacesOfAFile) {
     const std::string places = put("a:b.txt", "p 0 0 1\nr 3 4  # a region\n" + line + "\n");
     const auto counts = [&](const std::string& value) {
         const auto outcome =
-            remesh({in, at("out.off"), "-n", "500", "--size-at", value, "--report", "-"});
+            remesh({in, at("out.off"), "-n", "1500", "--size-at", value, "--report", "-"});
         EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        EXPECT_EQ(outcome.err.find("warning"), std::string::npos) << outcome.err;
         const auto report = nlohmann::json::parse(outcome.out);
         EXPECT_EQ(report["options"]["sizing"]["given_places"], 1);
-        EXPECT_EQ(report["output_vertices"], 500);
+        EXPECT_EQ(report["output_vertices"], 1500);
         EXPECT_NEAR(report["sizing"]["least_target_mesh_units"], 0.04, 0.002);
         const auto near_pole = [](const agvd::Vec3& p) { return p.z() > std::cos(0.3); };
         return std::ranges::count_if(remesh::read_mesh(at("out.off")).mesh.positions, near_pole);
@@ -240,6 +241,8 @@ TEST_F(Remesh, EdgesAreShortAtPlacesOfAFile) {
     const auto at_point = counts(places + ":0.04"), around = counts(places + ":0.04:0.3");
     EXPECT_GT(at_point, 20);
     EXPECT_GT(around, 3 * at_point / 2);
+    const auto few = remesh({in, at("out.off"), "-n", "100", "--size-at", places + ":0.01"});
+    EXPECT_NE(few.err.find("100 vertices are too few for --size-at"), std::string::npos) << few.err;
     for (const char* wrong :
          {"places.txt", ":1", "places.txt:", "places.txt:0", "places.txt:1:0"}) {
         const auto outcome = remesh({in, at("never.off"), "--size-at", wrong});

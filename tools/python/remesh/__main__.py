@@ -23,4 +23,5 @@ def main() -> None:
     os.execve(program, ["remesh", *sys.argv[1:]], environment)
 
 
-main()
+if __name__ == "__main__":
+    main()
