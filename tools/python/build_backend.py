@@ -70,9 +70,9 @@ def _install(staging):
     program.parent.mkdir()
     shutil.copy(BUILD / "tools" / NAME, program)
     subprocess.run(["strip", program], check=True)
-    for binary in [program, *package.glob("*.so")]:
-        for library in _libraries_of(binary):
-            shutil.copy(library, package)
+    binaries = [program, *package.glob("*.so")]
+    for library in {path for binary in binaries for path in _libraries_of(binary)}:
+        shutil.copy(library, package)
 
 
 def _libraries_of(binary):
