@@ -50,7 +50,7 @@ void add_edges(const MeshView& mesh, const std::vector<std::array<Index, 2>>& ed
             if (at == wanted.end() || *at != std::array{std::min(from, to), std::max(from, to)}) {
                 continue;
             }
-            if (std::exchange(is_found[at - wanted.begin()], 1) != 0) continue;
+            if (std::exchange(is_found[static_cast<Index>(at - wanted.begin())], 1) != 0) continue;
             const Index parts = parts_of((mesh.positions[to] - mesh.positions[from]).norm(), step);
             for (Index i = 0; i <= parts; ++i) {
                 SurfacePoint point{FaceId(f), {0, 0, 0}};
@@ -62,7 +62,7 @@ void add_edges(const MeshView& mesh, const std::vector<std::array<Index, 2>>& ed
     }
     const auto missing = std::ranges::find(is_found, 0);
     if (missing == is_found.end()) return;
-    const auto& [from, to] = wanted[missing - is_found.begin()];
+    const auto& [from, to] = wanted[static_cast<Index>(missing - is_found.begin())];
     throw InvalidInput("a place of given length: vertices " + index_text(from) + " and " +
                        index_text(to) + " are not joined by an edge; use edges of the mesh");
 }
