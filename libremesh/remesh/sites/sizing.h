@@ -56,9 +56,9 @@ struct CountOfLengths {};
 
 //! A part of the caller's mesh where edges have a length. They grow from there along the surface.
 struct SizedPlace {
-    std::vector<SurfacePoint> points = {};
+    std::vector<SurfacePoint> points = {};         //!< In any order.
     std::vector<std::array<Index, 2>> edges = {};  //!< Pairs of vertices.
-    std::vector<Index> faces = {};
+    std::vector<Index> faces = {};                 //!< With all that lies in them.
     double length = 0;  //!< > 0, mesh units; not scaled to the number of vertices.
     double radius = 0;  //!< >= 0, mesh units: edges have this length so far around it.
 };
