@@ -105,3 +105,12 @@ TEST(PushApart, VerticesOnCurvesMoveIfAsked) {
     EXPECT_TRUE(push(shell, pairs, Mobility::Boundary));
     EXPECT_TRUE(find_pairs(shell).empty());
 }
+
+TEST(PushApart, VerticesOnTheRimStay) {
+    MovableMesh shell = coarse_mesh(0.98, true);
+    const Triangle gone = shell.placed.triangles[0];
+    shell.placed.triangles.erase(shell.placed.triangles.begin());
+    EXPECT_TRUE(push(shell, find_pairs(shell)));
+    for (const Index v : gone) EXPECT_EQ(shell.placed.offsets[v], Vec3::Zero()) << v;
+    EXPECT_LT(find_pairs(shell).size(), 8u);
+}

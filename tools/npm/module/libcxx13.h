@@ -214,13 +214,24 @@ template <typename Range, typename Order = less, typename Projection = identity>
 void stable_sort(Range&& range, Order order = {}, Projection projection = {}) {
     std::stable_sort(std::begin(range), std::end(range), detail::projected(order, projection));
 }
+template <typename Range, typename Old, typename New>
+constexpr void replace(Range&& range, const Old& before, const New& after) {
+    std::replace_if(
+        std::begin(range), std::end(range), [&](const auto& element) { return element == before; },
+        after);
+}
+template <typename Range, typename Value, typename Order = less, typename Projection = identity>
+constexpr auto lower_bound(Range&& range, const Value& value, Order order = {},
+                           Projection projection = {}) {
+    return std::lower_bound(std::begin(range), std::end(range), value,
+                            [&](const auto& element, const Value& wanted) {
+                                return order(std::invoke(projection, element), wanted);
+                            });
+}
 template <typename Range, typename Value, typename Order = less, typename Projection = identity>
 constexpr bool binary_search(const Range& range, const Value& value, Order order = {},
                              Projection projection = {}) {
-    const auto found = std::lower_bound(std::begin(range), std::end(range), value,
-                                        [&](const auto& element, const Value& wanted) {
-                                            return order(std::invoke(projection, element), wanted);
-                                        });
+    const auto found = ranges::lower_bound(range, value, order, projection);
     return found != std::end(range) && !order(value, std::invoke(projection, *found));
 }
 template <typename Range, typename Order = less, typename Projection = identity>
@@ -229,8 +240,29 @@ constexpr auto min_element(Range&& range, Order order = {}, Projection projectio
                             detail::projected(order, projection));
 }
 template <typename Range>
+constexpr auto max_element(Range&& range) {
+    return std::max_element(std::begin(range), std::end(range));
+}
+template <typename Range>
 constexpr auto max(const Range& range) {
-    return *std::max_element(std::begin(range), std::end(range));
+    return *ranges::max_element(range);
+}
+template <typename Range, typename Order = less, typename Projection = identity>
+constexpr auto min(const Range& range, Order order = {}, Projection projection = {}) {
+    return *ranges::min_element(range, order, projection);
+}
+template <typename Range>
+constexpr auto minmax(const Range& range) {
+    const auto [least, most] = std::minmax_element(std::begin(range), std::end(range));
+    return std::pair(*least, *most);
+}
+template <typename Range, typename Out, typename Test>
+constexpr void copy_if(const Range& range, Out out, Test test) {
+    std::copy_if(std::begin(range), std::end(range), out, test);
+}
+template <typename Range, typename Out>
+constexpr void set_difference(const Range& a, const Range& b, Out out) {
+    std::set_difference(std::begin(a), std::end(a), std::begin(b), std::end(b), out);
 }
 
 }  // namespace ranges
