@@ -27,6 +27,11 @@ struct CrossingFaces {
     }
 };
 
+//! Whether so many faces are bad, or pairs of faces intersect, that creases are in vain.
+[[nodiscard]] inline bool are_too_many(std::size_t num_bad, std::size_t num_faces) {
+    return 4 * num_bad > num_faces;
+}
+
 //! Whether faces intersect, and most of these pairs do not follow from the input's.
 [[nodiscard]] inline bool are_mostly_added(const CrossingCounts& pairs) {
     return pairs.added > 0 && 2 * pairs.added >= pairs.all;

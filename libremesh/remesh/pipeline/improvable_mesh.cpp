@@ -21,8 +21,6 @@ constexpr int most_partings = 2;
 // Share of the triangles: more that exceed what nobody asked for are those of thin walls or shells
 // that intersect, and stay so.
 constexpr double most_beyond_aims = 0.01;
-// Share of the triangles: if more are bad, creases do not give way in places.
-constexpr double most_freeing = 0.25;
 // Around bad triangles: edits reach some edges far, and vertices to spare are found there.
 constexpr Index rings_of_places = 8;
 
@@ -232,9 +230,7 @@ bool free_creases(const CurvedSurface& curved, const std::optional<CrossingFaces
     for (Index f = 0; f < whole.triangles.size(); ++f) {
         if (is_flat(whole.positions, whole.triangles[f])) bad.push_back(f);
     }
-    if (bad.empty() ||
-        static_cast<double>(bad.size()) > most_freeing * static_cast<double>(mesh.triangles.size()))
-        return false;
+    if (bad.empty() || are_too_many(bad.size(), mesh.triangles.size())) return false;
     std::vector<std::uint8_t> is_bad(mesh.points.size(), 0);
     for (const Index f : bad) {
         for (const Index v : mesh.triangles[f]) is_bad[v] = 1;

@@ -33,7 +33,7 @@ bool has_own_crossings(const RemeshResult& result) {
 
 // As where few vertices lie on the creases of one plane.
 bool is_crushed(const RemeshResult& result) {
-    return 4 * std::size_t{result.new_self_intersections} > result.mesh.triangles.size();
+    return are_too_many(result.new_self_intersections, result.mesh.triangles.size());
 }
 
 bool are_mostly_narrow(const RemeshResult& result) {

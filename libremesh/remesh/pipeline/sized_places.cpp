@@ -41,15 +41,14 @@ void add_edges(const MeshView& mesh, const std::vector<std::array<Index, 2>>& ed
     }
     wanted = distinct(std::move(wanted));
     std::vector<std::uint8_t> is_found(wanted.size(), 0);
-    for (Index f = 0; f < mesh.triangles.size() && !wanted.empty(); ++f) {
+    if (wanted.empty()) return;
+    for (Index f = 0; f < mesh.triangles.size(); ++f) {
         const Triangle& t = mesh.triangles[f];
         for (std::size_t k = 0; k < 3; ++k) {
             const Index from = t[k], to = t[(k + 1) % 3];
-            const auto at = std::ranges::lower_bound(
-                wanted, std::array{std::min(from, to), std::max(from, to)});
-            if (at == wanted.end() || *at != std::array{std::min(from, to), std::max(from, to)}) {
-                continue;
-            }
+            const std::array edge{std::min(from, to), std::max(from, to)};
+            const auto at = std::ranges::lower_bound(wanted, edge);
+            if (at == wanted.end() || *at != edge) continue;
             if (std::exchange(is_found[static_cast<Index>(at - wanted.begin())], 1) != 0) continue;
             const Index parts = parts_of((mesh.positions[to] - mesh.positions[from]).norm(), step);
             for (Index i = 0; i <= parts; ++i) {
@@ -72,10 +71,11 @@ void add_edges(const MeshView& mesh, const std::vector<std::array<Index, 2>>& ed
 std::vector<SizedPoint> points_of_places(const CleanedInput& cleaned,
                                          const std::vector<SizedPlace>& places) {
     const MeshView& mesh = cleaned.given;
+    std::vector<SurfacePoint> points;
     std::vector<SizedPoint> result;
     for (const SizedPlace& place : places) {
         const double step = place.length / 2;
-        std::vector<SurfacePoint> points = place.points;
+        points.insert(points.end(), place.points.begin(), place.points.end());
         add_edges(mesh, place.edges, step, points);
         for (const Index f : place.faces) {
             if (f >= mesh.triangles.size()) {
@@ -84,11 +84,11 @@ std::vector<SizedPoint> points_of_places(const CleanedInput& cleaned,
             }
             add_face(f, parts_of(longest_edge_of(corners_of(mesh, f)), step), points);
         }
-        for (const SurfacePoint& at :
-             to_cleaned(points, mesh, {cleaned.surface.mesh.view(), cleaned.face_origin})) {
-            result.push_back({at, place.length, place.radius});
-        }
+        result.resize(points.size(), {{}, place.length, place.radius});
     }
+    if (points.empty()) return result;
+    points = to_cleaned(points, mesh, {cleaned.surface.mesh.view(), cleaned.face_origin});
+    for (std::size_t i = 0; i < points.size(); ++i) result[i].at = points[i];
     return result;
 }
 

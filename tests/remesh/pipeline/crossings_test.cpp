@@ -124,13 +124,18 @@ TEST(Crossings, ThatFollowFromTheInputDropNoCreasesWhereThatWouldLeaveFewer) {
     EXPECT_FALSE(with.features.gave_up);
 }
 
+// A unit sphere, and one of this radius in it that is inside out.
+agvd::TriangleMesh shell(int levels, double radius) {
+    agvd::TriangleMesh inner = shapes::sphere(levels);
+    for (Vec3& p : inner.positions) p *= radius;
+    for (agvd::Triangle& t : inner.triangles) std::swap(t[1], t[2]);
+    return shapes::join(shapes::sphere(levels), inner);
+}
+
 // Two spheres, one just inside the other: their coarse meshes run through each other.
 TEST(Crossings, ThatTheInputDoesNotHaveAreNew) {
     if (!has_cgal()) GTEST_SKIP() << "without CGAL";
-    agvd::TriangleMesh inner = shapes::sphere(2);
-    for (Vec3& p : inner.positions) p *= 0.98;
-    for (agvd::Triangle& t : inner.triangles) std::swap(t[1], t[2]);
-    const agvd::TriangleMesh shells = shapes::join(shapes::sphere(2), inner);
+    const agvd::TriangleMesh shells = shell(2, 0.98);
     // Without relaxation nothing is repaired.
     const auto result = remesh::remesh(shells.view(), {.num_samples = 20, .relax_steps = 0});
     EXPECT_EQ(result.new_self_intersections, result.self_intersections);
@@ -149,10 +154,7 @@ TEST(Crossings, ThatTheInputDoesNotHaveAreNew) {
 // The same at 24 samples and more: the spheres are pushed apart.
 TEST(Crossings, SidesOfThinShellsArePushedApart) {
     if (!has_cgal()) GTEST_SKIP() << "without CGAL";
-    agvd::TriangleMesh inner = shapes::sphere(4);
-    for (Vec3& p : inner.positions) p *= 0.99;
-    for (agvd::Triangle& t : inner.triangles) std::swap(t[1], t[2]);
-    const agvd::TriangleMesh shells = shapes::join(shapes::sphere(4), inner);
+    const agvd::TriangleMesh shells = shell(4, 0.99);
     for (const agvd::Index n : {40u, 80u, 160u}) {
         const auto coarse = remesh::remesh(shells.view(), {.num_samples = n, .relax_steps = 0});
         const auto result = remesh::remesh(shells.view(), {.num_samples = n});
