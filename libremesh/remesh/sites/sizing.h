@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "agvd/core/types.h"
+#include "agvd/mesh/mesh.h"
 #include "remesh/names.h"
 
 namespace remesh {
