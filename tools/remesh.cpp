@@ -214,7 +214,8 @@ void add_options(CLI::App& app, Arguments& arguments) {
                                          "intersections, whatever the mesh; holes and "
                                          "gaps narrower than two radii are closed, what lies "
                                          "inside is gone. Without a value half "
-                                         "the spacing of the samples")
+                                         "the spacing of the samples; solids without "
+                                         "such gaps are united exactly")
         ->type_name("[L|L%]")
         ->excludes(app.get_option("--sites"))
         ->excludes(app.get_option("--feature-edges"))

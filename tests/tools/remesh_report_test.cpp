@@ -329,7 +329,7 @@ TEST(RemeshReport, TextIsForAnyUser) {
         "too small for edges of 0.5: creases of length 2.75 (too few of the given sites lie "
         "on 24 creases or on the boundary; with creases no mesh was found), creases of "
         "length 2.625 (too close to stronger ones), creases of length 2.875 (given up near 15 16 "
-        "17, where faces would intersect or be flat), 43 walls (thinnest 0.25; about 44 samples "
+        "17, where faces would intersect or be narrow), 43 walls (thinnest 0.25; about 44 samples "
         "would do), 41 "
         "components (fewer than 12 vertices; about 42 samples would do)\n"
         "written: out.ply");
@@ -377,7 +377,7 @@ TEST(RemeshReport, DetailsTellTopologyTimeAndMemory) {
           "21 curves, 22 corners, 23 vertices; 2.5 long: creases kept; 2.625 long: creases left "
           "out "
           "as too close to stronger ones; 2.75 long: creases dropped; "
-          "2.875 long: creases given up where faces would intersect or be flat; "
+          "2.875 long: creases given up where faces would intersect or be narrow; "
           "1.25 long: texture seams kept; 0.75 long: texture seams left out",
           "4.50 % of the edges failed it before 7 flips, 1.50 % after", "reached their limit",
           "1 edge not proved locally shortest", "fails in 2 faces", "clean 0.25 s, dual 0.50 s",

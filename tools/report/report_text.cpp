@@ -91,7 +91,7 @@ std::string describe(const FeatureCounts& features) {
     add_length(features.length, "creases kept");
     add_length(features.close_length, "creases left out as too close to stronger ones");
     add_length(features.dropped_length, "creases dropped");
-    add_length(features.freed_length, "creases given up where faces would intersect or be flat");
+    add_length(features.freed_length, "creases given up where faces would intersect or be narrow");
     add_length(features.seam_length, "texture seams kept");
     add_length(features.dropped_seam_length,
                "texture seams left out as too short or too close to each other");
@@ -165,7 +165,7 @@ std::string describe_lost(const Verdict& verdict, const FeatureCounts& features)
     if (features.freed_length > 0) {
         add("creases of length " + significant(features.freed_length) + " (given up near " +
             agvd::place_text(features.freed_near, verdict.diagonal) +
-            ", where faces would intersect or be flat)");
+            ", where faces would intersect or be narrow)");
     }
     if (verdict.thin_walls > 0) {
         add(counted(verdict.thin_walls, "wall") + " (thinnest " +

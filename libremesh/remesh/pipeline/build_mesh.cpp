@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "agvd/mesh/any_mesh.h"
+#include "agvd/mesh/closest_point.h"
 #include "agvd/mesh/surface_points.h"
 #include "remesh/dual/reduce_vertices.h"
 #include "remesh/pipeline/crossings.h"
@@ -14,7 +15,8 @@
 #include "remesh/pipeline/place_sites.h"
 #include "remesh/pipeline/promises.h"
 #include "remesh/pipeline/stage_context.h"
-#include "remesh/wrap/guarded_mesh.h"
+#include "remesh/placement/shape_quality.h"
+#include "remesh/wrap/relax_guarded.h"
 
 namespace remesh::detail {
 namespace {
@@ -23,7 +25,9 @@ namespace {
 constexpr double aimed_min_angle = 15, aimed_max_angle = 150;
 // A wrap is as far from its input as that costs.
 constexpr double aimed_min_angle_of_wraps = 30;
-// Rounds in which creases give way.
+// Rounds in which creases give way, and how far the mesh may move then unless fewer faces
+// intersect, as a share of the spacing.
+constexpr double most_change = 0.2;
 constexpr int most_freeings = 2;
 
 // The bounds, and those that no run promises.
@@ -85,6 +89,27 @@ void order_as_given(const std::vector<Index>& number, BuiltMesh& built) {
     built.site = take(built.site, before);
 }
 
+// Of faces that exceed bounds.
+std::ptrdiff_t num_beyond(const TriangleMesh& mesh, const ShapeBounds& bounds) {
+    const ShapeMeasure shape(bounds);
+    return std::ranges::count_if(mesh.triangles, [&](const Triangle& t) {
+        const auto& p = mesh.positions;
+        return shape(p[t[0]], p[t[1]], p[t[2]]) < low_quality;
+    });
+}
+
+// Whether two meshes are near each other: the middles of the edges of each one.
+bool are_near(const TriangleMesh& a, const TriangleMesh& b, double distance) {
+    const auto is_near = [&](const TriangleMesh& from, const TriangleMesh& to) {
+        const ClosestPointTree tree(to);
+        return std::ranges::all_of(sorted_edge_sides(from.triangles), [&](const EdgeSide& side) {
+            return tree.is_within((from.positions[side.low()] + from.positions[side.high()]) / 2,
+                                  distance);
+        });
+    };
+    return is_near(a, b) && is_near(b, a);
+}
+
 }  // namespace
 
 bool place_mesh(Domain& domain, const PlacedSites& sites, BuiltMesh& built,
@@ -121,9 +146,12 @@ BuiltMesh mesh_by_collapses(const CurvedSurface& curved, const StageContext& con
             return mesh.edit([&](SpaceMesh& edited) { edited.collapse(gone, into); });
         },
         progress_of(Stage::Dual, options));
-    BuiltMesh built{.mesh = {{}, {}, mesh->triangles()}, .num_wanted = options.num_samples};
-    for (const Index v : drop_unused(mesh->num_vertices(), built.mesh.triangles)) {
-        built.mesh.points.push_back(point_at(*curved.whole, v));
+    // Its guard has cells for longer edges.
+    GuardedMesh relaxed({mesh->positions(), mesh->triangles()});
+    const auto moved = relax_guarded(relaxed, surface.view(), progress_at(Stage::Dual, options, 1));
+    BuiltMesh built{.mesh = {{}, {}, relaxed->triangles()}, .num_wanted = options.num_samples};
+    for (const Index v : drop_unused(relaxed->num_vertices(), built.mesh.triangles)) {
+        built.mesh.points.push_back(moved[v] ? *moved[v] : point_at(*curved.whole, v));
     }
     built.num_vertices = static_cast<Index>(built.mesh.points.size());
     built.mesh.offsets.assign(built.num_vertices, Vec3::Zero());
@@ -134,22 +162,38 @@ void finish_mesh(const CurvedSurface& curved, InputCrossings& of_input, const St
                  BuiltMesh& built) {
     CrossingFinder finder(curved, of_input, context);
     std::optional<CrossingFaces> crossings = unfit_crossings(finder, built.mesh, context.result);
-    if (context.result.tiles == 0 && is_improvable(curved, context.options)) {
-        const auto repair = [&] {
+    const ShapeBounds& bounds = context.options.bounds;
+    ShapeBounds aims = with_aims(bounds);
+    if (context.options.wrap) aims.min_angle = aimed_min_angle_of_wraps;
+    const bool is_one = context.result.tiles == 0;
+    const auto repair = [&] {
+        if (is_one) {
             part_faces(curved, finder, built.mesh, crossings, context);
             improve(curved, finder, built.mesh, crossings, context);
-        };
-        repair();
-        for (int round = 0; round < most_freeings; ++round) {
-            if (!free_creases(curved, crossings, built.mesh, context)) break;
-            repair();
         }
-    }
-    const ShapeBounds& bounds = context.options.bounds;
-    if ((context.result.tiles == 0 || bounds.has_any()) && is_improvable(curved, context.options)) {
-        ShapeBounds aims = with_aims(bounds);
-        if (context.options.wrap) aims.min_angle = aimed_min_angle_of_wraps;
         improve(curved, finder, built.mesh, crossings, context, &aims);
+    };
+    if ((is_one || bounds.has_any()) && is_improvable(curved, context.options)) {
+        repair();
+        for (int round = 0; is_one && round < most_freeings; ++round) {
+            const PlacedMesh mesh = built.mesh;
+            const auto whole = [&] { return whole_mesh(*curved.whole, built.mesh); };
+            const TriangleMesh whole_before = whole();
+            const std::optional<CrossingFaces> before = crossings;
+            const FeatureCounts features = context.result.features;
+            if (!free_creases(curved, crossings, aims, built.mesh, context)) break;
+            repair();
+            if (before && crossings->added.size() < before->added.size()) continue;
+            const TriangleMesh whole_after = whole();
+            if (num_beyond(whole_after, aims) < num_beyond(whole_before, aims) &&
+                are_near(whole_before, whole_after, most_change * curved.spacing)) {
+                continue;
+            }
+            built.mesh = mesh;
+            crossings = before;
+            context.result.features = features;
+            break;
+        }
     }
     if (crossings) take_crossings(*crossings, built);
     if (context.result.tiles == 0 && curved.bound != nullptr && !curved.has_junctions()) {

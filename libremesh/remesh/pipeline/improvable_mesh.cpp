@@ -10,6 +10,7 @@
 #include "remesh/pipeline/stage_context.h"
 #include "remesh/placement/mesh_curves.h"
 #include "remesh/placement/shape_quality.h"
+#include "remesh/quality/evaluate.h"
 
 namespace remesh::detail {
 namespace {
@@ -19,8 +20,8 @@ namespace {
 constexpr int most_tries = 2;
 constexpr int most_partings = 2;
 // Share of the triangles: more that exceed what nobody asked for are those of thin walls or shells
-// that intersect, and stay so.
-constexpr double most_beyond_aims = 0.01;
+// that intersect, and stay so. A wrap has as many at the rims of its sheets.
+double most_beyond_aims(const RemeshOptions& options) { return options.wrap ? 0.05 : 0.01; }
 // Around bad triangles: edits reach some edges far, and vertices to spare are found there.
 constexpr Index rings_of_places = 8;
 
@@ -28,6 +29,34 @@ constexpr Index rings_of_places = 8;
 FacePairs pairs_to_part(const std::optional<CrossingFaces>& crossings) {
     if (!crossings || !are_mostly_added(crossings->counts())) return {};
     return crossings->added;
+}
+
+// Of the faces beyond the aims, but for acute corners between curves: the ends of the shortest
+// edge, or the vertex at an angle that is too large.
+std::vector<Index> corners_of_narrow(const PlacedMesh& mesh, const TriangleMesh& whole,
+                                     const ShapeBounds& aims, double most_share) {
+    std::vector<DirectedEdge> hard = mesh.hard;
+    std::ranges::sort(hard);
+    std::vector<Index> corners;
+    Index num_narrow = 0;
+    for (Index f = 0; f < whole.triangles.size(); ++f) {
+        const Triangle& t = whole.triangles[f];
+        const FaceShape shape = measure_face(corners_of(whole.view(), f));
+        const auto [least, most] = std::ranges::minmax_element(shape.angle);
+        const auto k = static_cast<std::size_t>(least - shape.angle.begin());
+        const Index next = t[(k + 1) % 3], last = t[(k + 2) % 3];
+        if (*most > aims.max_angle * degree) {
+            corners.push_back(t[static_cast<std::size_t>(most - shape.angle.begin())]);
+        } else if (*least < aims.min_angle * degree &&
+                   !(has_edge(hard, t[k], next) && has_edge(hard, last, t[k]))) {
+            corners.insert(corners.end(), {next, last});
+        } else {
+            continue;
+        }
+        ++num_narrow;
+    }
+    if (num_narrow > most_share * static_cast<double>(whole.triangles.size())) corners.clear();
+    return corners;
 }
 
 }  // namespace
@@ -165,7 +194,8 @@ void improve(const CurvedSurface& curved, CrossingFinder& finder, PlacedMesh& me
         std::vector<Index> numbers;
         {
             const StageClock clock(Stage::Place, context.result);
-            const double most_share = context.options.bounds.has_any() ? 1 : most_beyond_aims;
+            const double most_share =
+                context.options.bounds.has_any() ? 1 : most_beyond_aims(context.options);
             const Progress progress = progress_at(Stage::Place, context.options, 1);
             numbers = bounds != nullptr
                           ? keep_bounds(curves, mobility, *bounds, most_share, improved, progress)
@@ -223,17 +253,22 @@ void part_faces(const CurvedSurface& curved, CrossingFinder& finder, PlacedMesh&
 }
 
 bool free_creases(const CurvedSurface& curved, const std::optional<CrossingFaces>& crossings,
-                  PlacedMesh& mesh, const StageContext& context) {
+                  const ShapeBounds& aims, PlacedMesh& mesh, const StageContext& context) {
     const TriangleMesh whole = whole_mesh(*curved.whole, mesh);
     std::vector<Index> bad;
     for (const auto& [f, g] : pairs_to_part(crossings)) bad.insert(bad.end(), {f, g});
     for (Index f = 0; f < whole.triangles.size(); ++f) {
         if (is_flat(whole.positions, whole.triangles[f])) bad.push_back(f);
     }
-    if (bad.empty() || are_too_many(bad.size(), mesh.triangles.size())) return false;
+    if (are_too_many(bad.size(), mesh.triangles.size())) return false;
     std::vector<std::uint8_t> is_bad(mesh.points.size(), 0);
     for (const Index f : bad) {
         for (const Index v : mesh.triangles[f]) is_bad[v] = 1;
+    }
+    if (!context.options.bounds.has_any()) {
+        for (const Index v :
+             corners_of_narrow(mesh, whole, aims, most_beyond_aims(context.options)))
+            is_bad[v] = 1;
     }
     const std::vector<DirectedEdge> rim = rim_of(mesh.triangles);
     FeatureCounts& counts = context.result.features;

@@ -75,7 +75,8 @@ struct RemeshOptions {
     //! The radius of balls, mesh units, >= 0: what is remeshed is the outside of the mesh as far as
     //! they can reach it, one closed surface for each part, without intersections, whatever the
     //! mesh. Holes and gaps narrower than two radii are closed; what lies inside is gone; an open
-    //! sheet gets two sides. 0: half the spacing of the samples, which makes it quick. Labels and
+    //! sheet gets two sides. 0: half the spacing of the samples, which makes it quick; solids whose
+    //! union has no gaps of that width are united exactly in place of that. Labels and
     //! lengths are those of the nearest face; texture_seams do not count. Needs CGAL. Not with
     //! `sites`, feature_edges, locked elements, a region or MaxDistance.
     std::optional<double> wrap = {};
@@ -213,8 +214,8 @@ struct KeptPart {
 
 //! The outside of the mesh with RemeshOptions::wrap.
 struct WrapCounts {
-    double radius = 0;  //!< Of the balls, in mesh units; 0: the mesh was not wrapped.
-    Index faces = 0;    //!< Of the surface that was remeshed.
+    double radius = 0;  //!< Of the balls, in mesh units; 0: solids were united, if there are faces.
+    Index faces = 0;    //!< Of the surface that was remeshed; 0: without RemeshOptions::wrap.
     //! The share of its area that keeps a distance from the mesh, as its two sides would meet
     //! there: of sheets.
     double sheets = 0;

@@ -38,22 +38,60 @@ double spacing_for(double area, const RemeshOptions& options) {
     return spacing_of(options.num_samples, area);
 }
 
-// Wraps a mesh, and tells where the wrap lies on it.
+// Whether faces look at others that are parallel and nearer than a width: a ball between them
+// touches both.
+bool has_gaps(const TriangleMesh& mesh, double width) {
+    constexpr double least_share = 0.9;       // Of the radius.
+    constexpr double parallel_cosine = -0.9;  // Some 155 degrees.
+    const ClosestPointTree tree(mesh);
+    return std::ranges::any_of(mesh.triangles, [&](const Triangle& t) {
+        const auto normal_of = [&](const Triangle& face) {
+            return Vec3(doubled_normal(mesh.positions, face).normalized());
+        };
+        const Vec3 normal = normal_of(t);
+        const Vec3 middle =
+            (mesh.positions[t[0]] + mesh.positions[t[1]] + mesh.positions[t[2]]) / 3;
+        const ClosestPoint nearest = tree.query(middle + width / 2 * normal);
+        const Vec3 beyond = normal_of(mesh.triangles[nearest.point.face.value()]);
+        return std::sqrt(nearest.distance_sq) < least_share * width / 2 &&
+               beyond.dot(normal) < parallel_cosine;
+    });
+}
+
+// Wraps a mesh, or unites its solids, and tells where that lies on it.
 class Wrapper {
 public:
     Wrapper(const MeshView& mesh, const RemeshOptions& options)
-        : mesh_(mesh), progress_(cleaned_progress(options)), tree_(mesh, progress_) {
+        : mesh_(mesh), progress_(cleaned_progress(options)), tree_(mesh, progress_) {}
+
+    // \return whether the mesh is of solids only, whose union has no gaps that a wrap would close.
+    bool unite(const RemeshOptions& options) {
+        try {
+            const CleanResult clean = clean_input(mesh_, cleaning_of(options));
+            std::optional<TriangleMesh> united =
+                unite_solids(clean.mesh, options.num_threads, progress_);
+            if (!united || has_gaps(*united, spacing_for(area_of(*united), options) / 4)) {
+                return false;
+            }
+            wrap_.outside = united->positions;
+            wrap_.mesh = *std::move(united);
+            return true;
+        } catch (const InvalidInput&) {
+            return false;  // Such as a piece that is not orientable.
+        }
+    }
+    void wrap(const RemeshOptions& options) {
         // Balls of half the spacing do not know yet how much of the mesh lies inside.
         // Of needles, which have hardly an area, the vertices would lie along the diagonal.
-        const MeshBox box = box_of(mesh, options.num_threads);
+        const MeshBox box = box_of(mesh_, options.num_threads);
         const double least = (box.high - box.low).squaredNorm() / options.num_samples;
-        const double area = std::max(area_of(mesh), least);
+        const double area = std::max(area_of(mesh_), least);
         radius_ = *options.wrap > 0 ? *options.wrap : spacing_for(area, options) / 2;
-        TriangleMesh wrap = alpha_wrap(mesh, radius_, progress_);
+        TriangleMesh wrap = alpha_wrap(mesh_, radius_, progress_);
         const double smaller = spacing_for(std::clamp(area_of(wrap), least, area), options) / 2;
         if (*options.wrap == 0 && smaller < most_excess * radius_) {
             radius_ = smaller;
-            wrap = alpha_wrap(mesh, radius_, progress_);
+            wrap = alpha_wrap(mesh_, radius_, progress_);
         }
         wrap_ = fit_wrap(
             wrap, tree_,
@@ -124,14 +162,24 @@ RemeshResult run_wrapped(const InputMesh& input, const RemeshOptions& options) {
     const Progress progress = cleaned_progress(options);
     Poller poller(progress);
     check_elements(input.view, Ticker(poller));
-    const Wrapper wrapper(input.view, options);
-    const RemeshOptions of_wrap = options_of_wrap(options, wrapper);
-    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
-    RemeshResult result = run_stages({wrapper.mesh(), nullptr}, of_wrap);
-    for (SurfacePoint& site : result.sites) site = wrapper.below(site);
-    result.wrapped = wrapper.counts();
-    result.seconds.front().second += spent.count();  // Of cleaning.
-    return result;
+    Wrapper wrapper(input.view, options);
+    const auto run = [&](bool is_union) {
+        RemeshOptions of_wrap = options_of_wrap(options, wrapper);
+        if (is_union) of_wrap.wrap.reset();
+        const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
+        RemeshResult result = run_stages({wrapper.mesh(), nullptr}, of_wrap);
+        for (SurfacePoint& site : result.sites) site = wrapper.below(site);
+        result.wrapped = wrapper.counts();
+        result.seconds.front().second += spent.count();  // Of cleaning.
+        return result;
+    };
+    // With a radius gaps are to be closed, which a union keeps.
+    if (*options.wrap == 0 && wrapper.unite(options)) {
+        RemeshResult united = run(true);
+        if (united.self_intersections.value_or(0) == 0) return united;
+    }
+    wrapper.wrap(options);
+    return run(false);
 }
 
 }  // namespace remesh::detail

@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
 #include <set>
 #include <span>
 #include <unordered_map>
@@ -117,28 +116,25 @@ private:
         };
         if (!for_each_cell(box, [&](std::int64_t key) { add(faces_[key]); })) add(large_);
     }
-    [[nodiscard]] std::vector<Index> faces_near(const MeshBox& box) const {
-        std::vector<Index> near = large_;
-        const bool is_small = for_each_cell(box, [&](std::int64_t key) {
-            const auto found = faces_.find(key);
-            if (found != faces_.end()) {
-                near.insert(near.end(), found->second.begin(), found->second.end());
-            }
-        });
-        if (!is_small) {
-            near.resize(mesh_.num_faces());
-            std::iota(near.begin(), near.end(), Index{0});
-        }
-        return distinct(std::move(near));
-    }
     // Faces that intersect one, each once.
     [[nodiscard]] std::vector<Index> faces_through(Index f) const {
         const MeshBox box = mesh_.box_of(f);
-        std::vector<Index> found = faces_near(box);
-        std::erase_if(found, [&](Index g) {
-            if (g == f || g >= mesh_.num_faces() || !mesh_.face(g).is_there) return true;
-            return !box.meets(mesh_.box_of(g)) || !do_cross(f, g);
+        std::vector<Index> found;
+        const auto add_if_near = [&](Index g) {
+            const bool is_other = g != f && g < mesh_.num_faces() && mesh_.face(g).is_there;
+            if (is_other && box.meets(mesh_.box_of(g))) found.push_back(g);
+        };
+        const bool is_small = for_each_cell(box, [&](std::int64_t key) {
+            const auto cell = faces_.find(key);
+            if (cell != faces_.end()) std::ranges::for_each(cell->second, add_if_near);
         });
+        if (is_small) {
+            std::ranges::for_each(large_, add_if_near);
+        } else {
+            for (Index g = 0; g < mesh_.num_faces(); ++g) add_if_near(g);
+        }
+        found = distinct(std::move(found));
+        std::erase_if(found, [&](Index g) { return !do_cross(f, g); });
         return found;
     }
     [[nodiscard]] bool do_cross(Index f, Index g) const {

@@ -10,4 +10,8 @@ TriangleMesh alpha_wrap(const MeshView&, double, const Progress&) {
         "AGVD_WITH_CGAL=ON");
 }
 
+std::optional<TriangleMesh> unite_solids(const TriangleMesh&, int, const Progress&) {
+    return std::nullopt;
+}
+
 }  // namespace remesh::detail

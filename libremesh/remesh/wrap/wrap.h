@@ -3,6 +3,7 @@
 //! Held by Wrap.* in tests/remesh/wrap.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "agvd/core/progress.h"
@@ -22,6 +23,16 @@ inline constexpr double wrap_offset = 0.2;
 //! Cost: some 40 microseconds for each face of the wrap, of which there are O((size / radius)^2).
 [[nodiscard]] TriangleMesh alpha_wrap(const MeshView& mesh, double radius,
                                       const Progress& progress = {});
+
+//! The outside of the union of solids, by CGAL's corefinement: closed, oriented outward and free of
+//! intersections. Cavities are filled.
+//! \param mesh  of clean_input(): each of its components is a solid, however it is oriented.
+//! \return nothing if a component is open, has no volume or intersects itself, where solids touch
+//!         so that the union is no surface, where rounding makes faces intersect, and without CGAL.
+//! \throw Cancelled  the progress callback returned false.
+//! Cost: O(n log n log #solids) and that of their intersections.
+[[nodiscard]] std::optional<TriangleMesh> unite_solids(const TriangleMesh& mesh, int num_threads,
+                                                       const Progress& progress = {});
 
 struct FitWrapOptions {
     double radius = 0;       //!< Mesh units, > 0: of the balls.

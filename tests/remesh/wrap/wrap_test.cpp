@@ -6,10 +6,13 @@
 
 #include "agvd/core/error.h"
 #include "agvd/mesh/closest_point.h"
+#include "agvd/mesh/surface_points.h"
 #include "agvd/mesh/topology.h"
 #include "remesh/pipeline/remesh.h"
 #include "remesh/quality/evaluate.h"
+#include "remesh/wrap/relax_guarded.h"
 #include "remesh/wrap/wrap.h"
+#include "support/dice.h"
 #include "support/dirty_shapes.h"
 #include "support/shapes.h"
 
@@ -87,6 +90,122 @@ TEST(Wrap, CrossingBoxesBecomeTheirUnionWithItsSeam) {
     // What lies inside is gone.
     const agvd::ClosestPointTree tree(wrap.mesh);
     EXPECT_FALSE(tree.is_within({0.75, 0.5, 0.9}, 0.09));
+}
+
+TEST(UniteSolids, KeepsEveryEdgeOfTheirOutside) {
+    if (!can_wrap()) GTEST_SKIP() << "needs CGAL";
+    const auto united = remesh::detail::unite_solids(crossing_boxes(), 1);
+    ASSERT_TRUE(united);
+    expect_solid(*united, 1);
+    EXPECT_NEAR(shapes::signed_volume(*united), 1.455, 1e-12);
+    // Orientations play no part, and what lies inside is gone: a cavity and a solid within it.
+    TriangleMesh nested =
+        shapes::join(box({0.2, 0.2, 0.2}, {0.8, 0.8, 0.8}), box({0.4, 0.4, 0.4}, {0.6, 0.6, 0.6}));
+    nested = shapes::join(nested, shapes::cube());
+    for (Index i = 0; i < 12; ++i) std::swap(nested.triangles[i][1], nested.triangles[i][2]);
+    const auto outer = remesh::detail::unite_solids(nested, 1);
+    ASSERT_TRUE(outer);
+    expect_solid(*outer, 1);
+    EXPECT_NEAR(shapes::signed_volume(*outer), 1, 1e-12);
+    for (agvd::Triangle& t : nested.triangles) std::swap(t[1], t[2]);
+    EXPECT_NEAR(shapes::signed_volume(remesh::detail::unite_solids(nested, 1).value()), 1, 1e-12);
+    // Six walls around a room, which only their union has.
+    TriangleMesh walls = shapes::join(box({0, 0, 0}, {1, 1, 0.1}), box({0, 0, 0.9}, {1, 1, 1}));
+    walls = shapes::join(walls, box({0, 0, 0.05}, {0.1, 1, 0.95}));
+    walls = shapes::join(walls, box({0.9, 0, 0.05}, {1, 1, 0.95}));
+    walls = shapes::join(walls, box({0.05, 0, 0.05}, {0.95, 0.1, 0.95}));
+    walls = shapes::join(walls, box({0.05, 0.9, 0.05}, {0.95, 1, 0.95}));
+    const auto room = remesh::detail::unite_solids(walls, 1);
+    ASSERT_TRUE(room);
+    expect_solid(*room, 1);
+    EXPECT_NEAR(shapes::signed_volume(*room), 1, 1e-12);
+}
+
+TEST(UniteSolids, IsOfSolidsOnly) {
+    if (!can_wrap()) GTEST_SKIP() << "needs CGAL";
+    const auto unites = [](const TriangleMesh& mesh) {
+        return remesh::detail::unite_solids(mesh, 1).has_value();
+    };
+    EXPECT_TRUE(unites(shapes::cube()));
+    EXPECT_FALSE(unites(shapes::join(shapes::cube(), shapes::grid(2))));
+    // A sheet with two sides.
+    TriangleMesh sides = shapes::grid(1);
+    std::vector<agvd::Triangle> back = sides.triangles;
+    for (agvd::Triangle& t : back) std::swap(t[1], t[2]);
+    sides.triangles.insert(sides.triangles.end(), back.begin(), back.end());
+    EXPECT_FALSE(unites(sides));
+    // A ball one of whose vertices is on the other side of it.
+    TriangleMesh ball = shapes::sphere(2);
+    ball.positions[0] *= -2;
+    EXPECT_FALSE(unites(ball));
+    // Two cubes with an edge in common: four faces would meet there.
+    EXPECT_FALSE(unites(shapes::join(shapes::cube(), box({1, 1, 0}, {2, 2, 1}))));
+}
+
+// The bytes are those without a wrap, as the solid is its own union.
+TEST(Wrap, SolidsWithoutGapsAreUnited) {
+    if (!can_wrap()) GTEST_SKIP() << "needs CGAL";
+    const RemeshResult result = remesh::remesh(crossing_boxes(), {.num_samples = 300, .wrap = 0});
+    expect_solid(result.mesh, 1);
+    EXPECT_EQ(result.wrapped.radius, 0);
+    EXPECT_GT(result.wrapped.faces, 24u);
+    EXPECT_NEAR(shapes::signed_volume(result.mesh), 1.455, 1e-3);
+    const auto united = remesh::detail::unite_solids(crossing_boxes(), 1);
+    EXPECT_EQ(result.mesh.positions, remesh::remesh(*united, {.num_samples = 300}).mesh.positions);
+    // What a wrap closes stays apart in a union.
+    const auto two_boxes = [](double gap) {
+        return shapes::join(shapes::cube(), box({1 + gap, 0, 0}, {2, 1, 1}));
+    };
+    const RemeshResult near = remesh::remesh(two_boxes(0.01), {.num_samples = 300, .wrap = 0});
+    EXPECT_GT(near.wrapped.radius, 0);
+    expect_solid(near.mesh, 1);
+    const RemeshResult far = remesh::remesh(two_boxes(0.1), {.num_samples = 300, .wrap = 0});
+    EXPECT_EQ(far.wrapped.radius, 0);
+    expect_solid(far.mesh, 2);
+    // A radius asks for a wrap.
+    EXPECT_EQ(remesh::remesh(two_boxes(0.1), {.num_samples = 300, .wrap = 0.06}).wrapped.radius,
+              0.06);
+}
+
+TEST(Wrap, CreasesGiveWayWhereFacesAreNarrow) {
+    if (!can_wrap()) GTEST_SKIP() << "needs CGAL";
+    const RemeshResult result =
+        remesh::remesh(shapes::dirty_solids(6), {.num_samples = 400, .wrap = 0});
+    EXPECT_GT(result.features.freed_length, 0);
+    EXPECT_LT(result.features.freed_length, 0.2 * result.features.length);
+    EXPECT_GT(result.verdict.min_angle, 30);
+}
+
+TEST(RelaxGuarded, GivesBetterTrianglesOnTheSurface) {
+    const TriangleMesh surface =
+        shapes::subdivide(shapes::subdivide(shapes::subdivide(shapes::cube())));
+    TriangleMesh mesh = surface;
+    // Vertices inside the sides move at random in their planes, so far that faces are narrow.
+    const auto is_inside = [](double x) { return x > 0.01 && x < 0.99; };
+    Dice dice(3);
+    for (Vec3& p : mesh.positions) {
+        int free = 0;
+        for (int i = 0; i < 3; ++i) free += is_inside(p[i]) ? 1 : 0;
+        if (free != 2) continue;
+        for (int i = 0; i < 3; ++i) {
+            if (is_inside(p[i])) p[i] += dice.number(-0.05, 0.05);
+        }
+    }
+    const double before = remesh::measure_triangles(mesh).min_angle;
+    remesh::detail::GuardedMesh guarded(mesh);
+    const auto moved = remesh::detail::relax_guarded(guarded, surface, {});
+    const TriangleMesh after{guarded->positions(), guarded->triangles()};
+    EXPECT_LT(before, 12);
+    EXPECT_GT(remesh::measure_triangles(after).min_angle, 25);
+    EXPECT_NEAR(shapes::signed_volume(after), 1, 1e-12);
+    std::size_t num_moved = 0;
+    for (Index v = 0; v < moved.size(); ++v) {
+        num_moved += moved[v] ? 1 : 0;
+        EXPECT_EQ(moved[v] ? agvd::position(surface.view(), *moved[v]) : mesh.positions[v],
+                  after.positions[v]);
+    }
+    EXPECT_GT(num_moved, 50u);
+    if (const auto pairs = remesh::find_self_intersections(after)) EXPECT_TRUE(pairs->empty());
 }
 
 TEST(Wrap, ASheetGetsTwoSides) {

@@ -191,7 +191,7 @@ def remesh(
       are filled. Neither with ``region``.
     - ``wrap``: the outside of the mesh as balls of this radius (``"1%"`` of the diagonal; True:
       half the spacing) see it is remeshed: one closed surface without intersections for each part,
-      whatever the mesh. Not with ``sites``, ``feature_edges``, ``lock``, ``region`` or
+      whatever the mesh. With True solids whose union has no gaps are united exactly. Not with ``sites``, ``feature_edges``, ``lock``, ``region`` or
       ``max_distance``.
     - ``region``: only these faces are remeshed: something other than 0 (or False) for each of them,
       or the name of such values of the mesh. All others stay, bit for bit, and are the first ones
