@@ -42,7 +42,7 @@ void run_compare(const CompareArguments& arguments, Console& console) {
     const bool is_exact = arguments.b == exact_diagram;
     if (!arguments.report.empty() && !is_json_on_stdout) {
         check_output(arguments.report,
-                     {arguments.a, is_exact ? fs::path() : fs::path(arguments.b)});
+                     {arguments.a, is_exact ? fs::path() : remesh::path_of(arguments.b)});
     }
     console.expect(stages_of_comparison(is_exact));
     const remesh::Comparison comparison =
@@ -61,13 +61,12 @@ Query add_compare(CLI::App& app) {
         "compare", "Measure the difference of a diagram from another one, or from the exact one");
     const auto arguments = std::make_shared<CompareArguments>();
     start_group(*command, heading::files);
-    command->add_option("A", arguments->a, "Diagram to measure: a .agvd file of `agvd diagram`")
+    add_file(*command, "A", arguments->a, "Diagram to measure: a .agvd file of `agvd diagram`")
         ->required();
     command->add_option("B", arguments->b, "Diagram to compare A with: a .agvd file, or `exact`")
         ->required();
-    command
-        ->add_option("--report,--json", arguments->report,
-                     "Write the figures as JSON; - writes them to stdout")
+    add_file(*command, "--report,--json", arguments->report,
+             "Write the figures as JSON; - writes them to stdout")
         ->type_name("FILE|-");
     start_group(*command, heading::accuracy);
     command
