@@ -1,5 +1,5 @@
-// interrupt SECONDS COMMAND...: runs a command in a console of its own, and types Ctrl-C there after
-// this time. Ends with the exit code of the command.
+// interrupt SECONDS COMMAND...: runs a command in a console of its own, and types Ctrl-C there
+// after this time. Ends with the exit code of the command.
 #include <windows.h>
 
 #include <cstdlib>
