@@ -98,8 +98,11 @@ def check_names_and_lines():
     check(run(windows, "remesh", "-q", f"{FOLDER}/plain*.off", "--out-dir", f"{FOLDER}/é", "-n", 600).returncode, 0, "a pattern")
     for name in "plain 0.ply", "plain é.ply":
         check(content(f"{FOLDER}/é/{name}") == plain, True, f"bytes of {name}")
-    # A mesh with a material in a file of such a name.
-    (work / FOLDER / "m é.gltf").write_bytes(b"")
+    # The result names the file of materials beside the input as it is seen from its own folder.
+    (work / FOLDER / "é.mtl").write_text("newmtl red\n")
+    (work / FOLDER / "red.obj").write_text("mtllib é.mtl\nusemtl red\n" + (data / "ring.obj").read_text())
+    red = compare("remesh", "-q", f"{FOLDER}/red.obj", "out.obj", "-n", 300, output="out.obj")
+    check(f"mtllib {FOLDER}/é.mtl\n".encode() in red, True, "the name of a file of materials")
     piped = compare("remesh", "-q", "-", "-", "--from", "off", "--to", "ply", "-n", 600, input=text)
     check(piped == plain, True, "bytes of a pipe")
 
