@@ -41,15 +41,14 @@ void run_compare(const CompareArguments& arguments, Console& console) {
     const bool is_json_on_stdout = arguments.report == "-";
     const bool is_exact = arguments.b == exact_diagram;
     if (!arguments.report.empty() && !is_json_on_stdout) {
-        check_output(arguments.report,
-                     {arguments.a, is_exact ? fs::path() : remesh::path_of(arguments.b)});
+        check_output(arguments.report, {arguments.a, is_exact ? fs::path() : arguments.b});
     }
     console.expect(stages_of_comparison(is_exact));
     const remesh::Comparison comparison =
         compare_files(arguments, arguments.common.threads,
                       [&](const char* stage) { return console.progress_of(stage); });
     const remesh::ComparisonInfo info{
-        .version = REMESH_VERSION, .a = arguments.a.string(), .b = arguments.b};
+        .version = REMESH_VERSION, .a = arguments.a.string(), .b = arguments.b.string()};
     if (!arguments.report.empty()) write_text(arguments.report, to_json(comparison, info));
     if (!is_json_on_stdout) print(to_text(comparison, info) + '\n');
 }
@@ -63,7 +62,7 @@ Query add_compare(CLI::App& app) {
     start_group(*command, heading::files);
     add_file(*command, "A", arguments->a, "Diagram to measure: a .agvd file of `agvd diagram`")
         ->required();
-    command->add_option("B", arguments->b, "Diagram to compare A with: a .agvd file, or `exact`")
+    add_file(*command, "B", arguments->b, "Diagram to compare A with: a .agvd file, or `exact`")
         ->required();
     add_file(*command, "--report,--json", arguments->report,
              "Write the figures as JSON; - writes them to stdout")
