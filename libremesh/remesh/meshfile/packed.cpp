@@ -24,8 +24,8 @@ public:
                                  : ::inflateInit2(&stream_, bits);
         if (status != Z_OK) throw std::bad_alloc();  // The other errors are wrong arguments.
         // It would name the system, and so differ. Of the other wrappings this is refused.
-        constexpr int unix = 3;
-        header_.os = unix;
+        constexpr int of_unix = 3;
+        header_.os = of_unix;
         if (packs) ::deflateSetHeader(&stream_, &header_);
     }
     ZStream(const ZStream&) = delete;
