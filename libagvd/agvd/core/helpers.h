@@ -11,7 +11,7 @@ namespace agvd {
 //! \param most         of the calls of help(); there are fewer where the system has no more threads.
 //! \param num_threads  with this one; 0: all cores.
 //! \param help, work   throw nothing.
-//! \throw std::bad_alloc  nothing was called.
+//! \throw std::bad_alloc
 void run_with_helpers(Index most, int num_threads, LoopBody<> help, LoopBody<> work);
 
 }  // namespace agvd

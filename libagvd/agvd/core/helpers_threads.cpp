@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <condition_variable>
 #include <deque>
+#include <exception>
 #include <mutex>
-#include <system_error>
 #include <thread>
 
 #include "agvd/core/helpers.h"
@@ -30,7 +30,7 @@ public:
             for (; num_threads_ < call.num_waiting; ++num_threads_) {
                 std::thread([this] { serve(); }).detach();
             }
-        } catch (const std::system_error&) {  // The system starts no more of them.
+        } catch (const std::exception&) {  // The system starts no more of them.
         }
     }
 
