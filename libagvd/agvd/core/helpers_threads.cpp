@@ -66,6 +66,7 @@ private:
 
 void run_with_helpers(Index most, int num_threads, LoopBody<> help, LoopBody<> work) {
     // Never destroyed: its threads wait until the program has ended.
+    // NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables)
     static Pool& pool = *new Pool;
     const auto wanted = num_threads > 0 ? static_cast<Index>(num_threads)
                                         : std::max(std::thread::hardware_concurrency(), 1U);
