@@ -4,6 +4,7 @@
 #include <windows.h>
 
 #include <atomic>
+#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -31,7 +32,9 @@ BOOL WINAPI on_control(DWORD event) {
 
 void begin_process(int& argc, char**& argv) {
     for (const int stream : {0, 1, 2}) ::_setmode(stream, _O_BINARY);
+    static const UINT encoding = ::GetConsoleOutputCP();
     ::SetConsoleOutputCP(CP_UTF8);
+    std::atexit([] { ::SetConsoleOutputCP(encoding); });
     // So that a console knows the escape sequences of the progress bar.
     const HANDLE console = ::GetStdHandle(STD_ERROR_HANDLE);
     DWORD mode = 0;
