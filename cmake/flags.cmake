@@ -20,6 +20,10 @@ function(agvd_flags target)
         set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON VISIBILITY_INLINES_HIDDEN ON)
         target_compile_options(${target} PRIVATE -fno-semantic-interposition)
     endif()
+    # Files above 2 GB, and windows.h without the names that others use.
+    if(WIN32)
+        target_compile_definitions(${target} PRIVATE _FILE_OFFSET_BITS=64 NOMINMAX WIN32_LEAN_AND_MEAN)
+    endif()
     if(AGVD_SANITIZE)
         # gcc sees uninitialised temporaries in instrumented code of the standard library. With gcc checks of null
         # pointers, alignment and object sizes double the size of the code and take a third of its compile time;

@@ -12,7 +12,7 @@ endmacro()
 
 agvd_need(Eigen3 libeigen3-dev "all of it" 3.4 NO_MODULE)
 if(AGVD_WITH_TBB)
-    agvd_need(TBB libtbb-dev "several threads (without them: -DAGVD_WITH_TBB=OFF)")
+    agvd_need(TBB libtbb-dev "its threads (with those of the standard library: -DAGVD_WITH_TBB=OFF)")
 endif()
 if(AGVD_BUILD_REMESH)
     set(otherwise "libremesh and the programs (without them: -DAGVD_BUILD_REMESH=OFF)")

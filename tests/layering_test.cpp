@@ -34,7 +34,7 @@ struct Package {
 
 constexpr Package packages[] = {
     {"Eigen/", R"(agvd/core/types\.h)"},
-    {"tbb/", R"(agvd/core/shared_loop\.cpp)"},
+    {"tbb/", R"(agvd/core/helpers_tbb\.cpp)"},
     {"CGAL/",
      R"(remesh/clean/hole_triangles\.cpp|remesh/quality/.*\.cpp|remesh/wrap/alpha_wrap\.cpp)"},
     {"OpenMesh/", R"(remesh/meshfile/(.*\.cpp|openmesh_exchange\.h))"},
@@ -43,7 +43,7 @@ constexpr Package packages[] = {
     {"fast_float/", R"(remesh/meshfile/(.*\.cpp|text_scanner\.h))"},
     {"expat.h", R"(remesh/meshfile/xml_reader\.cpp)"},
     {"zlib.h", R"(remesh/meshfile/packed\.cpp)"},
-    {"sys/", R"(remesh/meshfile/.*\.cpp|remesh/tilefiles/mapped_file\.h)"},
+    {"sys/", R"(remesh/meshfile/.*\.cpp|remesh/tilefiles/mapped_file_posix\.cpp)"},
 };
 
 std::string folder_of(const std::string& file) { return file.substr(0, file.rfind('/')); }

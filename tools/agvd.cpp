@@ -5,8 +5,10 @@
 #include "help.h"
 #include "page/embed.h"
 #include "query.h"
+#include "system/process.h"
 
 int main(int argc, char** argv) {
+    cli::begin_process(argc, argv);
     CLI::App app("Geodesic Voronoi diagrams of triangle meshes.", "agvd");
     app.require_subcommand(1);
     app.footer(cli::exit_code_help);

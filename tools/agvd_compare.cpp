@@ -41,15 +41,14 @@ void run_compare(const CompareArguments& arguments, Console& console) {
     const bool is_json_on_stdout = arguments.report == "-";
     const bool is_exact = arguments.b == exact_diagram;
     if (!arguments.report.empty() && !is_json_on_stdout) {
-        check_output(arguments.report,
-                     {arguments.a, is_exact ? fs::path() : fs::path(arguments.b)});
+        check_output(arguments.report, {arguments.a, is_exact ? fs::path() : arguments.b});
     }
     console.expect(stages_of_comparison(is_exact));
     const remesh::Comparison comparison =
         compare_files(arguments, arguments.common.threads,
                       [&](const char* stage) { return console.progress_of(stage); });
     const remesh::ComparisonInfo info{
-        .version = REMESH_VERSION, .a = arguments.a.string(), .b = arguments.b};
+        .version = REMESH_VERSION, .a = arguments.a.string(), .b = arguments.b.string()};
     if (!arguments.report.empty()) write_text(arguments.report, to_json(comparison, info));
     if (!is_json_on_stdout) print(to_text(comparison, info) + '\n');
 }
@@ -61,13 +60,12 @@ Query add_compare(CLI::App& app) {
         "compare", "Measure the difference of a diagram from another one, or from the exact one");
     const auto arguments = std::make_shared<CompareArguments>();
     start_group(*command, heading::files);
-    command->add_option("A", arguments->a, "Diagram to measure: a .agvd file of `agvd diagram`")
+    add_file(*command, "A", arguments->a, "Diagram to measure: a .agvd file of `agvd diagram`")
         ->required();
-    command->add_option("B", arguments->b, "Diagram to compare A with: a .agvd file, or `exact`")
+    add_file(*command, "B", arguments->b, "Diagram to compare A with: a .agvd file, or `exact`")
         ->required();
-    command
-        ->add_option("--report,--json", arguments->report,
-                     "Write the figures as JSON; - writes them to stdout")
+    add_file(*command, "--report,--json", arguments->report,
+             "Write the figures as JSON; - writes them to stdout")
         ->type_name("FILE|-");
     start_group(*command, heading::accuracy);
     command

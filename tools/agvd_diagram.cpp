@@ -240,20 +240,17 @@ Query add_diagram(CLI::App& app, const std::string& command_line) {
     add_barriers(*command, *arguments);
     add_edge_lengths(*command, *arguments);
     add_outputs(*command, *arguments);
-    command
-        ->add_option("--cells", arguments->cells,
-                     "Also write the mesh cut along the bisectors: triangles with the property "
-                     "site and the values of IN, but for texture coordinates (.ply, .vtp or .vtk)")
+    add_file(*command, "--cells", arguments->cells,
+             "Also write the mesh cut along the bisectors: triangles with the property "
+             "site and the values of IN, but for texture coordinates (.ply, .vtp or .vtk)")
         ->type_name("FILE");
-    command
-        ->add_option("--html", arguments->html,
-                     "Write a page that shows cells, bisectors, sites and lines of equal distance: "
-                     "one file for any browser, which needs no network")
+    add_file(*command, "--html", arguments->html,
+             "Write a page that shows cells, bisectors, sites and lines of equal distance: "
+             "one file for any browser, which needs no network")
         ->type_name("FILE");
-    command
-        ->add_option("--picture", arguments->picture,
-                     "Write a picture of the same as .png, or as .svg with bisectors, lines and "
-                     "sites as curves over a picture of the cells")
+    add_file(*command, "--picture", arguments->picture,
+             "Write a picture of the same as .png, or as .svg with bisectors, lines and "
+             "sites as curves over a picture of the cells")
         ->type_name("FILE");
     command
         ->add_option("--view", arguments->view,

@@ -201,9 +201,8 @@ Query add_distance(CLI::App& app) {
         ->type_name("K")
         ->default_str("1");
     start_group(*command, heading::place);
-    command
-        ->add_option("--targets", arguments->targets,
-                     "Points whose distances are written, in place of the vertices")
+    add_file(*command, "--targets", arguments->targets,
+             "Points whose distances are written, in place of the vertices")
         ->type_name("FILE");
     command
         ->add_option("--radius", arguments->radius,

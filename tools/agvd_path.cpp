@@ -4,6 +4,7 @@
 
 #include "agvd/paths/geodesic_path.h"
 #include "help.h"
+#include "mesh_paths.h"
 #include "query.h"
 #include "report/report.h"
 
@@ -122,10 +123,10 @@ Query add_path(CLI::App& app) {
     add_query_options(*command, *arguments);
     add_barriers(*command, *arguments);
     start_group(*command, heading::place);
-    auto* const targets = command->add_option("--targets", arguments->targets,
-                                              "Points from which paths lead to the nearest site");
+    auto* const targets = add_file(*command, "--targets", arguments->targets,
+                                   "Points from which paths lead to the nearest site");
     targets->type_name("FILE");
-    command->add_option("--pairs", arguments->pairs, "Points of which two in a row are a pair")
+    add_file(*command, "--pairs", arguments->pairs, "Points of which two in a row are a pair")
         ->excludes(targets)
         ->excludes(command->get_option("--sites"))
         ->excludes(command->get_option("--samples"))

@@ -97,10 +97,9 @@ void add_site_options(CLI::App& app, DiagramArguments& arguments) {
         ->check(CLI::Validator(check_seed, ""))
         ->type_name("S")
         ->capture_default_str();
-    app.add_option(
-           "--sites", arguments.sites,
-           "Sites to use instead of --samples and --init: lines `v VERTEX`, `f FACE B0 B1 B2` or "
-           "`p X Y Z`")
+    add_file(app, "--sites", arguments.sites,
+             "Sites to use instead of --samples and --init: lines `v VERTEX`, `f FACE B0 B1 B2` or "
+             "`p X Y Z`")
         ->excludes(samples)
         ->excludes(init)
         ->type_name("FILE");

@@ -5,7 +5,9 @@
 
 #include "declined.h"
 #include "help.h"
+#include "mesh_paths.h"
 #include "remesh/meshfile/mesh_file.h"
+#include "remesh/meshfile/system_file.h"
 #include "remesh/transfer/transfer.h"
 
 namespace cli {
@@ -91,11 +93,11 @@ void move_material_files(const std::filesystem::path& input, const std::filesyst
                          std::vector<std::string>& files) {
     namespace fs = std::filesystem;
     for (std::string& file : files) {
-        const fs::path path = fs::absolute(input).parent_path() / file;
+        const fs::path path = fs::absolute(input).parent_path() / remesh::path_of(file);
         std::error_code error;
         const bool is_there = fs::exists(path, error);
         const fs::path seen = fs::proximate(path, fs::absolute(output).parent_path(), error);
-        if (is_there && !error) file = seen.string();
+        if (is_there && !error) file = seen.generic_string();
     }
 }
 
@@ -110,8 +112,8 @@ void add_attribute_options(CLI::App& app, AttributeArguments& arguments) {
                    "chains of edges")
         ->type_name("all|none|NAMES")
         ->capture_default_str();
-    app.add_option("--map", arguments.map,
-                   "Write where each output vertex lies on the input: lines FACE B0 B1 B2")
+    add_file(app, "--map", arguments.map,
+             "Write where each output vertex lies on the input: lines FACE B0 B1 B2")
         ->type_name("FILE");
     start_group(app, heading::curves);
     app.add_flag(std::string("--keep-labels{") + any_labels + "}", arguments.keep_labels,

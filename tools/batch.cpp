@@ -2,28 +2,18 @@
 // the first mesh is read.
 #include "batch.h"
 
-#include <sys/stat.h>
-
 #include <map>
 #include <system_error>
 
 #include "mesh_paths.h"
 #include "remesh/meshfile/atomic_file.h"
 #include "remesh/meshfile/mesh_file.h"
+#include "system/same_place.h"
 
 namespace cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-// Equal for paths of one file, which need not exist yet.
-std::string place_of(const fs::path& path) {
-    struct stat file {};
-    if (::stat(path.c_str(), &file) == 0) {
-        return std::to_string(file.st_dev) + ' ' + std::to_string(file.st_ino);
-    }
-    return fs::weakly_canonical(fs::absolute(path)).string();
-}
 
 // Outputs, by place, and what is written there.
 using Places = std::map<std::string, std::string>;

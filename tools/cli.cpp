@@ -2,8 +2,6 @@
 // first SIGINT or SIGTERM sets a flag, which progress callbacks read; then nothing is written.
 #include "cli.h"
 
-#include <signal.h>
-
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <atomic>
@@ -16,6 +14,7 @@
 #include "nearest_name.h"
 #include "option_names.h"
 #include "remesh/meshfile/atomic_file.h"
+#include "system/process.h"
 
 namespace cli {
 
@@ -37,27 +36,6 @@ namespace {
 // NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables)
 std::atomic<int> caught_signal{0};
 static_assert(std::atomic<int>::is_always_lock_free);
-
-extern "C" void on_signal(int number) {
-    caught_signal = number;
-    ::signal(SIGINT, SIG_DFL);
-    ::signal(SIGTERM, SIG_DFL);
-}
-
-void catch_signals() {
-    // A closed pipe and a file at its size limit are reported as errors of the write instead.
-    ::signal(SIGPIPE, SIG_IGN);
-    ::signal(SIGXFSZ, SIG_IGN);
-    for (const int number : {SIGINT, SIGTERM}) {
-        // Signals that the caller ignores (as a shell does for background jobs) stay ignored.
-        struct sigaction action {};
-        ::sigaction(number, nullptr, &action);
-        if (action.sa_handler == SIG_IGN) continue;
-        action.sa_handler = on_signal;
-        action.sa_flags = 0;  // A blocked read from a pipe returns.
-        ::sigaction(number, &action, nullptr);
-    }
-}
 
 // What is wrong with a command line; options of subcommands in use count as well.
 std::string usage_error(const CLI::App& app, const CLI::Error& error) {
@@ -158,10 +136,13 @@ int run(CLI::App& app, int argc, const char* const* argv, const std::function<vo
     start_group(app, heading::running);
     app.set_version_flag("--version", name + " " REMESH_VERSION, "Print the version and exit");
     format_help(app);
+    // On Windows /path would be an option.
+    app.allow_windows_style_options(false);
+    for (CLI::App* command : app.get_subcommands({})) command->allow_windows_style_options(false);
     app.failure_message([&](const CLI::App* failed, const CLI::Error& error) {
         return name + ": error: " + usage_error(*failed, error) + "; see " + name + " --help\n";
     });
-    catch_signals();
+    catch_signals([](int number) { caught_signal = number; });
     try {
         return static_cast<int>(parse_and_run(app, argc, argv, job));
     } catch (...) {

@@ -14,7 +14,7 @@ namespace {
 // \throw agvd::InvalidInput  b is not of the same mesh and sites.
 void check_same_input(const ComparedFiles& files, const remesh::DiagramFile& a,
                       const remesh::DiagramFile& b) {
-    const std::string both = files.a.string() + " and " + files.b;
+    const std::string both = files.a.string() + " and " + files.b.string();
     if (a.mesh.positions != b.mesh.positions || a.mesh.triangles != b.mesh.triangles) {
         throw agvd::InvalidInput(
             both + " have different meshes (" + std::to_string(a.mesh.triangles.size()) + " and " +

@@ -17,7 +17,7 @@ inline constexpr const char* exact_diagram = "exact";
 //! What is compared, and how.
 struct ComparedFiles {
     std::filesystem::path a;  //!< A .agvd file.
-    std::string b;            //!< Another one; or exact_diagram, of the mesh and the sites of `a`.
+    std::filesystem::path b;  //!< Another one; or exact_diagram, of the mesh and the sites of `a`.
     agvd::DiagramCompareOptions options;  //!< Threads and progress are ignored.
     //! As agvd::BisectorErrorOptions::max_points; 0: |dA - dB| is not measured.
     agvd::Index points = agvd::BisectorErrorOptions().max_points;

@@ -3,7 +3,6 @@
 // line end come only after the names.
 #include "help.h"
 
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -12,6 +11,8 @@
 #include <memory>
 #include <set>
 #include <vector>
+
+#include "system/terminal.h"
 
 namespace cli {
 namespace {
@@ -149,12 +150,6 @@ std::string wrapped(std::string_view text, std::size_t indent, std::size_t width
         text.remove_prefix(std::min(end + 1, text.size()));
     }
     return result;
-}
-
-std::size_t terminal_width(int file) {
-    winsize size{};
-    if (::isatty(file) != 1 || ::ioctl(file, TIOCGWINSZ, &size) != 0) return 0;
-    return size.ws_col;
 }
 
 }  // namespace cli

@@ -38,7 +38,4 @@ void format_help(CLI::App& app);
 //! \param width   most columns of a line, `indent` included; longer words stand alone.
 [[nodiscard]] std::string wrapped(std::string_view text, std::size_t indent, std::size_t width);
 
-//! Columns of the terminal that a file descriptor is; 0: it is none, or does not tell.
-[[nodiscard]] std::size_t terminal_width(int file);
-
 }  // namespace cli

@@ -5,12 +5,15 @@
 
 #include "cli.h"
 #include "make_data/data_files.h"
+#include "mesh_paths.h"
 #include "remesh/meshfile/atomic_file.h"
+#include "system/process.h"
 
 int main(int argc, char** argv) {
+    cli::begin_process(argc, argv);
     std::filesystem::path folder;
     CLI::App app{"Writes the meshes of data/.", "make_data"};
-    app.add_option("FOLDER", folder, "Folder to write to; it must exist")
+    cli::add_file(app, "FOLDER", folder, "Folder to write to; it must exist")
         ->required()
         ->check(CLI::ExistingDirectory);
     return cli::run(app, argc, argv, [&] {

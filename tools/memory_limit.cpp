@@ -1,13 +1,8 @@
 #include "memory_limit.h"
 
-#include <sys/resource.h>
-#include <unistd.h>
-
-#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <utility>
 
 namespace cli {
@@ -29,31 +24,6 @@ std::optional<double> unit_of(std::string_view suffix) {
 }
 
 }  // namespace
-
-std::size_t machine_memory() {
-    const long pages = ::sysconf(_SC_PHYS_PAGES);
-    const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
-    std::size_t bytes = pages > 0 ? static_cast<std::size_t>(pages) * page : 0;
-    std::size_t allowed = 0;
-    // Otherwise "max", or no such file.
-    if (std::ifstream("/sys/fs/cgroup/memory.max") >> allowed) {
-        bytes = bytes == 0 ? allowed : std::min(bytes, allowed);
-    }
-    return bytes;
-}
-
-std::size_t resident_memory() {
-    std::size_t total = 0, resident = 0;
-    if (!(std::ifstream("/proc/self/statm") >> total >> resident)) return 0;
-    return resident * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
-}
-
-std::size_t peak_memory() {
-    rusage usage{};
-    constexpr std::size_t unit = 1024;
-    if (::getrusage(RUSAGE_SELF, &usage) != 0) return 0;
-    return static_cast<std::size_t>(usage.ru_maxrss) * unit;
-}
 
 std::optional<std::size_t> parse_bytes(std::string_view text) {
     double number = 0;

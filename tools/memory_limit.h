@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "agvd/propagation/propagate.h"
+#include "system/memory.h"
 
 namespace cli {
 
@@ -17,16 +18,6 @@ class OutOfMemory : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
 };
-
-//! Bytes that the machine has, or fewer where a control group allows no more. 0: unknown.
-[[nodiscard]] std::size_t machine_memory();
-
-//! Bytes of the process in memory, pages of files that it maps included. 0: unknown.
-//! Cost: some microseconds.
-[[nodiscard]] std::size_t resident_memory();
-
-//! The most bytes that the process has had in memory so far. 0: unknown.
-[[nodiscard]] std::size_t peak_memory();
 
 //! A number of bytes above 0: "1000000", with K, M, G or T for powers of 1024 ("500M", "1.5G"), or
 //! a percentage of machine_memory(), above 0 and at most 100 ("60%"). Unset: it is none of these.

@@ -4,6 +4,7 @@
 
 #include "agvd/core/error.h"
 #include "remesh/meshfile/mesh_file.h"
+#include "remesh/meshfile/system_file.h"
 
 namespace cli {
 
@@ -22,10 +23,25 @@ CLI::Option* add_mesh_path(CLI::App& app, const std::string& name, const std::st
         if (text == "-") text = stream;
         return std::string();
     };
-    return app.add_option(name, path, help)->transform(CLI::Validator(name_stream, ""));
+    return add_file(app, name, path, help)->transform(CLI::Validator(name_stream, ""));
 }
 
 }  // namespace
+
+CLI::Option* add_file(CLI::App& app, const std::string& name, std::filesystem::path& path,
+                      const std::string& help) {
+    const auto take = [&path](const std::string& text) { path = remesh::path_of(text); };
+    return app.add_option_function<std::string>(name, take, help);
+}
+
+CLI::Option* add_file(CLI::App& app, const std::string& name,
+                      std::vector<std::filesystem::path>& paths, const std::string& help) {
+    const auto take = [&paths](const std::vector<std::string>& texts) {
+        paths.clear();
+        for (const std::string& text : texts) paths.push_back(remesh::path_of(text));
+    };
+    return app.add_option_function<std::vector<std::string>>(name, take, help);
+}
 
 std::string mesh_extensions() { return remesh::mesh_formats("."); }
 

@@ -18,6 +18,13 @@ namespace cli {
 //! ".ply, .obj, .off or .stl"
 [[nodiscard]] std::string mesh_extensions();
 
+//! Adds an option or positional argument for a file or folder, whose name is in UTF-8.
+CLI::Option* add_file(CLI::App& app, const std::string& name, std::filesystem::path& path,
+                      const std::string& help);
+//! The same for several.
+CLI::Option* add_file(CLI::App& app, const std::string& name,
+                      std::vector<std::filesystem::path>& paths, const std::string& help);
+
 //! Adds a positional argument for a mesh to read; `-` becomes /dev/stdin.
 CLI::Option* add_mesh_input(CLI::App& app, const std::string& name, const std::string& help,
                             std::filesystem::path& path);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "mesh_paths.h"
 #include "page/viewer.h"
 #include "picture.h"
 #include "remesh/meshfile/materials.h"
@@ -11,13 +12,12 @@
 namespace cli {
 
 void add_page_options(CLI::App& app, PageArguments& arguments) {
-    app.add_option(
-           "--html", arguments.html,
-           "Write a page that shows original and result side by side, with all figures: one "
-           "file for any browser, which needs no network")
+    add_file(app, "--html", arguments.html,
+             "Write a page that shows original and result side by side, with all figures: one "
+             "file for any browser, which needs no network")
         ->type_name("FILE");
-    app.add_option("--picture", arguments.picture,
-                   "Write a picture of original and result beside each other, as PNG")
+    add_file(app, "--picture", arguments.picture,
+             "Write a picture of original and result beside each other, as PNG")
         ->type_name("FILE");
 }
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "help.h"
+#include "system/terminal.h"
 
 namespace cli {
 namespace {

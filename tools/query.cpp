@@ -72,19 +72,19 @@ std::string check_length(const char* name, const std::string& text) {
 
 void add_barriers(CLI::App& app, DiagramArguments& arguments) {
     start_group(app, heading::geodesics);
-    app.add_option("--barriers", arguments.barriers,
-                   "Edges that no path crosses: lines of two vertices, counted from 0. The mesh is "
-                   "cut along them: their vertices come once for each side, and sites "
-                   "on them count on both")
+    add_file(app, "--barriers", arguments.barriers,
+             "Edges that no path crosses: lines of two vertices, counted from 0. The mesh is "
+             "cut along them: their vertices come once for each side, and sites "
+             "on them count on both")
         ->type_name("FILE");
 }
 
 void add_edge_lengths(CLI::App& app, DiagramArguments& arguments) {
     start_group(app, heading::geodesics);
-    app.add_option("--edge-lengths", arguments.edge_lengths,
-                   "Lengths of the edges in place of those between positions: lines of two "
-                   "vertices, counted from 0, and a length. The mesh is not cleaned, and its "
-                   "positions are for drawing")
+    add_file(app, "--edge-lengths", arguments.edge_lengths,
+             "Lengths of the edges in place of those between positions: lines of two "
+             "vertices, counted from 0, and a length. The mesh is not cleaned, and its "
+             "positions are for drawing")
         ->excludes(app.get_option("--barriers"))
         ->type_name("FILE");
 }
@@ -92,8 +92,7 @@ void add_edge_lengths(CLI::App& app, DiagramArguments& arguments) {
 CLI::Option* add_outputs(CLI::App& app, QueryArguments& arguments) {
     start_group(app, heading::files);
     add_ascii(app, arguments.ascii);
-    return app
-        .add_option("-o,--output", arguments.outputs,
+    return add_file(app, "-o,--output", arguments.outputs,
                     "File to write; repeat the option to write more files")
         ->type_name("FILE")
         ->allow_extra_args(false);

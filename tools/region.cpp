@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "help.h"
+#include "mesh_paths.h"
 #include "remesh/transfer/transfer.h"
 
 namespace cli {
@@ -19,8 +20,8 @@ void add_region_options(CLI::App& app, RegionArguments& arguments) {
         ->excludes(app.get_option("--weld"))
         ->excludes(app.get_option("--wrap"))
         ->excludes(app.get_option("--fill-holes"));
-    app.add_option("--lock", arguments.lock,
-                   "Vertices that stay where they are: lines of one vertex, counted from 0")
+    add_file(app, "--lock", arguments.lock,
+             "Vertices that stay where they are: lines of one vertex, counted from 0")
         ->type_name("FILE")
         ->excludes(app.get_option("--sites"));
     start_group(app, heading::curves);

@@ -1,8 +1,6 @@
 // The main program: reads a mesh and writes the dual of its geodesic Voronoi diagram. It checks all
 // output paths before the long work, runs remesh::remesh(), and writes mesh and report together,
 // so that either both are new or none is. With --out-dir it does so for many meshes (batch.h).
-#include <malloc.h>
-
 #include <CLI/CLI.hpp>
 #include <charconv>
 #include <iterator>
@@ -28,6 +26,8 @@
 #include "shortfalls.h"
 #include "sizing_arguments.h"
 #include "stage_details.h"
+#include "system/memory.h"
+#include "system/process.h"
 
 namespace fs = std::filesystem;
 
@@ -120,9 +120,9 @@ void add_feature_options(CLI::App& app, Arguments& arguments) {
                "the spacing of the sites (auto), all above an angle in degrees, or none (off)")
             ->type_name("auto|DEG|off")
             ->default_str("auto");
-    app.add_option("--feature-edges", arguments.feature_edges,
-                   "Edges that are creases whatever their angle: lines of two vertices, counted "
-                   "from 0")
+    cli::add_file(app, "--feature-edges", arguments.feature_edges,
+                  "Edges that are creases whatever their angle: lines of two vertices, counted "
+                  "from 0")
         ->type_name("FILE");
     const auto take_junctions = [&arguments](const std::string& name) {
         arguments.junctions = name == "keep" ? remesh::Junctions::Keep : remesh::Junctions::Apart;
@@ -279,8 +279,8 @@ void add_output_options(CLI::App& app, Arguments& arguments) {
                                remesh::mesh_formats(),
                            arguments.to);
     cli::add_ascii(app, arguments.ascii);
-    app.add_option("--out-dir", arguments.folder,
-                   "Read many meshes, and write each to a file of its name in this folder")
+    cli::add_file(app, "--out-dir", arguments.folder,
+                  "Read many meshes, and write each to a file of its name in this folder")
         ->excludes(output)
         ->excludes("--map")
         ->type_name("DIR");
@@ -288,8 +288,8 @@ void add_output_options(CLI::App& app, Arguments& arguments) {
                  "Never replace a file: exit code 3 if an output exists; with --out-dir the mesh "
                  "is skipped")
         ->excludes("--force");
-    app.add_option("--report", arguments.report,
-                   "Write a JSON report, also of a run that fails; - writes it to stdout")
+    cli::add_file(app, "--report", arguments.report,
+                  "Write a JSON report, also of a run that fails; - writes it to stdout")
         ->type_name("FILE|-");
     cli::add_page_options(app, arguments.page);
     for (const char* const name : {"--html", "--picture"}) {
@@ -409,9 +409,7 @@ Input prepare(const Arguments& arguments, cli::Console& console) {
                               remesh::Stage stage, double fraction) mutable {
         const bool goes_on = console.progress(remesh::stage_name(stage), fraction);
         const std::pair now(stage, fraction >= 0.5);
-        if (std::exchange(last, now) != now && ::mallinfo2().fordblks > kept_free) {
-            ::malloc_trim(0);
-        }
+        if (std::exchange(last, now) != now) cli::return_free_memory(kept_free);
         return goes_on;
     };
     const std::size_t num_vertices = cli::num_vertices_in(region, input.mesh.view());
@@ -649,15 +647,8 @@ void run_many(const Arguments& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    // NOLINTBEGIN(concurrency-mt-unsafe): no other thread runs yet. Each large array is returned to
-    // the system at once. By default larger and larger ones are kept, in gaps too small for the
-    // next: a tenth more memory at 1.4 M faces.
-    ::mallopt(M_MMAP_THRESHOLD, 1 << 22);
-    // The heap grows by large pages (large_pages.cpp); free memory at its end is kept until the
-    // stage is over.
-    ::mallopt(M_TOP_PAD, 1 << 25);
-    ::mallopt(M_TRIM_THRESHOLD, 1 << 26);
-    // NOLINTEND(concurrency-mt-unsafe)
+    cli::tune_heap();
+    cli::begin_process(argc, argv);
     CLI::App app("Replaces a mesh by the dual of its geodesic Voronoi diagram.", "remesh");
     Arguments arguments;
     add_options(app, arguments);

@@ -8,6 +8,7 @@
 #include "page_outputs.h"
 #include "remesh/meshfile/mesh_file.h"
 #include "report/report.h"
+#include "system/process.h"
 
 namespace fs = std::filesystem;
 
@@ -103,6 +104,7 @@ void run_job(Arguments& arguments, cli::Console& console) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    cli::begin_process(argc, argv);
     CLI::App app("Measures a remeshed surface and its distance to the original.", "remesh-eval");
     Arguments arguments;
     cli::start_group(app, cli::heading::files);
@@ -112,8 +114,8 @@ int main(int argc, char** argv) {
         app, "--from",
         "Format of the one of them that is -, standard input: " + remesh::mesh_formats(),
         arguments.from);
-    app.add_option("--report,--json", arguments.report,
-                   "Write the figures as JSON; - writes them to stdout")
+    cli::add_file(app, "--report,--json", arguments.report,
+                  "Write the figures as JSON; - writes them to stdout")
         ->type_name("FILE|-");
     cli::add_page_options(app, arguments.page);
     cli::start_group(app, cli::heading::accuracy);

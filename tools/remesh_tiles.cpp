@@ -9,6 +9,7 @@
 #include "remesh/meshfile/mesh_file.h"
 #include "remesh/tilefiles/tile_jobs.h"
 #include "shortfalls.h"
+#include "system/process.h"
 
 namespace fs = std::filesystem;
 
@@ -60,16 +61,17 @@ struct JoinArguments : Arguments {
 
 void add_folder(CLI::App& command, Arguments& arguments, const char* text) {
     cli::start_group(command, cli::heading::files);
-    command.add_option("DIR", arguments.folder, text)->required();
+    cli::add_file(command, "DIR", arguments.folder, text)->required();
 }
 
 CLI::App* add_split(CLI::App& app, SplitArguments& arguments) {
     CLI::App* const command =
         app.add_subcommand("split", "Cut a file that need not fit into memory into tiles");
     cli::start_group(*command, cli::heading::files);
-    command->add_option("IN", arguments.input, "Binary PLY with triangles, or binary STL")
+    cli::add_file(*command, "IN", arguments.input, "Binary PLY with triangles, or binary STL")
         ->required();
-    command->add_option("DIR", arguments.folder, "Folder for the tiles; is made if it is missing")
+    cli::add_file(*command, "DIR", arguments.folder,
+                  "Folder for the tiles; is made if it is missing")
         ->required();
     cli::start_group(*command, cli::heading::count);
     cli::add_count(*command, "-n,--samples", "Number of vertices of the whole result",
@@ -204,6 +206,7 @@ void run(const Arguments& arguments, void (*job)(const Arguments&, cli::Console&
 }  // namespace
 
 int main(int argc, char** argv) {
+    cli::begin_process(argc, argv);
     CLI::App app("Meshes larger than memory, in tiles.", "remesh-tiles");
     app.require_subcommand(1);
     app.footer(std::string(footer) + cli::exit_code_help);

@@ -14,6 +14,7 @@
 #include "remesh/meshfile/mesh_file.h"
 #include "render/mesh_picture.h"
 #include "render/network_lines.h"
+#include "system/process.h"
 
 namespace {
 
@@ -115,6 +116,7 @@ void draw(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    cli::begin_process(argc, argv);
     Options options;
     CLI::App app{"Draws a mesh; back faces are blue.", "render-mesh"};
     app.add_option("MESH", options.mesh, "Mesh to draw: .ply, .obj, .off or .stl")->required();

@@ -5,6 +5,8 @@
 #include <CLI/CLI.hpp>
 #include <sstream>
 
+#include "system/terminal.h"
+
 namespace {
 
 std::string help_of(CLI::App& app) {

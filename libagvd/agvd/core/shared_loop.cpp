@@ -1,19 +1,15 @@
-// The calling thread takes chunks too, and is the only one that polls for long: TBB's tasks (with
-// ThreadSanitizer plain threads) only help. A helper that comes after the last chunk finds the loop
-// closed, so that nobody waits for a task that has not started. The first exception ends the loop.
+// The calling thread takes chunks too, and is the only one that polls for long: others only help. A
+// helper that comes after the last chunk finds the loop closed, so that nobody waits for one that
+// has not started. The first exception ends the loop.
 #include "agvd/core/shared_loop.h"
 
-#include <tbb/task_arena.h>
-#include <tbb/task_group.h>
-
-#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <exception>
 #include <mutex>
-#include <thread>
-#include <vector>
+
+#include "agvd/core/helpers.h"
 
 namespace agvd {
 namespace {
@@ -95,62 +91,14 @@ private:
     bool is_closed_ = false;
 };
 
-// What runs a loop besides the calling thread.
-#if defined(__SANITIZE_THREAD__)
-
-// ThreadSanitizer sees into threads, but not into TBB, which is not compiled with it: it would take
-// all that a loop reads for a race.
-class Helpers {
-public:
-    explicit Helpers(int num_threads)
-        : num_threads_(num_threads > 0 ? static_cast<Index>(num_threads)
-                                       : std::thread::hardware_concurrency()) {}
-
-    [[nodiscard]] Index most() const { return num_threads_ - 1; }
-    void start(Index num, SharedLoop& loop) {
-        for (Index i = 0; i < num; ++i) threads_.emplace_back([&loop] { loop.help(); });
-    }
-    void wait() { threads_.clear(); }
-
-private:
-    Index num_threads_;
-    std::vector<std::jthread> threads_;
-};
-
-#else
-
-class Helpers {
-public:
-    explicit Helpers(int num_threads)
-        : arena_(num_threads == 0 ? tbb::task_arena::automatic : num_threads) {}
-
-    [[nodiscard]] Index most() { return static_cast<Index>(arena_.max_concurrency()) - 1; }
-    void start(Index num, SharedLoop& loop) {
-        arena_.execute([&] {
-            for (Index i = 0; i < num; ++i) tasks_.run([&loop] { loop.help(); });
-        });
-    }
-    // Those that have not begun find the loop closed, and are run here if nobody else does.
-    void wait() {
-        arena_.execute([&] { tasks_.wait(); });
-    }
-
-private:
-    tbb::task_arena arena_;
-    tbb::task_group tasks_;
-};
-
-#endif
-
 }  // namespace
 
 void run_shared(Index num_chunks, int num_threads, LoopBody<Index> run, Poller& poller) {
     // Not tbb::parallel_for, in which the calling thread may wait long without a poll.
     SharedLoop loop(num_chunks, run, poller);
-    Helpers helpers(num_threads);
-    helpers.start(std::min(helpers.most(), num_chunks - 1), loop);
-    loop.run();
-    helpers.wait();
+    const auto help = [&] { loop.help(); };
+    const auto work = [&] { loop.run(); };
+    run_with_helpers(num_chunks - 1, num_threads, help, work);
     loop.rethrow();
 }
 

@@ -1,6 +1,5 @@
 #include "remesh/meshfile/atomic_file.h"
 
-#include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -11,6 +10,7 @@
 #include <utility>
 
 #include "remesh/meshfile/source_file.h"
+#include "remesh/meshfile/system_file.h"
 
 namespace remesh {
 namespace {
@@ -40,7 +40,8 @@ void write_all(int fd, std::string_view bytes, const fs::path& path, const Progr
     constexpr std::size_t most = 1 << 22;  // Some milliseconds.
     while (!bytes.empty()) {
         poll(progress, 0);
-        const ssize_t written = ::write(fd, bytes.data(), std::min(most, bytes.size()));
+        const auto num = static_cast<unsigned>(std::min(most, bytes.size()));
+        const ssize_t written = ::write(fd, bytes.data(), num);
         if (written < 0 && errno == EINTR) continue;
         if (written < 0) {
             fail(path, errno,
@@ -55,28 +56,23 @@ void write_all(int fd, std::string_view bytes, const fs::path& path, const Progr
 class TemporaryFile {
 public:
     explicit TemporaryFile(const fs::path& target) : target_(target) {
-        struct stat old {};
-        const bool exists = ::stat(target.c_str(), &old) == 0;
-        if (exists && S_ISDIR(old.st_mode)) fail(target, EISDIR, "name a file in this folder");
-        if (exists && ::access(target.c_str(), W_OK) != 0) {
+        std::error_code none;
+        const fs::file_status old = fs::status(target, none);
+        if (fs::is_directory(old)) fail(target, EISDIR, "name a file in this folder");
+        if (fs::exists(old) && !is_writable(target)) {
             fail(target, errno, "make the old file writable, or write to another file");
         }
         const std::string stem = ".remesh-" + std::to_string(::getpid()) + "-";
         for (int n = 0; fd_ < 0; ++n) {
             // A name of our own, not the target's with a suffix, which might be too long.
             name_ = target.parent_path() / (stem + std::to_string(n) + ".tmp");
-            fd_ = ::open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+            fd_ = open_new(name_);
             if (fd_ < 0 && errno != EEXIST) fail(target, errno, check_folder);
         }
-        if (!exists) return;
-        // Owner first: changing it clears the set-user bit. Only root may, so a failure is no
-        // error.
-        if (::fchown(fd_, old.st_uid, old.st_gid) != 0) errno = 0;
-        if (::fchmod(fd_, old.st_mode & 07777) != 0) {
-            const int reason = errno;
-            discard();
-            fail(target, reason, "write to another file");
-        }
+        if (!fs::exists(old) || take_permissions(fd_, target)) return;
+        const int reason = errno;
+        discard();
+        fail(target, reason, "write to another file");
     }
     TemporaryFile(const TemporaryFile&) = delete;
     TemporaryFile& operator=(const TemporaryFile&) = delete;
@@ -96,14 +92,17 @@ public:
 
     void rename_to_target() {
         close();
-        if (::rename(name_.c_str(), target_.c_str()) != 0) fail(target_, errno, check_folder);
+        std::error_code failure;
+        fs::rename(name_, target_, failure);
+        if (failure) fail(target_, failure.value(), check_folder);
         name_.clear();
     }
 
 private:
     void discard() {
         if (fd_ >= 0) ::close(fd_);
-        if (!name_.empty()) ::unlink(name_.c_str());
+        std::error_code none;
+        if (!name_.empty()) fs::remove(name_, none);
     }
 
     fs::path target_;
@@ -123,7 +122,7 @@ bool is_special(const fs::path& target) {
 
 void write_directly(const fs::path& target, std::string_view bytes, const Progress& progress) {
     if (is_standard_output(target)) return write_all(STDOUT_FILENO, bytes, target, progress);
-    const int fd = ::open(target.c_str(), O_WRONLY | O_CLOEXEC);
+    const int fd = open_to_write(target);
     if (fd < 0) fail(target, errno, "check its permissions, or write to another file");
     try {
         write_all(fd, bytes, target, progress);
@@ -159,7 +158,8 @@ void write_files_atomically(std::span<const FileContent> files, const Progress& 
 }
 
 void require_writable(const fs::path& path) {
-    if (is_standard_output(path) && ::fcntl(STDOUT_FILENO, F_GETFD) < 0) {
+    struct stat status {};
+    if (is_standard_output(path) && ::fstat(STDOUT_FILENO, &status) != 0) {
         fail(path, errno, "open the standard output, or write to a file");
     }
     if (!is_special(path)) TemporaryFile file(follow_links(path));

@@ -2,6 +2,7 @@
 
 #include "remesh/meshfile/byte_source.h"
 #include "remesh/meshfile/numbers.h"
+#include "remesh/meshfile/system_file.h"
 
 namespace remesh {
 namespace {
@@ -120,8 +121,8 @@ std::string GltfDocument::resource(const std::string& uri) const {
         }
         fail("the data in a URI are not base64");
     }
-    const std::filesystem::path path = without_escapes(uri);
-    if (path.empty() || path.is_absolute() || uri.find("://") != std::string::npos) {
+    const std::filesystem::path path = path_of(without_escapes(uri));
+    if (path.empty() || path.has_root_path() || uri.find("://") != std::string::npos) {
         fail("data lie at ", in_quotes(uri), ", but only files beside this one are read");
     }
     try {

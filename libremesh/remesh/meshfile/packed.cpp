@@ -23,6 +23,10 @@ public:
                                                   8, Z_DEFAULT_STRATEGY)
                                  : ::inflateInit2(&stream_, bits);
         if (status != Z_OK) throw std::bad_alloc();  // The other errors are wrong arguments.
+        // It would name the system, and so differ. Of the other wrappings this is refused.
+        constexpr int of_unix = 3;
+        header_.os = of_unix;
+        if (packs) ::deflateSetHeader(&stream_, &header_);
     }
     ZStream(const ZStream&) = delete;
     ZStream& operator=(const ZStream&) = delete;
@@ -59,6 +63,7 @@ private:
     }
 
     z_stream stream_{};
+    gz_header header_{};  // Of Gzip.
     std::string_view left_;
     bool packs_;
 };

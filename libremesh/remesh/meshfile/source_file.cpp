@@ -2,14 +2,13 @@
 // of a regular file is known; a device or a pipe may never end and has a limit.
 #include "remesh/meshfile/source_file.h"
 
-#include <fcntl.h>
-#include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <cerrno>
 #include <system_error>
 
 #include "remesh/meshfile/numbers.h"
+#include "remesh/meshfile/system_file.h"
 
 namespace remesh {
 namespace {
@@ -71,21 +70,15 @@ struct Descriptor {
     }
 };
 
-// Opening a pipe must not wait for its other end.
 Descriptor open_for_reading(const std::filesystem::path& path) {
     if (is_standard_input(path)) return {STDIN_FILENO, false};
-    return {::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK), true};
+    return {open_to_read(path), true};
 }
 
-// Waits until there is something to read, or the end; a file is always ready.
 void wait_for_bytes(int fd, Poller& poller) {
-    constexpr int between_polls = 20;  // Milliseconds.
-    struct pollfd waiting {
-        fd, POLLIN, 0
-    };
     do {
         poller.poll();
-    } while (::poll(&waiting, 1, between_polls) == 0);
+    } while (!wait_to_read(fd));
 }
 
 // How many bytes are read before a file counts as one that never ends. Devices that end are
@@ -150,8 +143,8 @@ SourceFile load_file(const std::filesystem::path& path, Poller& poller) {
     while (true) {
         constexpr std::size_t most_at_once = 1 << 24;  // Some milliseconds.
         wait_for_bytes(in.fd, poller);
-        const ssize_t got =
-            ::read(in.fd, bytes.data() + length, std::min(most_at_once, bytes.size() - length));
+        const auto num = static_cast<unsigned>(std::min(most_at_once, bytes.size() - length));
+        const ssize_t got = ::read(in.fd, bytes.data() + length, num);
         if (got < 0 && (errno == EINTR || errno == EAGAIN)) continue;
         if (got < 0) fail_to_read(path, errno);
         if (got == 0) break;

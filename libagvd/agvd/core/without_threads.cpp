@@ -1,4 +1,4 @@
-// Loops for a build without oneTBB, and so without threads.
+// Loops for a system without threads.
 #include "agvd/core/shared_loop.h"
 
 namespace agvd {
