@@ -21,7 +21,7 @@ using Solid = CgalMesh;
 
 // By the third power of its size: a shell with less is a sheet with two sides.
 constexpr double least_volume = 1e-9;
-// The shells of cavities are gone after the second one.
+// The cavities of the first union are gone after the second one.
 constexpr int most_rounds = 3;
 
 // The components of a mesh.
@@ -81,28 +81,30 @@ std::optional<TriangleMesh> unite_solids(const TriangleMesh& mesh, int num_threa
                                          const Progress& progress) {
     Poller poller(progress);
     TriangleMesh united = mesh;
-    bool has_cavities = true;
-    for (int round = 0; round < most_rounds && has_cavities; ++round) {
+    for (int round = 0; round < most_rounds; ++round) {
         const Topology topology = analyze_topology(united.view(), progress);
         if (!topology.is_manifold || !topology.is_oriented || topology.boundary_loops() > 0) {
             return std::nullopt;
         }
         const std::vector<double> volumes = body_volumes(united.view(), topology);
+        const auto is_cavity = [](double volume) { return volume < 0; };
+        if (round > 0 && std::ranges::none_of(volumes, is_cavity)) {
+            const auto pairs = find_self_intersections(united, num_threads, progress);
+            return pairs && pairs->empty() ? std::optional(united) : std::nullopt;
+        }
         const std::vector<TriangleMesh> shells = shells_of(united, topology);
         std::vector<Solid> solids;
         for (std::size_t i = 0; i < shells.size(); ++i) {
             const double size = box_of(shells[i].view()).longest_side();
             if (!(std::abs(volumes[i]) > least_volume * size * size * size)) return std::nullopt;
-            solids.push_back(to_solid(shells[i], volumes[i] < 0));
+            solids.push_back(to_solid(shells[i], is_cavity(volumes[i])));
         }
-        has_cavities = std::ranges::any_of(volumes, [](double volume) { return volume < 0; });
         std::optional<Solid> all = unite_all(std::move(solids), poller);
         if (!all) return std::nullopt;
         all->collect_garbage();
         united = to_triangle_mesh(*all);
     }
-    const auto pairs = find_self_intersections(united, num_threads, progress);
-    return !has_cavities && pairs && pairs->empty() ? std::optional(united) : std::nullopt;
+    return std::nullopt;
 }
 
 }  // namespace remesh::detail
