@@ -36,7 +36,7 @@ constexpr Package packages[] = {
     {"Eigen/", R"(agvd/core/types\.h)"},
     {"tbb/", R"(agvd/core/helpers_tbb\.cpp)"},
     {"CGAL/",
-     R"(remesh/clean/hole_triangles\.cpp|remesh/quality/.*\.cpp|remesh/wrap/alpha_wrap\.cpp)"},
+     R"(remesh/clean/hole_triangles\.cpp|remesh/quality/.*\.cpp|remesh/wrap/(alpha_wrap\.cpp|unite_solids\.cpp|cgal_mesh\.h))"},
     {"OpenMesh/", R"(remesh/meshfile/(.*\.cpp|openmesh_exchange\.h))"},
     {"nlohmann/",
      R"(remesh/meshfile/(.*\.cpp|gltf_document\.h|materials\.h)|remesh/tilefiles/tile_file\.cpp)"},

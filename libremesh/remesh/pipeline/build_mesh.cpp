@@ -27,7 +27,7 @@ constexpr double aimed_min_angle = 15, aimed_max_angle = 150;
 constexpr double aimed_min_angle_of_wraps = 30;
 // Rounds in which creases give way, and how far the mesh may move then unless fewer faces
 // intersect, as a share of the spacing.
-constexpr double most_change = 0.2;
+constexpr double most_change = 0.4;
 constexpr int most_freeings = 2;
 
 // The bounds, and those that no run promises.

@@ -31,32 +31,26 @@ FacePairs pairs_to_part(const std::optional<CrossingFaces>& crossings) {
     return crossings->added;
 }
 
-// Of the faces beyond the aims, but for acute corners between curves: the ends of the shortest
-// edge, or the vertex at an angle that is too large.
-std::vector<Index> corners_of_narrow(const PlacedMesh& mesh, const TriangleMesh& whole,
-                                     const ShapeBounds& aims, double most_share) {
+// The faces beyond the aims, but for those with an acute corner between curves; none if they are
+// more than a share of all.
+std::vector<Index> narrow_faces(const PlacedMesh& mesh, const TriangleMesh& whole,
+                                const ShapeBounds& aims, double most_share) {
     std::vector<DirectedEdge> hard = mesh.hard;
     std::ranges::sort(hard);
-    std::vector<Index> corners;
-    Index num_narrow = 0;
+    std::vector<Index> narrow;
     for (Index f = 0; f < whole.triangles.size(); ++f) {
         const Triangle& t = whole.triangles[f];
         const FaceShape shape = measure_face(corners_of(whole.view(), f));
         const auto [least, most] = std::ranges::minmax_element(shape.angle);
         const auto k = static_cast<std::size_t>(least - shape.angle.begin());
-        const Index next = t[(k + 1) % 3], last = t[(k + 2) % 3];
-        if (*most > aims.max_angle * degree) {
-            corners.push_back(t[static_cast<std::size_t>(most - shape.angle.begin())]);
-        } else if (*least < aims.min_angle * degree &&
-                   !(has_edge(hard, t[k], next) && has_edge(hard, last, t[k]))) {
-            corners.insert(corners.end(), {next, last});
-        } else {
-            continue;
+        const bool is_corner =
+            has_edge(hard, t[k], t[(k + 1) % 3]) && has_edge(hard, t[(k + 2) % 3], t[k]);
+        if (*most > aims.max_angle * degree || (*least < aims.min_angle * degree && !is_corner)) {
+            narrow.push_back(f);
         }
-        ++num_narrow;
     }
-    if (num_narrow > most_share * static_cast<double>(whole.triangles.size())) corners.clear();
-    return corners;
+    const double most_faces = most_share * static_cast<double>(whole.triangles.size());
+    return static_cast<double>(narrow.size()) > most_faces ? std::vector<Index>{} : narrow;
 }
 
 }  // namespace
@@ -260,15 +254,15 @@ bool free_creases(const CurvedSurface& curved, const std::optional<CrossingFaces
     for (Index f = 0; f < whole.triangles.size(); ++f) {
         if (is_flat(whole.positions, whole.triangles[f])) bad.push_back(f);
     }
-    if (are_too_many(bad.size(), mesh.triangles.size())) return false;
+    if (!context.options.bounds.has_any()) {
+        const std::vector<Index> narrow =
+            narrow_faces(mesh, whole, aims, most_beyond_aims(context.options));
+        bad.insert(bad.end(), narrow.begin(), narrow.end());
+    }
+    if (bad.empty() || are_too_many(bad.size(), mesh.triangles.size())) return false;
     std::vector<std::uint8_t> is_bad(mesh.points.size(), 0);
     for (const Index f : bad) {
         for (const Index v : mesh.triangles[f]) is_bad[v] = 1;
-    }
-    if (!context.options.bounds.has_any()) {
-        for (const Index v :
-             corners_of_narrow(mesh, whole, aims, most_beyond_aims(context.options)))
-            is_bad[v] = 1;
     }
     const std::vector<DirectedEdge> rim = rim_of(mesh.triangles);
     FeatureCounts& counts = context.result.features;

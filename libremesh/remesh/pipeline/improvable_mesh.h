@@ -38,8 +38,7 @@ void part_faces(const CurvedSurface& curved, CrossingFinder& finder, PlacedMesh&
                 std::optional<CrossingFaces>& crossings, const StageContext& context);
 
 //! Takes the mark of a crease from the edges at the corners of faces that still intersect, where
-//! the input's do not, or have no area; and, if they are few, at the narrow ends of faces beyond
-//! some bounds.
+//! the input's do not, or have no area; and, if they are few, at those of faces beyond some bounds.
 //! \param aims  unless the caller has bounds of his own.
 //! \return whether there are any. Cost: O(n log n).
 [[nodiscard]] bool free_creases(const CurvedSurface& curved,
