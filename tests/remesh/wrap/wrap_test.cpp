@@ -50,7 +50,8 @@ void expect_solid(const TriangleMesh& mesh, std::size_t num_components) {
     EXPECT_EQ(topology.boundary_loops(), 0);
     EXPECT_EQ(topology.components.size(), num_components);
     EXPECT_GT(shapes::signed_volume(mesh), 0);
-    EXPECT_EQ(remesh::find_self_intersections(mesh)->size(), 0u);
+    const auto pairs = remesh::find_self_intersections(mesh);  // Nothing without CGAL.
+    EXPECT_TRUE(!pairs || pairs->empty());
 }
 
 // Without CGAL the wrap is refused by name.
