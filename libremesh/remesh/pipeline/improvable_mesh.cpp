@@ -254,7 +254,11 @@ bool free_creases(const CurvedSurface& curved, const std::optional<CrossingFaces
     for (Index f = 0; f < whole.triangles.size(); ++f) {
         if (is_flat(whole.positions, whole.triangles[f])) bad.push_back(f);
     }
-    if (!context.options.bounds.has_any()) {
+    // Narrow faces are no reason to give up what the caller marked.
+    const RemeshOptions& options = context.options;
+    const bool has_marked = !options.feature_edges.empty() || !options.face_labels.empty() ||
+                            !options.texture_seams.empty();
+    if (!options.bounds.has_any() && !has_marked) {
         const std::vector<Index> narrow =
             narrow_faces(mesh, whole, aims, most_beyond_aims(context.options));
         bad.insert(bad.end(), narrow.begin(), narrow.end());

@@ -174,6 +174,13 @@ TEST(Wrap, CreasesGiveWayWhereFacesAreNarrow) {
     EXPECT_GT(result.features.freed_length, 0);
     EXPECT_LT(result.features.freed_length, 0.2 * result.features.length);
     EXPECT_GT(result.verdict.min_angle, 30 * degree);
+    // Not if the caller marks faces.
+    const TriangleMesh soup = shapes::dirty_solids(6);
+    const RemeshResult labelled =
+        remesh::remesh(soup, {.num_samples = 400,
+                              .wrap = 0,
+                              .face_labels = std::vector<Index>(soup.triangles.size(), 1)});
+    EXPECT_EQ(labelled.features.freed_length, 0);
 }
 
 TEST(RelaxGuarded, GivesBetterTrianglesOnTheSurface) {
