@@ -212,7 +212,7 @@ void add_options(CLI::App& app, Arguments& arguments) {
                                          "see it, in mesh units or percent "
                                          "of the diagonal: one closed surface without "
                                          "intersections, whatever the mesh; holes and "
-                                         "gaps narrower than two radii are closed, what lies "
+                                         "gaps narrower than 1.6 radii are closed, what lies "
                                          "inside is gone. Without a value half "
                                          "the spacing of the samples; solids without "
                                          "such gaps are united exactly")

@@ -27,7 +27,7 @@ NetworkLines network_lines(const std::string& path, Index num_vertices) {
     const agvd::Surface surface = agvd::build_surface(clean.mesh.view());
     const double spacing = remesh::mean_spacing(surface, num_vertices);
     std::vector<std::uint8_t> is_crease = remesh::find_creases(surface, {.spacing = spacing});
-    remesh::select_creases(surface, spacing, num_vertices, {}, 0, {}, is_crease);
+    remesh::select_creases(surface, spacing, {}, num_vertices, {}, 0, {}, is_crease);
     const remesh::NetworkPlan plan =
         remesh::plan_network(surface, std::move(is_crease), num_vertices);
     NetworkLines result;

@@ -41,6 +41,15 @@ public:
     //! Cost: less than that of query(), as the first such point ends it.
     //! \param distance  mesh units, >= 0.
     [[nodiscard]] bool is_within(const Vec3& point, double distance) const;
+    //! Whether a test holds for the corners of a triangle. Any thread may call this.
+    //! \param reaches  bool(const Vec3& low, const Vec3& high): whether it may hold in that box.
+    //! \param test     bool(const std::array<Vec3, 3>&); the first that holds ends the search.
+    template <typename Reaches, typename Test>
+    [[nodiscard]] bool any_triangle(const Reaches& reaches, const Test& test) const;
+
+    //! The box around all triangles, a little wider.
+    [[nodiscard]] const Vec3& low() const { return nodes_.front().low; }
+    [[nodiscard]] const Vec3& high() const { return nodes_.front().high; }
 
 private:
     struct Node {
@@ -56,5 +65,26 @@ private:
     std::vector<FaceId> face_;                  // Per slot.
     std::vector<Node> nodes_;                   // Depth first.
 };
+
+template <typename Reaches, typename Test>
+bool ClosestPointTree::any_triangle(const Reaches& reaches, const Test& test) const {
+    std::array<Index, 64> stack;  // One per level; halving keeps it below 32.
+    std::size_t waiting = 0;
+    stack[waiting++] = 0;
+    while (waiting > 0) {
+        const Index self = stack[--waiting];
+        const Node& node = nodes_[self];
+        if (!reaches(node.low, node.high)) continue;
+        if (node.right == 0) {
+            for (Index slot = node.begin; slot < node.end; ++slot) {
+                if (test(corners_[slot])) return true;
+            }
+            continue;
+        }
+        stack[waiting++] = node.right;
+        stack[waiting++] = self + 1;
+    }
+    return false;
+}
 
 }  // namespace agvd

@@ -1,7 +1,7 @@
 // Curves are taken in by falling weight; their points go into a grid, in which the points of the
 // following curves find those that are too close. How close is too close is chosen: the closer
 // curves may be, the more vertices their strips take, and the fewer are left for all else. Lengths
-// are in spacings unless stated.
+// are in spacings of the place unless stated.
 #include "remesh/curves/select_creases.h"
 
 #include <algorithm>
@@ -52,15 +52,45 @@ constexpr double narrow = 1e-3;
 
 struct PointOnCurve {
     Vec3 at;
+    double spacing = 0;  // Mesh units: of the sites there.
     Index curve = no_index;
     double along = 0;  // Mesh units.
+};
+
+// The spacing of the sites, in mesh units: the mean, or less where edges are to be shorter. Where
+// they are to be longer strips make them shorter.
+class Spacing {
+public:
+    // \param length_at  see select_creases.
+    Spacing(const Surface& surface, double mean, const UnitAt& length_at) : mean_(mean) {
+        if (!length_at) return;
+        const double even = std::sqrt(even_squared);
+        for (Index e = 0; e < surface.num_edges(); ++e) {
+            const SurfacePoint middle = point_on(surface.edge_half[e], 0.5);
+            share_.push_back(std::min(length_at(middle) / (even * mean), 1.0));
+        }
+    }
+
+    [[nodiscard]] double mean() const { return mean_; }
+    // By the mean.
+    [[nodiscard]] double share(Index edge) const { return share_.empty() ? 1 : share_[edge]; }
+    [[nodiscard]] double at(Index edge) const { return share(edge) * mean_; }
+    // A squared distance, integrated over an area: from units of the place to those of the mean.
+    [[nodiscard]] double to_mean(Index edge, double integral) const {
+        const double square = share(edge) * share(edge);
+        return square * square * integral;
+    }
+
+private:
+    double mean_;
+    std::vector<double> share_;  // #E; empty: 1.
 };
 
 class Selection {
 public:
     // \param depth  curves are too close if the step between them is lower: a crease that turns by
     //               90 degrees if it is closer, and by less if it is closer than `reach`, too.
-    Selection(const Surface& surface, double spacing, double depth,
+    Selection(const Surface& surface, const Spacing& spacing, double depth,
               std::span<const std::uint8_t> is_fixed, const std::vector<double>& angles,
               Poller& poller, detail::CreaseSet& set)
         : surface_(surface),
@@ -71,7 +101,7 @@ public:
           ticker_(poller),
           set_(set),
           chains_(detail::chains_of(set, poller)),
-          grid_(box_of(surface.mesh.view()).low, 2.1 * reach * spacing, count_points()),
+          grid_(box_of(surface.mesh.view()).low, 2.1 * reach * spacing.mean(), count_points()),
           left_out_(surface.num_edges(), reach) {
         for (Index e = 0; e < surface_.num_edges(); ++e) {
             const Index h = surface_.edge_half[e];
@@ -122,13 +152,14 @@ public:
         std::vector<SizedPoint> strips;
         for_each_point([&](Index h) {
             return [&, h](const PointOnCurve& p, double t) {
-                const double width = nearest(p, h, t, reach * spacing_);
-                const double length = lengths_per_width * std::max(width, least_depth * spacing_);
-                if (width >= reach * spacing_ || length >= spacing_) return;
+                const double spacing = spacing_.at(surface_.edge[h]);
+                const double width = nearest(p, h, t, reach * spacing);
+                const double length = lengths_per_width * std::max(width, least_depth * spacing);
+                if (width >= reach * spacing || length >= spacing) return;
                 strips.push_back({point_on(h, t), length});
                 strips.push_back({point_on(surface_.twin[h], 1 - t), length});
-                num_vertices_ += num_added(width / spacing_, length / spacing_) *
-                                 surface_.length_of(h) / (num_parts(h) * spacing_);
+                num_vertices_ += num_added(width / spacing, length / spacing) *
+                                 surface_.length_of(h) / (num_parts(h) * spacing);
             };
         });
         return strips;
@@ -143,7 +174,8 @@ public:
         for (Index e = all.next(0); e < surface_.num_edges(); e = all.next(e + 1)) {
             if (set_.has(e)) continue;
             const double depth = left_out_[e] * turn(e);
-            sum += crease_distance * surface_.length[e] / spacing_ * depth * depth;
+            sum += spacing_.to_mean(
+                e, crease_distance * surface_.length[e] / spacing_.at(e) * depth * depth);
         }
         return sum;
     }
@@ -156,10 +188,10 @@ private:
         for (Index e = 0; e < surface_.num_edges(); ++e) {
             const bool is_boundary = surface_.twin[surface_.edge_half[e]] == no_index;
             if (!is_boundary && !set_.has(e)) continue;
-            length += surface_.length[e];
+            length += surface_.length[e] / spacing_.share(e);
             ++edges;
         }
-        return edges + static_cast<std::size_t>(length / (sample_step * spacing_)) + 1;
+        return edges + static_cast<std::size_t>(length / (sample_step * spacing_.mean())) + 1;
     }
     [[nodiscard]] bool is_fixed(Index edge) const {
         return !is_fixed_.empty() && is_fixed_[edge] != 0;
@@ -181,8 +213,9 @@ private:
     }
 
     [[nodiscard]] int num_parts(Index h) const {
-        return std::max(
-            1, static_cast<int>(std::ceil(surface_.length_of(h) / (sample_step * spacing_))));
+        return std::max(1,
+                        static_cast<int>(std::ceil(surface_.length_of(h) /
+                                                   (sample_step * spacing_.at(surface_.edge[h])))));
     }
 
     // Points at the middles of equal parts of an edge, from the tail of h on.
@@ -195,7 +228,8 @@ private:
         ticker_.tick(static_cast<std::size_t>(parts));
         for (int i = 0; i < parts; ++i) {
             const double t = (i + 0.5) / parts;
-            visit(PointOnCurve{a + t * (b - a), curve, before + t * length}, t);
+            const double spacing = spacing_.at(surface_.edge[h]);
+            visit(PointOnCurve{a + t * (b - a), spacing, curve, before + t * length}, t);
         }
     }
 
@@ -213,8 +247,8 @@ private:
                 continue;
             }
             const Vec3& node = surface_.mesh.positions[v];
-            if ((p.at - node).norm() < around_node * spacing_ &&
-                (other.at - node).norm() < around_node * spacing_) {
+            if ((p.at - node).norm() < around_node * p.spacing &&
+                (other.at - node).norm() < around_node * p.spacing) {
                 return true;
             }
         }
@@ -226,7 +260,7 @@ private:
         double along = std::abs(p.along - other.along);
         const detail::CreaseChain& chain = chains_[p.curve];
         if (chain.ends[0] == chain.ends[1]) along = std::min(along, chain.length - along);
-        return along <= apart_along * spacing_;
+        return along <= apart_along * p.spacing;
     }
 
     // Whether the straightest way along the surface from a point of a half-edge leads to another
@@ -286,7 +320,7 @@ private:
         for_each_side(c, [&](Index h, double before) {
             const Index e = surface_.edge[h];
             const double bound =
-                std::clamp(depth_ / std::max(turn(e), depth_), depth_, reach) * spacing_;
+                std::clamp(depth_ / std::max(turn(e), depth_), depth_, reach) * spacing_.at(e);
             std::vector<PointOnCurve> points;
             double num_close = 0, sum = 0;
             const auto look_at = [&](const PointOnCurve& p, double t) {
@@ -294,7 +328,7 @@ private:
                 const double distance = is_fixed(e) ? bound : nearest(p, h, t, bound);
                 if (distance >= bound) return;
                 ++num_close;
-                sum += distance / spacing_;
+                sum += distance / spacing_.at(e);
             };
             sample(h, before, look_at, c);
             if (num_close > most_close * static_cast<double>(points.size())) {
@@ -309,7 +343,8 @@ private:
     }
 
     const Surface& surface_;
-    const double spacing_, depth_;
+    const Spacing& spacing_;
+    const double depth_;
     const std::span<const std::uint8_t> is_fixed_;
     const std::vector<double>& angles_;
     Ticker ticker_;
@@ -322,44 +357,51 @@ private:
 };
 
 // Drops what dangles, and closed chains of a few spacings.
-void drop_short(double spacing, detail::CreaseSet& set, Poller& poller) {
-    const std::vector<double> ones(set.surface().num_edges(), 1);
-    detail::prune(set, ones,
-                  {.least_spur = least_spur * spacing,
-                   .least_island = least_island * spacing,
+void drop_short(const Spacing& spacing, detail::CreaseSet& set, Poller& poller) {
+    const Surface& surface = set.surface();
+    std::vector<double> weights;  // Lengths times these are in mean spacings.
+    for (Index e = 0; e < surface.num_edges(); ++e) weights.push_back(1 / spacing.share(e));
+    detail::prune(set, weights,
+                  {.least_spur = least_spur * spacing.mean(),
+                   .least_island = least_island * spacing.mean(),
                    .least_network = 0,
-                   .short_chain = spacing,
+                   .short_chain = spacing.mean(),
                    .least_density = 0},
                   poller);
     for (const detail::CreaseChain& chain : detail::chains_of(set, poller)) {
         if (chain.ends[0] != chain.ends[1] || set.degree(chain.ends[0]) != 2) continue;
-        if (chain.length >= least_closed * spacing) continue;
+        double length = 0;
+        for (const Index e : chain.edges) length += weights[e] * surface.length[e];
+        if (length >= least_closed * spacing.mean()) continue;
         for (const Index e : chain.edges) set.remove(e);
     }
 }
 
 // The squared distance of a mesh of even edges, integrated over the area between creases. Bends
 // much narrower than a spacing count as if they turned by a right angle: meshes do without them.
-double smooth_distance_of(const Surface& surface, double spacing, const detail::CreaseSet& creases,
-                          std::span<const double> angles) {
+double smooth_distance_of(const Surface& surface, const Spacing& spacings,
+                          const detail::CreaseSet& creases, std::span<const double> angles) {
     double sum = 0;
     for (Index e = 0; e < surface.num_edges(); ++e) {
         const Index h = surface.edge_half[e], twin = surface.twin[h];
         if (twin == no_index || creases.has(e)) continue;
+        const double spacing = spacings.at(e);
         const double length = surface.length[e] / spacing;
         const double area =
             (face_area(surface, Surface::face(h)) + face_area(surface, Surface::face(twin))) /
             (3 * spacing * spacing);
         if (!(area > 0)) continue;
         const double across = std::min(area / length, 1.0);
-        sum += length * angles[e] * std::min(angles[e] / across, std::numbers::pi / 2);
+        sum += spacings.to_mean(
+            e, length * angles[e] * std::min(angles[e] / across, std::numbers::pi / 2));
     }
     return smooth_distance * smooth_distance * sum;
 }
 
 }  // namespace
 
-std::vector<SizedPoint> select_creases(const Surface& surface, double spacing, double num_sites,
+std::vector<SizedPoint> select_creases(const Surface& surface, double mean_spacing,
+                                       const UnitAt& length_at, double num_sites,
                                        std::span<const std::uint8_t> is_fixed, int num_threads,
                                        const Progress& progress,
                                        std::vector<std::uint8_t>& is_crease) {
@@ -369,8 +411,9 @@ std::vector<SizedPoint> select_creases(const Surface& surface, double spacing, d
         if (is_crease[e] != 0 && surface.twin[surface.edge_half[e]] != no_index) all.add(e);
     }
     if (all.next(0) == surface.num_edges()) return {};
+    const Spacing spacing(surface, mean_spacing, length_at);
     const std::vector<double> angles =
-        detail::edge_angles(surface, narrow * spacing, num_threads, poller);
+        detail::edge_angles(surface, narrow * mean_spacing, num_threads, poller);
     const double smooth = smooth_distance_of(surface, spacing, all, angles);
     detail::CreaseSet best(surface);
     std::vector<SizedPoint> strips;

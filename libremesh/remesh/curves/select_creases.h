@@ -9,6 +9,7 @@
 #include "agvd/core/progress.h"
 #include "agvd/mesh/surface.h"
 #include "agvd/mesh/surface_points.h"
+#include "remesh/curves/curve_sites.h"
 #include "remesh/names.h"
 
 namespace remesh {
@@ -31,14 +32,17 @@ constexpr double strip_slope = 0.5;
 //! Both stay if shorter edges on the strip between them are worth the vertices that they take: what
 //! the distance from the surface loses there against what it gains at the creases. Strips of one
 //! depth go or stay together.
-//! \param spacing    of the sites, mesh units.
+//! \param spacing    of the sites in the mean, mesh units.
+//! \param length_at  how long edges will be at a point, mesh units; empty: all as the spacing. Where
+//!                   they are shorter, close is what is close for them.
 //! \param num_sites  of these strips may take about a third; 0: lengths are not ours to choose.
 //! \param is_fixed   #E: creases that stay in any case; empty: none.
 //! \param is_crease  #E; edited in place.
 //! \return points along the strips that stay, on both sides of their creases.
 //! \throw Cancelled  the progress callback returned false.
 //! Cost: O(#E + length of the creases / spacing), k log k for k chains; for each of six depths.
-std::vector<SizedPoint> select_creases(const Surface& surface, double spacing, double num_sites,
+std::vector<SizedPoint> select_creases(const Surface& surface, double spacing,
+                                       const UnitAt& length_at, double num_sites,
                                        std::span<const std::uint8_t> is_fixed, int num_threads,
                                        const Progress& progress,
                                        std::vector<std::uint8_t>& is_crease);

@@ -38,14 +38,13 @@ void add_marks(std::span<const std::uint8_t> more, std::vector<std::uint8_t>& ma
 }
 
 // Sets the creases.
-void find_all_creases(const CleanedInput& cleaned, double spacing, CloseCreases close,
-                      const RemeshOptions& options, FoundCurves& found) {
+void find_all_creases(const CleanedInput& cleaned, double spacing, const RemeshOptions& options,
+                      FoundCurves& found) {
     const Surface& surface = cleaned.surface;
     if (options.features == Features::Off && options.feature_edges.empty() &&
         options.face_labels.empty()) {
         return;
     }
-    const Progress progress = cleaned_progress(options);
     found.is_crease.assign(surface.num_edges(), 0);
     found.is_given = found.is_crease;
     if (options.features != Features::Off) {
@@ -62,14 +61,6 @@ void find_all_creases(const CleanedInput& cleaned, double spacing, CloseCreases 
                   found.is_given);
     }
     add_marks(found.is_given, found.is_crease);
-    if (options.features != Features::Auto || options.sites || close == CloseCreases::Stay) {
-        return;
-    }
-    found.is_close = found.is_crease;
-    found.strips = select_creases(surface, (options.wrap ? scale_of_wraps : 1) * spacing,
-                                  close == CloseCreases::GoOrRefine ? options.num_samples : 0,
-                                  found.is_given, options.num_threads, progress, found.is_crease);
-    for (Index e = 0; e < found.is_crease.size(); ++e) found.is_close[e] ^= found.is_crease[e];
 }
 
 // Vertices all of whose edges are seams, such as the pole of a sphere, where each face has its own
@@ -174,8 +165,7 @@ std::vector<std::uint8_t> find_own_creases(const CleanedInput& cleaned, double s
                                   .progress = progress});
 }
 
-FoundCurves find_curves(const CleanedInput& cleaned, double spacing, CloseCreases close,
-                        const StageContext& context) {
+FoundCurves find_curves(const CleanedInput& cleaned, double spacing, const StageContext& context) {
     const auto& [options, result] = context;
     const StageClock clock(Stage::Clean, result);
     FoundCurves found;
@@ -187,9 +177,25 @@ FoundCurves find_curves(const CleanedInput& cleaned, double spacing, CloseCrease
     } else if (options.junctions == Junctions::Apart) {
         drop_short_junctions(cleaned.surface, least_junction * spacing, found.junctions);
     }
-    find_all_creases(cleaned, spacing, close, options, found);
-    if (!options.texture_seams.empty()) find_seams(cleaned, spacing, options, found);
+    find_all_creases(cleaned, spacing, options, found);
     return found;
+}
+
+void choose_curves(const CleanedInput& cleaned, double spacing, CloseCreases close,
+                   const SizeField* sizes, const StageContext& context, FoundCurves& found) {
+    const auto& [options, result] = context;
+    const StageClock clock(Stage::Clean, result);
+    const bool chooses = !found.is_crease.empty() && options.features == Features::Auto &&
+                         !options.sites && close != CloseCreases::Stay;
+    if (chooses) {
+        found.is_close = found.is_crease;
+        found.strips = select_creases(
+            cleaned.surface, (options.wrap ? scale_of_wraps : 1) * spacing, length_function(sizes),
+            close == CloseCreases::GoOrRefine ? options.num_samples : 0, found.is_given,
+            options.num_threads, cleaned_progress(options), found.is_crease);
+        for (Index e = 0; e < found.is_crease.size(); ++e) found.is_close[e] ^= found.is_crease[e];
+    }
+    if (!options.texture_seams.empty()) find_seams(cleaned, spacing, options, found);
 }
 
 std::unique_ptr<const CurvePlan> plan_curves(const CleanedInput& cleaned, const FoundCurves& found,

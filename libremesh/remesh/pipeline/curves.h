@@ -19,7 +19,7 @@ struct StageContext;
 struct FoundCurves {
     std::vector<std::uint8_t> is_crease;  //!< #E; empty: no creases are wanted.
     std::vector<std::uint8_t> is_given;   //!< #E: of these the caller's own, or borders of labels.
-    //! #E: creases beside these which select_creases() left out.
+    //! #E: creases beside these which select_creases() left out; empty: it did not choose.
     std::vector<std::uint8_t> is_close;
     std::vector<SizedPoint> strips;  //!< Between creases that are closer than the sites.
     //! #E: texture seams; empty: there are none. Those of `is_wide` can be curves at the spacing.
@@ -47,10 +47,18 @@ struct CurvePlan {
     std::optional<GivenSites> given;  //!< Only with the caller's sites.
 };
 
+//! All creases, and junctions. Seams follow by choose_curves.
 //! \param spacing  of the sites, mesh units.
 //! Cost: O(#E) for each length at which creases are sought.
 [[nodiscard]] FoundCurves find_curves(const CleanedInput& cleaned, double spacing,
-                                      CloseCreases close, const StageContext& context);
+                                      const StageContext& context);
+
+//! Leaves out creases that are too close to others, and finds seams.
+//! \param sizes  null: all edges are as long as the spacing.
+//! \param found  of find_curves().
+//! Cost: that of select_creases.
+void choose_curves(const CleanedInput& cleaned, double spacing, CloseCreases close,
+                   const SizeField* sizes, const StageContext& context, FoundCurves& found);
 
 //! Creases of the surface by its shape alone (see remesh::find_creases).
 //! \return #E; empty with Features::Off. Cost: that of find_creases.

@@ -151,7 +151,7 @@ std::vector<std::uint8_t> find_needed_edges(const CleanedInput& cleaned,
     if (options.features != Features::Auto) return {};
     RemeshResult unused;
     const double spacing = spacing_for(cleaned, options);
-    const FoundCurves found = find_curves(cleaned, spacing, CloseCreases::Stay, {options, unused});
+    const FoundCurves found = find_curves(cleaned, spacing, {options, unused});
     std::vector<std::uint8_t> needed = find_hinges(cleaned.surface, spacing, hinge_share * limit,
                                                    options.num_threads, cleaned_progress(options));
     for (Index e = 0; e < needed.size(); ++e) needed[e] |= found.is_crease[e];

@@ -40,13 +40,11 @@ bool are_mostly_narrow(const RemeshResult& result) {
     return 2 * std::size_t{result.verdict.narrow.count} > result.mesh.triangles.size();
 }
 
-// Whether lengths in places are ours to choose.
+// Whether edges may be shorter than asked for in places.
 bool may_shorten(const RemeshOptions& options) {
     const Sizing& sizing = options.sizing;
-    return !options.sites && (sizing.is_adaptive() || sizing.is_even()) &&
-           (std::holds_alternative<NumSamples>(sizing.count) ||
-            std::holds_alternative<NumFaces>(sizing.count) ||
-            std::holds_alternative<MeanEdge>(sizing.count));
+    return !options.sites && !std::holds_alternative<MaxError>(sizing.count) &&
+           !std::holds_alternative<MaxDistance>(sizing.count);
 }
 
 class MeshRun {
@@ -106,7 +104,12 @@ private:
         const CloseCreases close = bound_ != nullptr ? CloseCreases::Stay
                                    : refines         ? CloseCreases::GoOrRefine
                                                      : CloseCreases::Go;
-        found_ = find_curves(cleaned_, spacing, close, {options_, result_});
+        found_ = find_curves(cleaned_, spacing, {options_, result_});
+        // Which creases are too close depends on the lengths around them.
+        if (close != CloseCreases::Stay) {
+            sizes_ = find_sizes(cleaned_, found_, spacing, {}, lengths_, {options_, result_});
+        }
+        choose_curves(cleaned_, spacing, close, sizes_.field.get(), {options_, result_}, found_);
         const bool has_hinges = bound_ != nullptr && !bound_->hinges.empty();
         if (has_hinges) found_.is_crease.assign(bound_->hinges.begin(), bound_->hinges.end());
         sizes_ = find_sizes(cleaned_, found_, spacing, {}, lengths_, {options_, result_});

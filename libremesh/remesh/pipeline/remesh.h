@@ -74,7 +74,8 @@ struct RemeshOptions {
     CleanOptions cleaning = {};
     //! The radius of balls, mesh units, >= 0: what is remeshed is the outside of the mesh as far as
     //! they can reach it, one closed surface for each part, without intersections, whatever the
-    //! mesh. Holes and gaps narrower than two radii are closed; what lies inside is gone; an open
+    //! mesh. Holes and gaps narrower than 1.6 radii are closed, those wider than two are not; what
+    //! lies inside is gone; an open
     //! sheet gets two sides. 0: half the spacing of the samples, which makes it quick; solids whose
     //! union has no gaps of that width are united exactly in place of that. Labels and
     //! lengths are those of the nearest face; texture_seams do not count. Needs CGAL. Not with

@@ -53,6 +53,28 @@ bool follows_from_distance(const Sizing& sizing) {
            std::holds_alternative<MaxDistance>(sizing.count);
 }
 
+// Lengths or densities that are the same everywhere give the bytes that none give. Beside locked
+// edges and bounds lengths are not the same everywhere.
+void drop_equal_values(RemeshOptions& options) {
+    Sizing& sizing = options.sizing;
+    const bool has_bounds = sizing.min_edge > 0 || sizing.max_edge < infinity;
+    const bool is_scaled = !std::holds_alternative<CountOfLengths>(sizing.count);
+    const bool has_locked =
+        !options.locked.empty() || !options.locked_edges.empty() || options.lock_boundary;
+    if (!is_scaled || has_bounds || has_locked) return;
+    const auto are_equal = [](const std::vector<double>& values) {
+        return !values.empty() &&
+               std::ranges::all_of(values, [&](double value) { return value == values.front(); });
+    };
+    const auto* at = std::get_if<VertexLengths>(&sizing.edges);
+    const auto* of = std::get_if<FaceLengths>(&sizing.edges);
+    const auto* densities = std::get_if<VertexDensities>(&sizing.edges);
+    if ((at != nullptr && are_equal(at->values)) || (of != nullptr && are_equal(of->values)) ||
+        (densities != nullptr && are_equal(densities->values))) {
+        sizing.edges = EvenEdges{};
+    }
+}
+
 // A number of samples that works. Large numbers are not tried: a run would take minutes.
 EnoughSamples find_enough(const CleanedInput& cleaned, const RemeshResult& after_cleaning,
                           const RemeshOptions& options, Index reached) {
@@ -129,6 +151,7 @@ RemeshResult run_stages(const InputMesh& input, const RemeshOptions& given) {
           Stage::Delaunay, Stage::Place, Stage::Check}) {
         result.seconds.emplace_back(stage, 0.0);
     }
+    drop_equal_values(options);
     CleanedInput cleaned = clean_stage(input, {options, result});
     // Nobody asked for a number that topology, or what is locked, could contradict.
     const bool is_free = follows_from_distance(options.sizing);

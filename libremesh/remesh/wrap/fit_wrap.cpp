@@ -403,14 +403,25 @@ private:
     void straighten() {
         constexpr int most_passes = 10;
         constexpr double least_gain = 0.01;  // Times the tolerance.
+        // Vertices near which an edge was flipped in the last pass: gains are others there.
+        std::vector<std::uint8_t> is_new(mesh_->num_vertices(), 1), is_next;
         bool is_changed = true;
         for (int pass = 0; pass < most_passes && std::exchange(is_changed, false); ++pass) {
+            is_next.assign(mesh_->num_vertices(), 0);
             for (Index h = 0; h < 3 * mesh_->num_faces(); ++h) {
-                if (mesh_->face(h / 3).is_there && mesh_->tail(h) < mesh_->head(h) &&
-                    gain_of_flip(h) > least_gain * tolerance()) {
-                    is_changed = mesh_.edit([&](SpaceMesh& mesh) { mesh.flip(h); }) || is_changed;
+                const Index a = mesh_->tail(h), b = mesh_->head(h);
+                if (!mesh_->face(h / 3).is_there || a > b) continue;
+                const Index twin = mesh_->half_edge(b, a);
+                const std::array quad{a, b, mesh_->apex(h), mesh_->apex(twin)};
+                const auto is_awake = [&](Index v) { return is_new[v] != 0 || is_next[v] != 0; };
+                if (std::ranges::none_of(quad, is_awake)) continue;
+                if (gain_of_flip(h) > least_gain * tolerance() &&
+                    mesh_.edit([&](SpaceMesh& mesh) { mesh.flip(h); })) {
+                    for (const Index v : quad) is_next[v] = 1;
+                    is_changed = true;
                 }
             }
+            is_new.swap(is_next);
         }
     }
     [[nodiscard]] double gain_of_flip(Index h) const {

@@ -20,7 +20,7 @@ inline constexpr double wrap_offset = 0.2;
 //! \throw InvalidInput   no face has an area.
 //! \throw InvalidOption  the build is without CGAL.
 //! \throw Cancelled      the progress callback returned false.
-//! Cost: some 40 microseconds for each face of the wrap, of which there are O((size / radius)^2).
+//! Cost: some 25 microseconds for each face of the wrap, of which there are O((size / radius)^2).
 [[nodiscard]] TriangleMesh alpha_wrap(const MeshView& mesh, double radius,
                                       const Progress& progress = {});
 

@@ -6,6 +6,7 @@
 
 #include "agvd/core/error.h"
 #include "agvd/core/random.h"
+#include "agvd/mesh/scale.h"
 #include "support/dirty_shapes.h"
 #include "support/shapes.h"
 
@@ -94,6 +95,29 @@ TEST(ClosestPointTree, TellsWhetherAPointIsWithinADistance) {
     EXPECT_LT(num_within, 160);
     EXPECT_TRUE(tree.is_within(mesh.positions[0], 0));
     EXPECT_TRUE(tree.is_within(random_point(0, 9), 100));
+}
+
+TEST(ClosestPointTree, FindsATriangleThatATestHoldsFor) {
+    const agvd::TriangleMesh mesh = shapes::jitter(shapes::torus(24, 12), 0.02, 3);
+    const ClosestPointTree tree(mesh.view());
+    std::size_t num_tried = 0;
+    for (Index f = 0; f < mesh.triangles.size(); ++f) {
+        const std::array<Vec3, 3> wanted = agvd::corners_of(mesh, f);
+        const Vec3 middle = (wanted[0] + wanted[1] + wanted[2]) / 3;
+        const auto reaches = [&](const Vec3& low, const Vec3& high) {
+            return (low.array() <= middle.array()).all() && (middle.array() <= high.array()).all();
+        };
+        const auto is_wanted = [&](const std::array<Vec3, 3>& corners) {
+            ++num_tried;
+            return corners == wanted;
+        };
+        EXPECT_TRUE(tree.any_triangle(reaches, is_wanted));
+    }
+    EXPECT_LT(num_tried, 10 * mesh.triangles.size());
+    EXPECT_FALSE(tree.any_triangle([](const Vec3&, const Vec3&) { return true; },
+                                   [](const std::array<Vec3, 3>&) { return false; }));
+    const agvd::MeshBox box = agvd::box_of(mesh, 1);
+    EXPECT_NEAR((tree.low() - box.low).norm() + (tree.high() - box.high).norm(), 0, 1e-14);
 }
 
 TEST(ClosestPointTree, GivesTiesOnEdgesAndVerticesToTheLowestFace) {

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
+#include "agvd/mesh/surface_points.h"
 #include "support/flag_edges.h"
 #include "support/parts.h"
 #include "support/shapes.h"
@@ -23,7 +25,7 @@ struct Creases {
     [[nodiscard]] std::vector<std::uint8_t> select(
         double spacing, const std::vector<std::uint8_t>& is_fixed = {}) const {
         std::vector<std::uint8_t> left = all;
-        remesh::select_creases(surface, spacing, 0, is_fixed, 1, {}, left);
+        remesh::select_creases(surface, spacing, {}, 0, is_fixed, 1, {}, left);
         return left;
     }
     // The length of the marked edges whose ends are all like that.
@@ -77,7 +79,7 @@ TriangleMesh sheet_angle(double t, int steps) {
 struct Rims {
     Rims(double thickness, double spacing, double num_sites)
         : plate(parts::box({4, 3, thickness}, 6)), left(plate.all) {
-        strips = remesh::select_creases(plate.surface, spacing, num_sites, {}, 1, {}, left);
+        strips = remesh::select_creases(plate.surface, spacing, {}, num_sites, {}, 1, {}, left);
     }
 
     Creases plate;
@@ -103,6 +105,30 @@ TEST(SelectCreases, OfTheRimsOfAThinPlateOneStaysAsAWhole) {
     EXPECT_NEAR(std::max(low, 14 - low), 14, 1e-12);
     // With a spacing of twice the thickness both stay, and the short edges between them too.
     EXPECT_EQ(plate.select(0.1), plate.all);
+}
+
+TEST(SelectCreases, RimsAreCloseByTheLengthsThere) {
+    const Creases plate(parts::box({4, 3, 0.05}, 8));
+    const double spacing = 0.3, even = std::sqrt(2 / std::sqrt(3));
+    const auto left_with = [&](double near, double far) {
+        std::vector<std::uint8_t> left = plate.all;
+        const auto length_at = [&](const agvd::SurfacePoint& point) {
+            const double x = agvd::position(plate.surface.mesh.view(), point).x();
+            return even * spacing * (x < 2 ? near : far);
+        };
+        remesh::select_creases(plate.surface, spacing, length_at, 0, {}, 1, {}, left);
+        return left;
+    };
+    EXPECT_EQ(left_with(1, 1), plate.select(spacing));
+    // Where edges are to be longer strips make them shorter.
+    EXPECT_EQ(left_with(1, 3), plate.select(spacing));
+    EXPECT_EQ(left_with(1. / 3, 1. / 3), plate.all);
+    // The second rim stays on one half, and on the other goes with the edges at the corners.
+    const std::vector<std::uint8_t> left = left_with(1, 1. / 3);
+    const auto is_far = [](const Vec3& p) { return p.x() > 2.1; };
+    EXPECT_EQ(plate.length(left, is_far), plate.length(plate.all, is_far));
+    const auto is_near = [](const Vec3& p) { return p.x() < 1.9; };
+    EXPECT_NEAR(plate.length(left, is_near), 6, 1e-12);
 }
 
 // The long sides of one rim and the short sides of the other are the longest.

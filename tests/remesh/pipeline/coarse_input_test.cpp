@@ -52,8 +52,9 @@ TEST(CoarseInput, IsNotUsedWhereTheInputItselfCounts) {
                                                              near = exact, labels = exact;
     exact.propagation.max_error = 0;
     fixed.fit = false;
-    sized.sizing.edges =
-        remesh::VertexLengths{std::vector<double>(fine_sphere().positions.size(), 0.3)};
+    std::vector<double> lengths(fine_sphere().positions.size(), 0.3);
+    lengths.front() = 0.2;
+    sized.sizing.edges = remesh::VertexLengths{lengths};
     near.sizing.count = remesh::MaxDistance{0.05};
     labels.face_labels.assign(num_faces, 1);
     int count = 0;

@@ -126,6 +126,38 @@ TEST(Sizing, AFieldOnBoundaryAndCreasesIsFollowedThere) {
     EXPECT_NEAR(result.features.dropped_length, 0, 0);
 }
 
+TEST(Sizing, EqualLengthsGiveTheBytesOfNone) {
+    const TriangleMesh plate = parts::box({4, 3, 0.05}, 8);
+    RemeshOptions options{.num_samples = 400};
+    const RemeshResult none = remesh::remesh(plate, options);
+    const std::size_t num_vertices = plate.positions.size(), num_faces = plate.triangles.size();
+    for (const auto& edges :
+         {decltype(options.sizing.edges){VertexLengths{std::vector<double>(num_vertices, 0.7)}},
+          {FaceLengths{std::vector<double>(num_faces, 0.7)}},
+          {VertexDensities{std::vector<double>(num_vertices, 3)}}}) {
+        options.sizing.edges = edges;
+        const RemeshResult equal = remesh::remesh(plate, options);
+        EXPECT_EQ(equal.mesh.positions, none.mesh.positions);
+        EXPECT_EQ(equal.mesh.triangles, none.mesh.triangles);
+    }
+}
+
+TEST(Sizing, LengthsKeepTheCreasesThatNoneKeep) {
+    const TriangleMesh plate = parts::box({4, 3, 0.05}, 8);
+    RemeshOptions options{.num_samples = 800};
+    const double rims = remesh::remesh(plate, options).features.length;
+    EXPECT_NEAR(rims, 28.2, 0.1);  // Both, with a strip between them, and the four short edges.
+    for (const bool gives_number : {false, true}) {
+        std::vector<double> lengths;
+        for (const Vec3& p : plate.positions) lengths.push_back(0.17 + 0.03 * p.x() / 4);
+        options.sizing.edges = VertexLengths{lengths};
+        if (gives_number) options.sizing.count = CountOfLengths{};
+        const RemeshResult result = remesh::remesh(plate, options);
+        EXPECT_EQ(result.features.length, rims);
+        EXPECT_EQ(result.self_intersections.value_or(0), 0u);
+    }
+}
+
 TEST(Sizing, LengthsGiveTheNumber) {
     const TriangleMesh mesh = shapes::torus(160, 64, tube);
     std::vector<double> lengths = values_of(mesh);
