@@ -9,6 +9,7 @@
 #include <numbers>
 #include <queue>
 
+#include "agvd/core/union_find.h"
 #include "agvd/mesh/point_grid.h"
 #include "agvd/mesh/scale.h"
 #include "agvd/mesh/surface_points.h"
@@ -38,7 +39,7 @@ constexpr double most_of_sites = 0.35;
 // The squared distance has to fall to this share to keep strips, which cost angles, too.
 constexpr double least_gain = 0.75;
 // Root mean square distance of a mesh from a surface that is curved with a radius of one spacing.
-constexpr double smooth_distance = 0.06;
+constexpr double smooth_distance = 0.075;
 // The squared distance of one spacing of a crease that is left out, by that of its depth: the
 // distance falls linearly over about a third of a spacing on both sides.
 constexpr double crease_distance = 0.1;
@@ -377,23 +378,53 @@ void drop_short(const Spacing& spacing, detail::CreaseSet& set, Poller& poller) 
     }
 }
 
+// #F: half the width of the flat part of the surface that a face lies in, mesh units: its area by
+// the length of the edges around it that bend. However it is triangulated, the width is the same.
+std::vector<double> half_widths(const Surface& surface, const detail::CreaseSet& creases,
+                                std::span<const double> angles) {
+    constexpr double flat = 1e-4;  // Radians: files with single precision have such angles.
+    UnionFind parts(surface.num_faces());
+    const auto is_inside = [&](Index e) {
+        const Index h = surface.edge_half[e];
+        return surface.twin[h] != no_index && !creases.has(e);
+    };
+    for (Index e = 0; e < surface.num_edges(); ++e) {
+        const Index h = surface.edge_half[e];
+        if (!is_inside(e) || angles[e] > flat) continue;
+        parts.unite(Surface::face(h), Surface::face(surface.twin[h]));
+    }
+    std::vector<double> area(surface.num_faces(), 0), length = area;
+    for (Index f = 0; f < surface.num_faces(); ++f) area[parts.root(f)] += face_area(surface, f);
+    for (Index e = 0; e < surface.num_edges(); ++e) {
+        if (!is_inside(e) || angles[e] <= flat) continue;
+        const Index h = surface.edge_half[e];
+        for (const Index side : {h, surface.twin[h]}) {
+            length[parts.root(Surface::face(side))] += surface.length[e];
+        }
+    }
+    std::vector<double> widths;
+    for (Index f = 0; f < surface.num_faces(); ++f) {
+        const Index part = parts.root(f);
+        widths.push_back(length[part] > 0 ? area[part] / length[part] : 0);
+    }
+    return widths;
+}
+
 // The squared distance of a mesh of even edges, integrated over the area between creases. Bends
 // much narrower than a spacing count as if they turned by a right angle: meshes do without them.
 double smooth_distance_of(const Surface& surface, const Spacing& spacings,
                           const detail::CreaseSet& creases, std::span<const double> angles) {
+    const std::vector<double> half_width = half_widths(surface, creases, angles);
     double sum = 0;
     for (Index e = 0; e < surface.num_edges(); ++e) {
         const Index h = surface.edge_half[e], twin = surface.twin[h];
         if (twin == no_index || creases.has(e)) continue;
         const double spacing = spacings.at(e);
-        const double length = surface.length[e] / spacing;
-        const double area =
-            (face_area(surface, Surface::face(h)) + face_area(surface, Surface::face(twin))) /
-            (3 * spacing * spacing);
-        if (!(area > 0)) continue;
-        const double across = std::min(area / length, 1.0);
-        sum += spacings.to_mean(
-            e, length * angles[e] * std::min(angles[e] / across, std::numbers::pi / 2));
+        const double wide = half_width[Surface::face(h)] + half_width[Surface::face(twin)];
+        if (!(wide > 0)) continue;
+        const double across = std::min(wide / spacing, 1.0);
+        sum += spacings.to_mean(e, surface.length[e] / spacing * angles[e] *
+                                       std::min(angles[e] / across, std::numbers::pi / 2));
     }
     return smooth_distance * smooth_distance * sum;
 }

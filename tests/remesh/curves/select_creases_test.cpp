@@ -131,6 +131,26 @@ TEST(SelectCreases, RimsAreCloseByTheLengthsThere) {
     EXPECT_NEAR(plate.length(left, is_near), 6, 1e-12);
 }
 
+// What the curved part costs, which strips are weighed against, is that of the surface.
+TEST(SelectCreases, FlatFacesThatAreDividedChangeNothing) {
+    const TriangleMesh mesh = shapes::join(parts::box({4, 3, 0.05}, 8), shapes::torus(40, 20, 0.8));
+    const Creases whole(mesh), divided(shapes::subdivide(mesh));
+    EXPECT_NEAR(whole.length(whole.all), 28.2, 1e-12);
+    int num_strips = 0, num_tried = 0;
+    for (double spacing = 0.16; spacing < 0.34; spacing += 0.01, ++num_tried) {
+        const auto left_of = [&](const Creases& creases) {
+            std::vector<std::uint8_t> left = creases.all;
+            remesh::select_creases(creases.surface, spacing, {}, 1500, {}, 1, {}, left);
+            return creases.length(left);
+        };
+        const double left = left_of(whole);
+        EXPECT_NEAR(left_of(divided), left, 0.1) << spacing;
+        if (left > 20) ++num_strips;
+    }
+    EXPECT_GT(num_strips, 1);
+    EXPECT_LT(num_strips, num_tried - 1);
+}
+
 // The long sides of one rim and the short sides of the other are the longest.
 TEST(SelectCreases, ARimIsNotPutTogetherFromTwo) {
     TriangleMesh mesh = parts::box({4, 3, 0.05}, 6);
