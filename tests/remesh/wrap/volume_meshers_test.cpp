@@ -81,10 +81,10 @@ protected:
     static bool has(const std::string& program) {
         return process::run({"/usr/bin/env", "sh", "-c", "command -v " + program}).exit_code == 0;
     }
-    // Meshes the insides of all components of a mesh. \return whether it can.
+    // Meshes the insides of all components of a mesh. \return whether it can, within a minute.
     [[nodiscard]] bool fills_by_tetgen(const TriangleMesh& mesh) const {
-        const process::Outcome outcome =
-            process::run({"/usr/bin/env", "tetgen", "-pqQ", put("solid.off", mesh)});
+        const process::Outcome outcome = process::run(
+            {"/usr/bin/env", "timeout", "60", "tetgen", "-pqQ", put("solid.off", mesh)});
         return outcome.exit_code == 0 && !bytes("solid.1.ele").empty();
     }
     [[nodiscard]] bool fills_by_gmsh(const TriangleMesh& mesh) const {
