@@ -18,8 +18,8 @@ def command(folder, program):
     return ["wine", str(folder / f"{program}.exe")] if folder == windows else [str(folder / program)]
 
 
-def run(folder, program, *arguments, **options):
-    return subprocess.run([*command(folder, program), *map(str, arguments)], cwd=work, capture_output=True, timeout=900, **options)
+def run(folder, program, *arguments, stdout=subprocess.PIPE, stderr=subprocess.PIPE, **options):
+    return subprocess.run([*command(folder, program), *map(str, arguments)], cwd=work, stdout=stdout, stderr=stderr, timeout=900, **options)
 
 
 def check(have, wanted, text):
@@ -126,7 +126,9 @@ def check_replacing():
     done = run(windows, "remesh", "-q", organic, "old/mesh.ply", "-n", 500)
     check((done.returncode, b"make the old file writable" in done.stderr, old.read_bytes()), (3, True, b"old"), "a file that is read-only")
     old.chmod(0o644)
-    done = run(windows, "interrupt", 2, str(windows / "remesh.exe"), organic, "old/mesh.ply", "--relax", 1000, "-n", 20000)
+    # For the console wine may start its desktop, which would keep pipes open.
+    done = run(windows, "interrupt", 2, str(windows / "remesh.exe"), organic, "old/mesh.ply", "--relax", 1000, "-n", 20000,
+               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     check((done.returncode, old.read_bytes()), (130, b"old"), "Ctrl-C")
     only(["mesh.ply"])
 
@@ -152,8 +154,11 @@ def check_threads():
 shutil.rmtree(work, ignore_errors=True)
 work.mkdir(parents=True)
 # As long as it waits for its input, wine's services run. Otherwise each program would start them, and get their messages.
-with subprocess.Popen(["wine", "cmd"], stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL):
-    time.sleep(2)
-    for checks in check_replacing, check_names_and_lines, check_programs, check_meshes, check_threads:
-        checks()
-        print(f"{checks.__name__}: as it should be", flush=True)
+with subprocess.Popen(["wine", "cmd"], stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as waiting:
+    try:
+        time.sleep(2)
+        for checks in check_replacing, check_names_and_lines, check_programs, check_meshes, check_threads:
+            checks()
+            print(f"{checks.__name__}: as it should be", flush=True)
+    finally:
+        waiting.kill()  # Without an end of its input it may wait for ever.

@@ -158,6 +158,19 @@ TEST(Sizing, LengthsKeepTheCreasesThatNoneKeep) {
     }
 }
 
+TEST(Sizing, CreasesAreCloseByTheLengthsThere) {
+    const TriangleMesh plate = parts::box({4, 3, 0.05}, 8);
+    // With a mean edge given there are no strips.
+    RemeshOptions options;
+    options.sizing.count = MeanEdge{0.165};
+    EXPECT_NEAR(remesh::remesh(plate, options).features.length, 14, 1e-9);
+    std::vector<double> lengths;
+    for (const Vec3& p : plate.positions) lengths.push_back(p.x() < 2 ? 0.3 : 0.1);
+    options.sizing.edges = VertexLengths{lengths};
+    // And half of the second rim.
+    EXPECT_NEAR(remesh::remesh(plate, options).features.length, 21, 0.8);
+}
+
 TEST(Sizing, LengthsGiveTheNumber) {
     const TriangleMesh mesh = shapes::torus(160, 64, tube);
     std::vector<double> lengths = values_of(mesh);
