@@ -8,6 +8,7 @@
 #include "agvd/core/error.h"
 #include "agvd/mesh/closest_point.h"
 #include "agvd/mesh/scale.h"
+#include "agvd/mesh/surface.h"
 #include "agvd/mesh/surface_points.h"
 #include "agvd/mesh/topology.h"
 #include "remesh/pipeline/remesh.h"
@@ -15,6 +16,7 @@
 #include "remesh/wrap/relax_guarded.h"
 #include "remesh/wrap/wrap.h"
 #include "support/dirty_shapes.h"
+#include "support/parts.h"
 #include "support/shapes.h"
 
 using agvd::Index;
@@ -105,6 +107,28 @@ TEST(AlphaWrap, LiesAroundItsInputAtTheOffset) {
                                         (2 * (b - a).cross(c - a).norm());
             EXPECT_LT(circumradius, radius);
         }
+    }
+}
+
+// Each flip makes others worth while.
+TEST(FitWrap, EdgesLineUpWithCreases) {
+    if (!can_wrap()) GTEST_SKIP() << "needs CGAL";
+    // Lengths of edges times the angles there.
+    const auto turn_of = [](const TriangleMesh& mesh) {
+        const agvd::Surface surface = agvd::build_surface(mesh.view());
+        double sum = 0;
+        for (Index e = 0; e < surface.num_edges(); ++e) {
+            const Index h = surface.edge_half[e];
+            const Vec3 a = agvd::doubled_normal(mesh.positions, mesh.triangles[h / 3]);
+            const Vec3 b =
+                agvd::doubled_normal(mesh.positions, mesh.triangles[surface.twin[h] / 3]);
+            sum += surface.length[e] * std::atan2(a.cross(b).norm(), a.dot(b));
+        }
+        return sum;
+    };
+    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+        const TriangleMesh mesh = parts::turned(parts::capped_cylinder(24, 4), seed);
+        EXPECT_LT(turn_of(wrapped(mesh, 0.05).mesh), 1.009 * turn_of(mesh)) << seed;
     }
 }
 
