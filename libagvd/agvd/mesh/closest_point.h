@@ -47,8 +47,9 @@ public:
     template <typename Reaches, typename Test>
     [[nodiscard]] bool any_triangle(const Reaches& reaches, const Test& test) const;
 
-    //! The box around all triangles, a little wider.
+    //! The lower corner of a box around all triangles, a little wider than they are.
     [[nodiscard]] const Vec3& low() const { return nodes_.front().low; }
+    //! Its upper corner.
     [[nodiscard]] const Vec3& high() const { return nodes_.front().high; }
 
 private:

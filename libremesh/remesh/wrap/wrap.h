@@ -1,6 +1,6 @@
 //! \file
 //! The outside of any triangles as seen by balls: a closed surface without intersections.
-//! Held by Wrap.* in tests/remesh/wrap.
+//! Held by Wrap.*, AlphaWrap.* and FitWrap.* in tests/remesh/wrap.
 #pragma once
 
 #include <optional>
