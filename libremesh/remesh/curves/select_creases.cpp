@@ -225,11 +225,11 @@ private:
         const Vec3 &a = surface_.mesh.positions[surface_.tail(h)],
                    &b = surface_.mesh.positions[surface_.head(h)];
         const double length = surface_.length_of(h);
+        const double spacing = spacing_.at(surface_.edge[h]);
         const int parts = num_parts(h);
         ticker_.tick(static_cast<std::size_t>(parts));
         for (int i = 0; i < parts; ++i) {
             const double t = (i + 0.5) / parts;
-            const double spacing = spacing_.at(surface_.edge[h]);
             visit(PointOnCurve{a + t * (b - a), spacing, curve, before + t * length}, t);
         }
     }

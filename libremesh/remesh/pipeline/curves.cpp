@@ -181,18 +181,27 @@ FoundCurves find_curves(const CleanedInput& cleaned, double spacing, const Stage
     return found;
 }
 
+bool may_leave_out(const FoundCurves& found, CloseCreases close, const RemeshOptions& options) {
+    return has_creases(found.is_crease) && options.features == Features::Auto && !options.sites &&
+           close != CloseCreases::Stay;
+}
+
 void choose_curves(const CleanedInput& cleaned, double spacing, CloseCreases close,
                    const SizeField* sizes, const StageContext& context, FoundCurves& found) {
     const auto& [options, result] = context;
     const StageClock clock(Stage::Clean, result);
-    const bool chooses = !found.is_crease.empty() && options.features == Features::Auto &&
-                         !options.sites && close != CloseCreases::Stay;
-    if (chooses) {
+    if (may_leave_out(found, close, options)) {
+        // Lengths scale with the spacing.
+        const double scale = options.wrap ? scale_of_wraps : 1;
+        UnitAt length_at;
+        if (sizes != nullptr) {
+            length_at = [&](const SurfacePoint& point) { return scale * sizes->at(point); };
+        }
         found.is_close = found.is_crease;
-        found.strips = select_creases(
-            cleaned.surface, (options.wrap ? scale_of_wraps : 1) * spacing, length_function(sizes),
-            close == CloseCreases::GoOrRefine ? options.num_samples : 0, found.is_given,
-            options.num_threads, cleaned_progress(options), found.is_crease);
+        found.strips = select_creases(cleaned.surface, scale * spacing, length_at,
+                                      close == CloseCreases::GoOrRefine ? options.num_samples : 0,
+                                      found.is_given, options.num_threads,
+                                      cleaned_progress(options), found.is_crease);
         for (Index e = 0; e < found.is_crease.size(); ++e) found.is_close[e] ^= found.is_crease[e];
     }
     if (!options.texture_seams.empty()) find_seams(cleaned, spacing, options, found);

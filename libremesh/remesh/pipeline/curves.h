@@ -53,6 +53,10 @@ struct CurvePlan {
 [[nodiscard]] FoundCurves find_curves(const CleanedInput& cleaned, double spacing,
                                       const StageContext& context);
 
+//! Whether choose_curves() may leave out creases: otherwise lengths do not matter to it.
+[[nodiscard]] bool may_leave_out(const FoundCurves& found, CloseCreases close,
+                                 const RemeshOptions& options);
+
 //! Leaves out creases that are too close to others, and finds seams.
 //! \param sizes  null: all edges are as long as the spacing.
 //! \param found  of find_curves().

@@ -106,13 +106,17 @@ private:
                                                      : CloseCreases::Go;
         found_ = find_curves(cleaned_, spacing, {options_, result_});
         // Which creases are too close depends on the lengths around them.
-        if (close != CloseCreases::Stay) {
+        const bool chooses = may_leave_out(found_, close, options_);
+        if (chooses) {
             sizes_ = find_sizes(cleaned_, found_, spacing, {}, lengths_, {options_, result_});
         }
         choose_curves(cleaned_, spacing, close, sizes_.field.get(), {options_, result_}, found_);
         const bool has_hinges = bound_ != nullptr && !bound_->hinges.empty();
         if (has_hinges) found_.is_crease.assign(bound_->hinges.begin(), bound_->hinges.end());
-        sizes_ = find_sizes(cleaned_, found_, spacing, {}, lengths_, {options_, result_});
+        const bool are_all_kept = chooses && found_.strips.empty() && !has_creases(found_.is_close);
+        if (!are_all_kept) {
+            sizes_ = find_sizes(cleaned_, found_, spacing, {}, lengths_, {options_, result_});
+        }
         if (has_hinges) {
             sizes_.num_samples =
                 std::max(sizes_.num_samples,

@@ -337,6 +337,19 @@ TEST(Wrap, AnySoupBecomesSolids) {
     }
 }
 
+// Creases of a wrap are too close as if the spacing were twice what it is.
+TEST(Wrap, LengthsThatHardlyDifferKeepNoMoreCreases) {
+    if (!can_wrap()) GTEST_SKIP() << "needs CGAL";
+    const TriangleMesh plate = parts::box({4, 3, 0.12}, 8);
+    RemeshOptions options{.num_samples = 400, .wrap = 0.1};
+    const double length = remesh::remesh(plate, options).features.length;
+    EXPECT_NEAR(length, 14, 1);  // One rim.
+    std::vector<double> lengths(plate.positions.size(), 1);
+    lengths.front() = 0.999;
+    options.sizing.edges = remesh::VertexLengths{lengths};
+    EXPECT_NEAR(remesh::remesh(plate, options).features.length, length, 0.1);
+}
+
 TEST(Wrap, ScalesWithTheMesh) {
     if (!can_wrap()) GTEST_SKIP() << "needs CGAL";
     const double scale = std::ldexp(1.0, 100);
