@@ -46,11 +46,14 @@ public:
         }
     }
 
+    [[nodiscard]] double turn_at(std::size_t i) const {
+        return turn(at_[i == 0 ? curve_.num_edges() - 1 : i - 1], at_[i], at_[i + 1]);
+    }
     // The smaller of two turns at an inner vertex, of its edges and of its chords; of a polygon's
     // corner the former. 0: it is no corner.
+    // \param i  turns by least_polygon_turn or more.
     [[nodiscard]] double sharpness(std::size_t i, double spacing) const {
         const double here_turn = turn_at(i);
-        if (here_turn < least_polygon_turn) return 0;
         const double reach = std::min(corner_reach * spacing, curve_.length() / 3);
         const double along = curve_.up_to[i];
         const double of_both =
@@ -61,9 +64,6 @@ public:
     }
 
 private:
-    [[nodiscard]] double turn_at(std::size_t i) const {
-        return turn(at_[i == 0 ? curve_.num_edges() - 1 : i - 1], at_[i], at_[i + 1]);
-    }
     [[nodiscard]] bool has_straight_sides(std::size_t i, double here_turn, double length) const {
         const std::size_t num_edges = curve_.num_edges();
         double sum = 0;
@@ -104,17 +104,21 @@ Curve curve_of_loop(const Surface& surface, std::vector<Index> loop) {
 }
 
 std::vector<std::size_t> corners_of_curve(const Surface& surface, const Curve& curve,
-                                          double spacing) {
-    const double reach = corner_reach * spacing;
+                                          double spacing, const UnitAt& unit_at) {
+    const auto spacing_at = [&](std::size_t i) {
+        return unit_at ? spacing * unit_at(point_at(surface, curve.vertex(surface, i))) : spacing;
+    };
     const Course course(surface, curve);
     std::vector<std::pair<double, std::size_t>> candidates;  // (minus sharpness, vertex)
     for (std::size_t i = curve.is_closed() ? 0 : 1; i < curve.num_edges(); ++i) {
-        const double sharp = course.sharpness(i, spacing);
+        if (course.turn_at(i) < least_polygon_turn) continue;
+        const double sharp = course.sharpness(i, spacing_at(i));
         if (sharp > 0) candidates.emplace_back(-sharp, i);
     }
     std::sort(candidates.begin(), candidates.end());
     std::vector<std::size_t> corners;
-    const auto is_free = [&](double at) {
+    const auto is_free = [&](std::size_t i) {
+        const double at = curve.up_to[i], reach = corner_reach * spacing_at(i);
         if (!curve.is_closed() && std::min(at, curve.length() - at) < reach) return false;
         return std::none_of(corners.begin(), corners.end(), [&](std::size_t corner) {
             const double apart = std::abs(at - curve.up_to[corner]);
@@ -123,7 +127,7 @@ std::vector<std::size_t> corners_of_curve(const Surface& surface, const Curve& c
         });
     };
     for (const auto& [sharp, i] : candidates) {
-        if (is_free(curve.up_to[i])) corners.push_back(i);
+        if (is_free(i)) corners.push_back(i);
     }
     std::sort(corners.begin(), corners.end());
     return corners;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <utility>
@@ -62,6 +63,10 @@ void drop_short_junctions(const Surface& surface, double least_length, JunctionS
 //! #V: the first copy of a vertex at a junction; any other vertex itself.
 [[nodiscard]] std::vector<Index> first_copies(const JunctionSet& junctions, Index num_vertices);
 
+//! The unit of spacings at a point of the surface, mesh units > 0; empty: spacings are in mesh
+//! units.
+using UnitAt = std::function<double(const SurfacePoint&)>;
+
 //! One side of a curve: the half-edges of the faces there.
 struct CurveSide {
     std::vector<Index> half_edges;  //!< Of the surface, in the curve's order.
@@ -108,13 +113,14 @@ struct CurveNetwork {
 //! Finds the network of a surface.
 //! \param is_crease  #E: 1 for the edges of creases. Boundary edges and junctions always belong to
 //!                   the network.
-//! \param spacing    > 0, mesh units: of the sites.
+//! \param spacing    > 0: of the sites, in the units of `unit_at`; corners are found at it.
 //! \param locked     its edges that are neither boundary nor junctions must be marked as creases.
 //! Cost: O(#V + #E).
 [[nodiscard]] CurveNetwork find_network(const Surface& surface,
                                         std::span<const std::uint8_t> is_crease, double spacing,
                                         const JunctionSet& junctions = {},
-                                        const LockedElements& locked = {});
+                                        const LockedElements& locked = {},
+                                        const UnitAt& unit_at = {});
 
 //! A loop of boundary_loops as a closed curve that begins at its first vertex. Cost: O(n).
 [[nodiscard]] Curve curve_of_loop(const Surface& surface, std::vector<Index> loop);
@@ -126,7 +132,8 @@ struct CurveNetwork {
 //! \return ascending.
 //! Cost: O(k log k + k c), c = corners.
 [[nodiscard]] std::vector<std::size_t> corners_of_curve(const Surface& surface, const Curve& curve,
-                                                        double spacing);
+                                                        double spacing,
+                                                        const UnitAt& unit_at = {});
 
 //! The share of [begin, end] before a position, in [0, 1]; 0 if the interval is empty, such as an
 //! edge that is shorter than the rounding of its curve's length.

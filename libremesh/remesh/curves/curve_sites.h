@@ -26,10 +26,6 @@ struct CurveSites {
     [[nodiscard]] Index num_nodes() const { return first_of_curve[0]; }
 };
 
-//! The unit of spacings at a point of the surface, mesh units > 0; empty: spacings are in mesh
-//! units.
-using UnitAt = std::function<double(const SurfacePoint&)>;
-
 //! Measures a curve in spacings. Its sites belong at even distances in this measure.
 //! \return #edges + 1: spacings before each edge, then of the whole curve. An edge counts as its
 //! length over the spacing, and up to twice that where the curve turns by more than 30 degrees over

@@ -222,14 +222,14 @@ private:
 
 CurveNetwork find_network(const Surface& surface, std::span<const std::uint8_t> is_crease,
                           double spacing, const JunctionSet& junctions,
-                          const LockedElements& locked) {
+                          const LockedElements& locked, const UnitAt& unit_at) {
     NetworkFinder finder(surface, is_crease, junctions, locked);
     std::vector<std::uint8_t> is_node(surface.num_vertices(), 0);
     for (const Index v : locked.vertices) is_node[finder.first_copy(v)] = 1;
     const CurveNetwork smooth = finder.run(is_node);
     for (const Curve& curve : smooth.curves) {
         if (curve.is_locked) continue;
-        for (const std::size_t i : corners_of_curve(surface, curve, spacing)) {
+        for (const std::size_t i : corners_of_curve(surface, curve, spacing, unit_at)) {
             is_node[finder.first_copy(curve.vertex(surface, i))] = 1;
         }
         if (finder.is_twisted(curve)) is_node[finder.first_copy(curve.vertex(surface, 0))] = 1;

@@ -136,14 +136,18 @@ double length_of(const Surface& surface, std::span<const std::uint8_t> is_crease
 NetworkPlan plan_network(const Surface& surface, std::vector<std::uint8_t> is_crease,
                          Index num_vertices, JunctionSet junctions, int num_threads,
                          const Progress& progress, const SizeField* sizes, LockedElements locked) {
-    double spacing = detail::spacing_of(num_vertices, surface_area(surface));
+    const double spacing = detail::spacing_of(
+        num_vertices, sizes != nullptr ? sizes->area() : surface_area(surface));
+    double coarser = 1;  // At this many spacings corners are found.
+    const double mean = detail::spacing_of(num_vertices, surface_area(surface));
     const MeshBox box = box_of(surface.mesh.view());
     NetworkPlan plan;
     plan.junctions = std::move(junctions);
     plan.locked = std::move(locked);
     mark_locked(surface, plan.locked, is_crease);
     const auto find = [&] {
-        plan.network = find_network(surface, is_crease, spacing, plan.junctions, plan.locked);
+        plan.network = find_network(surface, is_crease, coarser * spacing, plan.junctions,
+                                    plan.locked, length_function(sizes));
         const Index needed = fewest_vertices(plan.network);
         if (plan.sites_for_all == 0) plan.sites_for_all = needed;
         return needed;
@@ -151,7 +155,7 @@ NetworkPlan plan_network(const Surface& surface, std::vector<std::uint8_t> is_cr
     if (!plan.junctions.empty()) {
         plan.sites_for_junctions =
             fewest_network_vertices(surface, std::vector<std::uint8_t>(surface.num_edges(), 0),
-                                    spacing, plan.junctions, plan.locked);
+                                    mean, plan.junctions, plan.locked);
         if (plan.sites_for_junctions > num_vertices) plan.junctions = {};
         leave_out(plan.junctions, is_crease);
     }
@@ -165,8 +169,8 @@ NetworkPlan plan_network(const Surface& surface, std::vector<std::uint8_t> is_cr
         }
         if (std::ranges::any_of(plan.network.curves, is_free_crease)) {
             drop_shortest(surface, plan.network, drop_at_once, is_crease);
-        } else if (spacing < (box.high - box.low).norm()) {
-            spacing *= 2;  // Of the corners.
+        } else if (coarser * mean < (box.high - box.low).norm()) {
+            coarser *= 2;
         } else {
             break;
         }

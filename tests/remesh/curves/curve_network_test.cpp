@@ -7,6 +7,7 @@
 #include <set>
 
 #include "agvd/mesh/surface.h"
+#include "agvd/mesh/surface_points.h"
 #include "agvd/mesh/topology.h"
 #include "remesh/curves/curve_sites.h"
 #include "support/flag_edges.h"
@@ -244,6 +245,27 @@ TEST(CurveNetwork, StepsFinerThanTheSpacingAreNoTurns) {
     EXPECT_EQ(count_creases(coarse), 1u);
     EXPECT_EQ(places_of_nodes(surface, coarse), square_and({{.125, .125}, {.875, .875}}));
     EXPECT_EQ(count_creases(find(surface, flags, 0.1)), 12u);
+}
+
+// Sites eight times as close in the left half: there steps are turns.
+TEST(CurveNetwork, TurnsAreThoseAtTheSpacingOfTheirPlace) {
+    const Surface surface = make(shapes::grid(8));
+    std::vector<Line> steps;
+    for (int i = 1; i < 7; ++i) {
+        steps.push_back({Vec3(i / 8., i / 8., 0), Vec3((i + 1) / 8., i / 8., 0)});
+        steps.push_back({Vec3((i + 1) / 8., i / 8., 0), Vec3((i + 1) / 8., (i + 1) / 8., 0)});
+    }
+    const auto unit = [&](const agvd::SurfacePoint& point) {
+        return position(surface.mesh.view(), point).x() < 0.45 ? 1. : 8.;
+    };
+    const CurveNetwork network =
+        remesh::find_network(surface, flag_lines(surface, steps), 0.1, {}, {}, unit);
+    EXPECT_EQ(places_of_nodes(surface, network), square_and({{.125, .125},
+                                                             {.25, .125},
+                                                             {.25, .25},
+                                                             {.375, .25},
+                                                             {.375, .375},
+                                                             {.875, .875}}));
 }
 
 TEST(CurveNetwork, TheTurnsOfAClosedCreaseAreNodesAsFarAsTheSpacingTellsThemApart) {

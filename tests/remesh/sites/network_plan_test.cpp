@@ -80,6 +80,33 @@ TEST(NetworkPlan, ShortCreasesGoFirstWhereSitesAreTooFew) {
     EXPECT_EQ(none.sites_for_all, 8u);
 }
 
+// Of a boundary with steps finer than the mean spacing, those where lengths are short are nodes.
+TEST(NetworkPlan, CornersAreFoundByTheLengthsThere) {
+    agvd::TriangleMesh mesh = shapes::grid(16);
+    for (Vec3& p : mesh.positions) {  // The lower side gets teeth.
+        if (p.y() == 0 && std::lround(16 * p.x()) % 2 == 1) p.y() = 1. / 32;
+    }
+    const Surface surface = agvd::build_surface(mesh.view());
+    const auto base = std::make_shared<const agvd::IntrinsicTriangulation>(
+        surface, agvd::IntrinsicOptions{.max_length = 0.05});
+    std::vector<double> length;
+    for (const Vec3& p : base->surface().mesh.positions) length.push_back(0.01 + 0.5 * p.x());
+    const remesh::SizeField field(base, length);
+    const std::vector<std::uint8_t> none(surface.num_edges(), 0);
+    const auto count_teeth = [&](const NetworkPlan& plan, double from, double to) {
+        return std::ranges::count_if(plan.network.nodes, [&](Index v) {
+            const Vec3& p = surface.mesh.positions[v];
+            return p.y() < 0.05 && p.x() > from && p.x() < to;
+        });
+    };
+    const auto num_sites = static_cast<Index>(2 / std::sqrt(3.) * field.area());
+    const NetworkPlan even = remesh::plan_network(surface, none, 30);
+    EXPECT_EQ(count_teeth(even, 0.01, 0.99), 0);
+    const NetworkPlan graded = remesh::plan_network(surface, none, num_sites, {}, 0, {}, &field);
+    EXPECT_EQ(count_teeth(graded, 0.03, 0.22), 3);
+    EXPECT_EQ(count_teeth(graded, 0.5, 0.97), 0);
+}
+
 TEST(NetworkPlan, WithoutCreasesItHasTheBoundary) {
     const NetworkPlan sheet = plan_of(agvd::build_surface(shapes::grid(4).view()), 100);
     EXPECT_EQ(sheet.network.curves.size(), 4u);
