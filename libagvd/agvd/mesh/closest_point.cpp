@@ -163,18 +163,37 @@ void ClosestPointTree::build(const std::vector<Vec3>& centers, std::vector<Index
 }
 
 ClosestPoint ClosestPointTree::query(const Vec3& point) const {
-    return search(point, infinity, -infinity);
+    Index hint = 0;
+    return query(point, hint);
+}
+
+ClosestPoint ClosestPointTree::query(const Vec3& point, Index& hint) const {
+    Found best{closest_point_on_triangle(corners_[hint], face_[hint], point), hint};
+    search(point, infinity, -infinity, best);
+    hint = best.slot;
+    return best.nearest;
 }
 
 bool ClosestPointTree::is_within(const Vec3& point, double distance) const {
     const double most_sq = distance * distance;
-    return search(point, most_sq, most_sq).distance_sq <= most_sq;
+    Found best;
+    best.nearest.distance_sq = infinity;
+    search(point, most_sq, most_sq, best);
+    return best.nearest.distance_sq <= most_sq;
 }
 
-// Among points no farther than `most_sq`, up to the first no farther than `enough_sq`.
-ClosestPoint ClosestPointTree::search(const Vec3& point, double most_sq, double enough_sq) const {
-    ClosestPoint best;
-    best.distance_sq = infinity;
+void ClosestPointTree::take_nearer(Index slot, const Vec3& point, Found& best) const {
+    const ClosestPoint here = closest_point_on_triangle(corners_[slot], face_[slot], point);
+    if (std::tie(here.distance_sq, here.point.face) <
+        std::tie(best.nearest.distance_sq, best.nearest.point.face)) {
+        best = {here, slot};
+    }
+}
+
+// Finds what is nearer than `best`, among points no farther than `most_sq`, up to the first no
+// farther than `enough_sq`.
+void ClosestPointTree::search(const Vec3& point, double most_sq, double enough_sq,
+                              Found& best) const {
     const auto distance_sq = [&](Index node) {
         return box_distance_sq(nodes_[node].low, nodes_[node].high, point);
     };
@@ -185,14 +204,14 @@ ClosestPoint ClosestPointTree::search(const Vec3& point, double most_sq, double 
     std::array<Waiting, 64> stack;  // One per level; halving keeps it below 32.
     std::size_t waiting = 0;
     stack[waiting++] = {distance_sq(0), 0};
-    while (waiting > 0 && best.distance_sq > enough_sq) {
+    while (waiting > 0 && best.nearest.distance_sq > enough_sq) {
         const auto [distance, self] = stack[--waiting];
         // An equally near box may hold a lower face.
-        if (distance > std::min(most_sq, best.distance_sq)) continue;
+        if (distance > std::min(most_sq, best.nearest.distance_sq)) continue;
         const Node& node = nodes_[self];
         if (node.right == 0) {
             for (Index slot = node.begin; slot < node.end; ++slot) {
-                take_nearer(best, closest_point_on_triangle(corners_[slot], face_[slot], point));
+                take_nearer(slot, point, best);
             }
             continue;
         }
@@ -202,7 +221,6 @@ ClosestPoint ClosestPointTree::search(const Vec3& point, double most_sq, double 
         stack[waiting++] = far;
         stack[waiting++] = near;
     }
-    return best;
 }
 
 }  // namespace agvd

@@ -37,6 +37,9 @@ public:
     //! this.
     //! Cost: O(log n) near the surface.
     [[nodiscard]] ClosestPoint query(const Vec3& point) const;
+    //! The same, quicker for a point near that of the last query.
+    //! \param hint  0 at first; set for the next query of this tree.
+    [[nodiscard]] ClosestPoint query(const Vec3& point, Index& hint) const;
     //! Whether a point of the mesh is so near, or nearer. Any thread may call this.
     //! Cost: less than that of query(), as the first such point ends it.
     //! \param distance  mesh units, >= 0.
@@ -60,7 +63,12 @@ private:
     };
     void build(const std::vector<Vec3>& centers, std::vector<Index>& faces, Index begin, Index end,
                Ticker& ticker);
-    [[nodiscard]] ClosestPoint search(const Vec3& point, double most_sq, double enough_sq) const;
+    struct Found {
+        ClosestPoint nearest;
+        Index slot = 0;
+    };
+    void take_nearer(Index slot, const Vec3& point, Found& best) const;
+    void search(const Vec3& point, double most_sq, double enough_sq, Found& best) const;
 
     std::vector<std::array<Vec3, 3>> corners_;  // Per slot, in leaf order.
     std::vector<FaceId> face_;                  // Per slot.

@@ -209,11 +209,11 @@ private:
             std::erase_if(faces, [&](Index f) { return !is_seen(f); });
         }
         const ClosestPointTree tree(mesh_of(mesh_, faces));
-        Index i = begin;
+        Index i = begin, hint = 0;
         for (; i < samples_.size(); ++i) {
             Sample& sample = samples_[i];
             if (sample.part != part || sample.side != side) break;
-            const ClosestPoint nearest = tree.query(sample.at);
+            const ClosestPoint nearest = tree.query(sample.at, hint);
             if (is_at_fixed(faces[nearest.point.face.value()], nearest.point.barycentric)) continue;
             sample.face = faces[nearest.point.face.value()];
             sample.distance_sq = nearest.distance_sq;
