@@ -45,7 +45,7 @@ Index next_count(const TooFewSamples& failure, Index tried) {
 }
 
 // From 1 on, they lead to 40 000 samples and more.
-constexpr int most_tries = 40;
+constexpr int most_attempts = 40;
 
 // Whether the number of samples follows from a distance, whatever the topology needs.
 bool follows_from_distance(const Sizing& sizing) {
@@ -184,7 +184,7 @@ RemeshResult run_stages(const InputMesh& input, const RemeshOptions& given) {
                     after_cleaning.seconds = made.seconds;
                     return made;
                 } catch (const TooFewSamples& failure) {
-                    if (!may_raise || tries == most_tries) throw;
+                    if (!may_raise || tries == most_attempts) throw;
                     enough.num_samples = next_count(failure, failure.asked);
                     if (is_free) {
                         enough.num_samples = std::max(enough.num_samples, failure.for_all);

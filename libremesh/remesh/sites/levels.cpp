@@ -1,5 +1,5 @@
 // A level takes steps on the triangulation of the sites, and labels the vertices anew after every
-// fifteen. Sampled sites start with a quarter of their number. A start whose triangulation does not
+// ten. Sampled sites start with a quarter of their number. A start whose triangulation does not
 // resemble the surface is sampled at once, or not relaxed.
 #include "remesh/sites/levels.h"
 
@@ -23,9 +23,8 @@ namespace remesh {
 namespace detail {
 namespace {
 
-// Steps between two measurements of the cells. With 10 distances are the same, with 20 they grow by
-// a fortieth.
-constexpr int steps_per_sweep = 15;
+// Steps between two measurements of the cells.
+constexpr int steps_per_sweep = 10;
 // With this many vertices for each site, measurements of cells are meaningful.
 constexpr std::size_t vertices_per_cell = 2;
 // Distance error of a propagation that only has to tell which sites are neighbours.

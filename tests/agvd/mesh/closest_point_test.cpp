@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 
 #include "agvd/core/error.h"
 #include "agvd/core/random.h"
@@ -77,6 +78,27 @@ TEST(ClosestPointTree, AgreesWithTryingAllFaces) {
                         1e-14);
         }
     }
+}
+
+// Ties, too, whatever the hint: every other query is at a vertex.
+TEST(ClosestPointTree, AHintChangesNothingButItself) {
+    const agvd::TriangleMesh mesh = shapes::torus(24, 12);
+    const ClosestPointTree tree(mesh.view());
+    agvd::Index hint = 0;
+    std::set<agvd::Index> hints;
+    for (std::uint64_t i = 0; i < 500; ++i) {
+        const Vec3 query =
+            i % 2 == 0 ? random_point(i, 1.5) : mesh.positions[7 * i % mesh.positions.size()];
+        const ClosestPoint expected = tree.query(query), found = tree.query(query, hint);
+        EXPECT_EQ(found.distance_sq, expected.distance_sq);
+        EXPECT_EQ(found.point.face, expected.point.face);
+        EXPECT_EQ(found.point.barycentric, expected.point.barycentric);
+        agvd::Index same = hint;
+        EXPECT_EQ(tree.query(query, same).point.face, expected.point.face);
+        EXPECT_EQ(same, hint);
+        hints.insert(hint);
+    }
+    EXPECT_GT(hints.size(), 200u);
 }
 
 TEST(ClosestPointTree, TellsWhetherAPointIsWithinADistance) {

@@ -151,6 +151,21 @@ TEST(WindowEngine, TurnsCloserThanTheErrorEnd) {
     }
 }
 
+// Larger errors take longer, so the engine takes .005 for all of them, and says so.
+TEST(WindowEngine, AnErrorThatIsNotQuickerIsNotTaken) {
+    const Surface s =
+        build_surface(shapes::jitter(shapes::torus(60, 40), 0.02, 1).view());
+    const std::vector<SurfacePoint> site{point_at(s, 0)};
+    const Propagation at_most = propagate(s, site, {.max_error = 0.005});
+    EXPECT_GT(at_most.certified_error, 1e-3);
+    EXPECT_NE(propagate(s, site, {.max_error = 4e-3}).vertex_distance, at_most.vertex_distance);
+    for (const double max_error : {0.006, 0.1, 0.9}) {
+        const Propagation found = propagate(s, site, {.max_error = max_error});
+        EXPECT_EQ(found.vertex_distance, at_most.vertex_distance);
+        EXPECT_EQ(found.certified_error, at_most.certified_error);
+    }
+}
+
 // Bounds along thousands of short edges must not fall short of the way by their rounding.
 TEST(WindowEngine, LongWaysOverThinRowsArriveEverywhere) {
     TriangleMesh mesh;
