@@ -2,7 +2,7 @@
 function(agvd_flags target)
     target_compile_features(${target} PUBLIC cxx_std_20)
     set_target_properties(${target} PROPERTIES
-        UNITY_BUILD ${AGVD_UNITY} UNITY_BUILD_BATCH_SIZE 16)
+        UNITY_BUILD ${AGVD_UNITY} UNITY_BUILD_BATCH_SIZE 8)
     # Roots without errno or traps keep their values and are half as long. Where sizes have 32 bits, more conversions
     # change something than are worth a cast.
     target_compile_options(${target} PRIVATE

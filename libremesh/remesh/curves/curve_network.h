@@ -132,8 +132,7 @@ struct CurveNetwork {
 //! \return ascending.
 //! Cost: O(k log k + k c), c = corners.
 [[nodiscard]] std::vector<std::size_t> corners_of_curve(const Surface& surface, const Curve& curve,
-                                                        double spacing,
-                                                        const UnitAt& unit_at = {});
+                                                        double spacing, const UnitAt& unit_at = {});
 
 //! The share of [begin, end] before a position, in [0, 1]; 0 if the interval is empty, such as an
 //! edge that is shorter than the rounding of its curve's length.

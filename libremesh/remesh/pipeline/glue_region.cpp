@@ -29,9 +29,9 @@ bool part_edges(const std::vector<EdgeSide>& kept, const std::vector<std::uint64
         if (std::ranges::binary_search(alone, sides[0].ends)) return false;
         const bool is_one = std::ranges::all_of(
             sides, [&](const EdgeSide& side) { return ends_of(side) == ends_of(sides[0]); });
-        return !is_one || has_edge(kept, sides[0].ends);
+        return !is_one || has_sides(kept, sides[0].ends);
     };
-    const auto is_kept = [&](std::uint64_t ends) { return has_edge(kept, ends); };
+    const auto is_kept = [&](std::uint64_t ends) { return has_sides(kept, ends); };
     return flip_repeated(triangles, vertex, is_repeated, is_kept);
 }
 

@@ -52,7 +52,7 @@ struct Region : MeshPart {
 
 //! Whether there is an edge with this edge_key.
 //! \param sides  sorted_edge_sides().
-[[nodiscard]] inline bool has_edge(const std::vector<EdgeSide>& sides, std::uint64_t ends) {
+[[nodiscard]] inline bool has_sides(const std::vector<EdgeSide>& sides, std::uint64_t ends) {
     return std::ranges::binary_search(sides, ends, {}, &EdgeSide::ends);
 }
 

@@ -39,14 +39,14 @@ Edges edges_inside(const MeshView& mesh, const Region& region, const Edges& edge
     const std::vector<EdgeSide> all = sorted_edge_sides(mesh.triangles);
     Edges result;
     for (const auto& [a, b] : edges) {
-        if (!has_edge(all, edge_key(a, b))) {
+        if (!has_sides(all, edge_key(a, b))) {
             throw InvalidInput("the " + what + " edge between vertices " + index_text(a) + " and " +
                                index_text(b) +
                                " is not an edge of the mesh; name the two ends of an edge, counted "
                                "from 0");
         }
         const Index i = region.number[a], j = region.number[b];
-        if (has_edge(inside, edge_key(i, j))) result.push_back({i, j});
+        if (has_sides(inside, edge_key(i, j))) result.push_back({i, j});
     }
     return result;
 }

@@ -136,8 +136,8 @@ double length_of(const Surface& surface, std::span<const std::uint8_t> is_crease
 NetworkPlan plan_network(const Surface& surface, std::vector<std::uint8_t> is_crease,
                          Index num_vertices, JunctionSet junctions, int num_threads,
                          const Progress& progress, const SizeField* sizes, LockedElements locked) {
-    const double spacing = detail::spacing_of(
-        num_vertices, sizes != nullptr ? sizes->area() : surface_area(surface));
+    const double spacing =
+        detail::spacing_of(num_vertices, sizes != nullptr ? sizes->area() : surface_area(surface));
     double coarser = 1;  // At this many spacings corners are found.
     const double mean = detail::spacing_of(num_vertices, surface_area(surface));
     const MeshBox box = box_of(surface.mesh.view());

@@ -153,8 +153,7 @@ TEST(WindowEngine, TurnsCloserThanTheErrorEnd) {
 
 // Larger errors take longer, so the engine takes .005 for all of them, and says so.
 TEST(WindowEngine, AnErrorThatIsNotQuickerIsNotTaken) {
-    const Surface s =
-        build_surface(shapes::jitter(shapes::torus(60, 40), 0.02, 1).view());
+    const Surface s = build_surface(shapes::jitter(shapes::torus(60, 40), 0.02, 1).view());
     const std::vector<SurfacePoint> site{point_at(s, 0)};
     const Propagation at_most = propagate(s, site, {.max_error = 0.005});
     EXPECT_GT(at_most.certified_error, 1e-3);

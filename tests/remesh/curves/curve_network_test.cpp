@@ -260,12 +260,10 @@ TEST(CurveNetwork, TurnsAreThoseAtTheSpacingOfTheirPlace) {
     };
     const CurveNetwork network =
         remesh::find_network(surface, flag_lines(surface, steps), 0.1, {}, {}, unit);
-    EXPECT_EQ(places_of_nodes(surface, network), square_and({{.125, .125},
-                                                             {.25, .125},
-                                                             {.25, .25},
-                                                             {.375, .25},
-                                                             {.375, .375},
-                                                             {.875, .875}}));
+    EXPECT_EQ(
+        places_of_nodes(surface, network),
+        square_and(
+            {{.125, .125}, {.25, .125}, {.25, .25}, {.375, .25}, {.375, .375}, {.875, .875}}));
 }
 
 TEST(CurveNetwork, TheTurnsOfAClosedCreaseAreNodesAsFarAsTheSpacingTellsThemApart) {

@@ -196,7 +196,7 @@ struct WindowFront {
     const Surface& surface;
     const Corners& corners;
     double max_error;  //!< Relative, at most quickest_error; 0: no window is merged.
-    Index small_run;                     //!< A run of no more half-edges gives no windows back.
+    Index small_run;   //!< A run of no more half-edges gives no windows back.
     std::span<const float> bounds = {};  //!< As in run_front().
     const KeptFaces* keeps = nullptr;    //!< Null: all.
 
