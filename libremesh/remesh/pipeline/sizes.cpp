@@ -250,10 +250,7 @@ RunSizes find_sizes(const CleanedInput& cleaned, const FoundCurves& found, doubl
     const std::vector<double> values = values_for(sizing, cleaned, on, num_sites, ticker);
     const std::vector<double> locked = locked_lengths(cleaned);
     const std::vector<double> least = least_lengths_on(on, locked);
-    std::vector<double> most =
-        narrow_points.empty() ? most_lengths_on(on, cleaned.surface, locked, options.num_threads)
-                              : narrow_lengths(*on.base, narrow_points, on.joined, spacing,
-                                               num_sites, portable::log(sizing.gradation), ticker);
+    std::vector<double> most = most_lengths_on(on, cleaned.surface, locked, options.num_threads);
     limit_at_points(on, found.strips, ticker, most);
     limit_at_points(on, short_points, ticker, most);
     if (!found.strips.empty()) {
@@ -269,6 +266,14 @@ RunSizes find_sizes(const CleanedInput& cleaned, const FoundCurves& found, doubl
         return target_lengths(surface, values, most, on.joined, sizing, area, ticker, least);
     };
     std::vector<double> targets = find_targets();
+    if (!narrow_points.empty()) {
+        most.resize(targets.size(), infinity);
+        const std::vector<double> narrow =
+            narrow_lengths(*on.base, narrow_points, on.joined, targets, num_sites,
+                           portable::log(sizing.gradation), ticker);
+        for (std::size_t v = 0; v < most.size(); ++v) most[v] = std::min(most[v], narrow[v]);
+        targets = find_targets();
+    }
     for (int i = 0; i < edge_length_tries && mean != nullptr; ++i) {
         const double ratio = mean_length(surface, targets) / mean->length;
         area *= ratio * ratio;

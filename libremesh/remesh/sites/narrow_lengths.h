@@ -12,18 +12,18 @@
 
 namespace remesh::detail {
 
-//! Longest edges on parts that are narrower than the spacing: some five vertices lie around each.
-//! Lengths are at least an eighth of the spacing, and longer if such parts took more than a quarter
-//! of the sites.
+//! Longest edges on parts that are narrower than the spacing there: some five vertices lie around
+//! each. Lengths are at least an eighth of the others', and longer if such parts took more than a
+//! quarter of the sites.
 //! \param points   on base.input(): where cells wrap around such parts.
 //! \param joined   see limit_growth, as is slope.
-//! \param spacing  mesh units: of the sites in the mean.
+//! \param edge     #V of base.surface(): lengths of the edges without such parts.
 //! \return #V of base.surface(); infinity where nothing is narrow.
 //! Cost: O(n log n).
 [[nodiscard]] std::vector<double> narrow_lengths(const IntrinsicTriangulation& base,
                                                  std::span<const SurfacePoint> points,
                                                  std::span<const std::pair<Index, Index>> joined,
-                                                 double spacing, double num_sites, double slope,
-                                                 Ticker& ticker);
+                                                 std::span<const double> edge, double num_sites,
+                                                 double slope, Ticker& ticker);
 
 }  // namespace remesh::detail

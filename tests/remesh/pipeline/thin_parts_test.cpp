@@ -55,8 +55,9 @@ TriangleMesh ball_with_rod(double radius) {
     return mesh;
 }
 
-// Of the sites in the mean.
+// Of the sites in the mean, and of their edges.
 constexpr double spacing = 0.8;
+const double mean_edge = std::sqrt(2 / std::numbers::sqrt3) * spacing;
 
 // As long as ten spacings.
 TriangleMesh pipe(double radius) {
@@ -75,7 +76,9 @@ TriangleMesh pipe(double radius) {
 }
 
 // Where a cell wraps around the lower end of a pipe.
-std::vector<double> lengths_at_end(const agvd::IntrinsicTriangulation& base, double num_sites) {
+// \param edge  of all edges.
+std::vector<double> lengths_at_end(const agvd::IntrinsicTriangulation& base, double num_sites,
+                                   double edge = mean_edge) {
     const TriangleMesh& mesh = base.input().mesh;
     Index lowest = 0;
     for (Index f = 0; f < mesh.triangles.size(); ++f) {
@@ -86,7 +89,8 @@ std::vector<double> lengths_at_end(const agvd::IntrinsicTriangulation& base, dou
     }
     const agvd::SurfacePoint place{agvd::FaceId(lowest), {1, 0, 0}};
     agvd::Ticker ticker;
-    return remesh::detail::narrow_lengths(base, {&place, 1}, {}, spacing, num_sites,
+    const std::vector<double> even(base.surface().num_vertices(), edge);
+    return remesh::detail::narrow_lengths(base, {&place, 1}, {}, even, num_sites,
                                           std::log(remesh::Sizing{}.gradation), ticker);
 }
 
@@ -180,13 +184,27 @@ TEST(ThinParts, FiveVerticesLieAroundACylinder) {
     }
 }
 
+// Where edges are short by themselves a part is not narrow.
+TEST(ThinParts, EdgesThatAreShortAnywayStay) {
+    TriangleMesh plate = shapes::grid(1);
+    for (Vec3& p : plate.positions) p = 17 * p + Vec3(5, 0, 1);
+    const TriangleMesh mesh = shapes::join(pipe(0.15), plate);  // Five edges around are .188 long.
+    const agvd::Surface surface = agvd::build_surface(mesh.view());
+    const agvd::IntrinsicTriangulation base(surface, {.max_length = 0.05});
+    EXPECT_EQ(std::ranges::min(lengths_at_end(base, 4000, 0.12)),
+              std::numeric_limits<double>::infinity());
+    const double least = std::ranges::min(lengths_at_end(base, 4000, 0.3));
+    EXPECT_GT(least, 0.12);
+    EXPECT_LT(least, 0.25);
+}
+
 TEST(ThinParts, TakeAQuarterOfTheOtherSitesAtMost) {
     for (const double radius : {0.15, 0.04}) {
         const TriangleMesh mesh = pipe(radius);
         const agvd::Surface surface = agvd::build_surface(mesh.view());
         const agvd::IntrinsicTriangulation base(surface, {.max_length = 0.05});
         const std::vector<double> length = lengths_at_end(base, 40);
-        const double edge = std::sqrt(2 / std::numbers::sqrt3) * spacing;
+        const double edge = mean_edge;
         double more = 0, others = 0;
         for (Index f = 0; f < base.surface().num_faces(); ++f) {
             const Index h = 3 * f;
