@@ -57,7 +57,7 @@ TriangleMesh ball_with_rod(double radius) {
 
 // Of the sites in the mean, and of their edges.
 constexpr double spacing = 0.8;
-const double mean_edge = std::sqrt(2 / std::numbers::sqrt3) * spacing;
+const double even_edge = std::sqrt(2 / std::numbers::sqrt3) * spacing;
 
 // As long as ten spacings.
 TriangleMesh pipe(double radius) {
@@ -78,7 +78,7 @@ TriangleMesh pipe(double radius) {
 // Where a cell wraps around the lower end of a pipe.
 // \param edge  of all edges.
 std::vector<double> lengths_at_end(const agvd::IntrinsicTriangulation& base, double num_sites,
-                                   double edge = mean_edge) {
+                                   double edge = even_edge) {
     const TriangleMesh& mesh = base.input().mesh;
     Index lowest = 0;
     for (Index f = 0; f < mesh.triangles.size(); ++f) {
@@ -204,7 +204,7 @@ TEST(ThinParts, TakeAQuarterOfTheOtherSitesAtMost) {
         const agvd::Surface surface = agvd::build_surface(mesh.view());
         const agvd::IntrinsicTriangulation base(surface, {.max_length = 0.05});
         const std::vector<double> length = lengths_at_end(base, 40);
-        const double edge = mean_edge;
+        const double edge = even_edge;
         double more = 0, others = 0;
         for (Index f = 0; f < base.surface().num_faces(); ++f) {
             const Index h = 3 * f;
