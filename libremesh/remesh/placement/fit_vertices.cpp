@@ -44,9 +44,8 @@ constexpr int most_guard_rounds = 10;
 constexpr std::size_t enough_vertices = 12;
 // Least barycentric coordinate of points over the middle of a triangle.
 constexpr double inner_share = 0.05;
-// Conjugate gradients end when the residual has fallen to this share: the next round has other
-// equations, and with 1e-3 distances are the same to a hundredth.
-constexpr double residual_share = 0.1;
+// Conjugate gradients end when the residual has fallen to this share.
+constexpr double residual_share = 1e-3;
 constexpr int most_iterations = 40;
 constexpr std::size_t samples_per_block = std::size_t{1} << 15;  // 2 MB: fits into a cache.
 constexpr Index rows_per_task = 256;                             // Samples or triangles.
