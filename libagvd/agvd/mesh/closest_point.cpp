@@ -26,11 +26,13 @@ bool comes_before(const Vec3& a, const Vec3& b) {
     return std::tie(a.x(), a.y(), a.z()) < std::tie(b.x(), b.y(), b.z());
 }
 
+bool is_nearer(const ClosestPoint& point, const ClosestPoint& other) {
+    return std::tie(point.distance_sq, point.point.face) <
+           std::tie(other.distance_sq, other.point.face);
+}
+
 void take_nearer(ClosestPoint& best, const ClosestPoint& other) {
-    if (std::tie(other.distance_sq, other.point.face) <
-        std::tie(best.distance_sq, best.point.face)) {
-        best = other;
-    }
+    if (is_nearer(other, best)) best = other;
 }
 
 // From the lower end.
@@ -184,10 +186,7 @@ bool ClosestPointTree::is_within(const Vec3& point, double distance) const {
 
 void ClosestPointTree::take_nearer(Index slot, const Vec3& point, Found& best) const {
     const ClosestPoint here = closest_point_on_triangle(corners_[slot], face_[slot], point);
-    if (std::tie(here.distance_sq, here.point.face) <
-        std::tie(best.nearest.distance_sq, best.nearest.point.face)) {
-        best = {here, slot};
-    }
+    if (is_nearer(here, best.nearest)) best = {here, slot};
 }
 
 // Finds what is nearer than `best`, among points no farther than `most_sq`, up to the first no

@@ -77,11 +77,11 @@ struct PropagationOptions {
     std::vector<SiteShape> shapes = {};  //!< Lines and regions, besides the points.
     Engine engine = Engine::Window;      //!< How distances are computed.
     //! Relative distance error, in [0, 1); 0: exact in double. Certified: see
-    //! Propagation::certified_error. The window engine takes .005 for more, which is not quicker.
-    //! Unset: the window engine takes default_max_error, the Steiner
-    //! engine certifies nothing. If set, the Steiner engine inserts points where they are needed
-    //! until the bound holds at every vertex, up to 1000 on an edge; it cannot be exact, and 0 is
-    //! an error, as is any with shapes.
+    //! Propagation::certified_error. The window engine takes .005 for more, which is slower from
+    //! few sites. Unset: the window engine takes default_max_error, the Steiner engine certifies
+    //! nothing. If set, the Steiner engine inserts points where they are needed until the bound
+    //! holds at every vertex, up to 1000 on an edge; it cannot be exact, and 0 is an error, as is
+    //! any with shapes.
     std::optional<double> max_error = {};
     //! Steiner engine, m: Steiner points on each edge, in [0, 1000]; the first ones with max_error.
     int steiner_points = 8;

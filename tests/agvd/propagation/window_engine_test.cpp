@@ -151,7 +151,7 @@ TEST(WindowEngine, TurnsCloserThanTheErrorEnd) {
     }
 }
 
-// Larger errors take longer, so the engine takes .005 for all of them, and says so.
+// Larger errors take longer from few sites: the engine takes .005 for all of them, and says so.
 TEST(WindowEngine, AnErrorThatIsNotQuickerIsNotTaken) {
     const Surface s = build_surface(shapes::jitter(shapes::torus(60, 40), 0.02, 1).view());
     const std::vector<SurfacePoint> site{point_at(s, 0)};

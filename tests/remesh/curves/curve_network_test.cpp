@@ -44,6 +44,16 @@ Flags flag_lines(const Surface& surface, const std::vector<Line>& lines) {
     });
 }
 
+// Six steps up the diagonal of a grid of 8 x 8 squares.
+Flags flag_steps(const Surface& surface) {
+    std::vector<Line> steps;
+    for (int i = 1; i < 7; ++i) {
+        steps.push_back({Vec3(i / 8., i / 8., 0), Vec3((i + 1) / 8., i / 8., 0)});
+        steps.push_back({Vec3((i + 1) / 8., i / 8., 0), Vec3((i + 1) / 8., (i + 1) / 8., 0)});
+    }
+    return flag_lines(surface, steps);
+}
+
 Surface make(const agvd::TriangleMesh& mesh) { return agvd::build_surface(mesh.view()); }
 
 std::set<std::array<double, 2>> places_of_nodes(const Surface& surface,
@@ -235,12 +245,7 @@ TEST(CurveNetwork, ATurnOfACreaseIsANode) {
 
 TEST(CurveNetwork, StepsFinerThanTheSpacingAreNoTurns) {
     const Surface surface = make(shapes::grid(8));
-    std::vector<Line> steps;
-    for (int i = 1; i < 7; ++i) {
-        steps.push_back({Vec3(i / 8., i / 8., 0), Vec3((i + 1) / 8., i / 8., 0)});
-        steps.push_back({Vec3((i + 1) / 8., i / 8., 0), Vec3((i + 1) / 8., (i + 1) / 8., 0)});
-    }
-    const Flags flags = flag_lines(surface, steps);
+    const Flags flags = flag_steps(surface);
     const CurveNetwork coarse = find(surface, flags, 0.8);
     EXPECT_EQ(count_creases(coarse), 1u);
     EXPECT_EQ(places_of_nodes(surface, coarse), square_and({{.125, .125}, {.875, .875}}));
@@ -250,16 +255,11 @@ TEST(CurveNetwork, StepsFinerThanTheSpacingAreNoTurns) {
 // Sites eight times as close in the left half: there steps are turns.
 TEST(CurveNetwork, TurnsAreThoseAtTheSpacingOfTheirPlace) {
     const Surface surface = make(shapes::grid(8));
-    std::vector<Line> steps;
-    for (int i = 1; i < 7; ++i) {
-        steps.push_back({Vec3(i / 8., i / 8., 0), Vec3((i + 1) / 8., i / 8., 0)});
-        steps.push_back({Vec3((i + 1) / 8., i / 8., 0), Vec3((i + 1) / 8., (i + 1) / 8., 0)});
-    }
     const auto unit = [&](const agvd::SurfacePoint& point) {
         return position(surface.mesh.view(), point).x() < 0.45 ? 1. : 8.;
     };
     const CurveNetwork network =
-        remesh::find_network(surface, flag_lines(surface, steps), 0.1, {}, {}, unit);
+        remesh::find_network(surface, flag_steps(surface), 0.1, {}, {}, unit);
     EXPECT_EQ(
         places_of_nodes(surface, network),
         square_and(

@@ -75,6 +75,13 @@ TriangleMesh pipe(double radius) {
     return mesh;
 }
 
+// Most sites lie on the plate.
+TriangleMesh pipe_and_plate(double radius) {
+    TriangleMesh plate = shapes::grid(1);
+    for (Vec3& p : plate.positions) p = 17 * p + Vec3(5, 0, 1);
+    return shapes::join(pipe(radius), plate);
+}
+
 // Where a cell wraps around the lower end of a pipe.
 // \param edge  of all edges.
 std::vector<double> lengths_at_end(const agvd::IntrinsicTriangulation& base, double num_sites,
@@ -157,11 +164,8 @@ TEST(ThinParts, LengthsThatTheCallerGivesStay) {
 }
 
 TEST(ThinParts, FiveVerticesLieAroundACylinder) {
-    // Most sites lie on a plate.
-    TriangleMesh plate = shapes::grid(1);
-    for (Vec3& p : plate.positions) p = 17 * p + Vec3(5, 0, 1);
     for (const double radius : {0.15, 0.04}) {
-        const TriangleMesh mesh = shapes::join(pipe(radius), plate);
+        const TriangleMesh mesh = pipe_and_plate(radius);
         const agvd::Surface surface = agvd::build_surface(mesh.view());
         const agvd::IntrinsicTriangulation base(surface, {.max_length = 0.05});
         const std::vector<double> length = lengths_at_end(base, 4000);
@@ -186,9 +190,7 @@ TEST(ThinParts, FiveVerticesLieAroundACylinder) {
 
 // Where edges are short by themselves a part is not narrow.
 TEST(ThinParts, EdgesThatAreShortAnywayStay) {
-    TriangleMesh plate = shapes::grid(1);
-    for (Vec3& p : plate.positions) p = 17 * p + Vec3(5, 0, 1);
-    const TriangleMesh mesh = shapes::join(pipe(0.15), plate);  // Five edges around are .188 long.
+    const TriangleMesh mesh = pipe_and_plate(0.15);  // Five edges around are .188 long.
     const agvd::Surface surface = agvd::build_surface(mesh.view());
     const agvd::IntrinsicTriangulation base(surface, {.max_length = 0.05});
     EXPECT_EQ(std::ranges::min(lengths_at_end(base, 4000, 0.12)),
@@ -204,16 +206,15 @@ TEST(ThinParts, TakeAQuarterOfTheOtherSitesAtMost) {
         const agvd::Surface surface = agvd::build_surface(mesh.view());
         const agvd::IntrinsicTriangulation base(surface, {.max_length = 0.05});
         const std::vector<double> length = lengths_at_end(base, 40);
-        const double edge = even_edge;
         double more = 0, others = 0;
         for (Index f = 0; f < base.surface().num_faces(); ++f) {
             const Index h = 3 * f;
             const double area = base.surface().length_of(h) * base.surface().apex[h].y() / 2;
             for (const Index v : base.surface().mesh.triangles[f]) {
-                if (length[v] < edge) {
-                    more += area / 3 * (1 / (length[v] * length[v]) - 1 / (edge * edge));
+                if (length[v] < even_edge) {
+                    more += area / 3 * (1 / (length[v] * length[v]) - 1 / (even_edge * even_edge));
                 } else {
-                    others += area / 3 / (edge * edge);
+                    others += area / 3 / (even_edge * even_edge);
                 }
             }
         }
